@@ -60,6 +60,50 @@ def test_noise_in_a_page_of_the_robot_is_found_by_its_crc(started, times, gets_t
         assert len(changed) == times
 
 
+SEED = random.SystemRandom().randrange(1 << 30)
+
+
+class Changes:
+    """Changes the byte `at` of the board's next answer to `word`, or loses it."""
+
+    def __init__(self, peer, word):
+        self.word, self.line, self.at, self.done = word, bytearray(), -1, True
+        peer.garble = self
+
+    def start(self, at, byte):
+        self.line, self.at, self.byte, self.done = bytearray(), at, byte, False
+
+    def __call__(self, direction, _, byte):
+        if direction != "<-" or self.done:
+            return byte
+        self.line.append(byte)
+        at = len(self.line) - 1 - self.line.rfind(b"\x1e" + self.word) if b"\x1e" + self.word in self.line else -1
+        if at != self.at:
+            return byte
+        self.done = True
+        return self.byte
+
+
+def test_noise_in_the_list_of_pages_and_in_the_name_of_the_image_is_found(started):
+    """Neither has a checksum. A page that is lost in the list would be overwritten, or left out of a copy."""
+    text = "motion512 1\n" + "".join(f"page {page} name{page}\n  step 50 | 1:500\n" for page in (3, 4, 30, 127))
+    play, chance = started("play-cm5.hex", text=text), random.Random(SEED)
+    play.pass_time(1)
+    with VirtualLink(play.path) as link:
+        client = Client(link)
+        truth, version, pages = client.list_pages(), client.version, client.pages
+        assert list(truth) == [3, 4, 30, 127] and pages == 128
+        changes = Changes(play, b"@list ")
+        for at in range(7, 70):
+            changes.start(at, chance.choice([None, 0x20, 0x22, *b"0123456789:!ab"]))
+            assert client.list_pages() == truth and changes.done, (SEED, at)
+        changes = Changes(play, b"@ver ")
+        for at in range(6, 110, 2):
+            changes.start(at, chance.choice([None, 0x20, *b"=x"]))
+            found = Client(link)
+            assert found.pages == 128 and found.version["image"].isalpha() and changes.done, (SEED, at, found.version, version)
+
+
 class PausingLink(NoisyLink):
     """Each of these pieces, and silence behind it for as long as anybody waits."""
 

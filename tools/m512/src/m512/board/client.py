@@ -26,6 +26,8 @@ WHERE = {
     **{word: ("[0-9]+", "0") for word in ("step", "code", "dv", "missed")},
     "faulty": ("[0-9A-Fa-f]+", "0"),
 }
+LISTED = r' (\d+):(\d+|!):"([^"]*)"'  # an entry of @list
+DAMAGED = "{} came damaged, " + f"{TRIES} times. Is the cable good?"
 BEGIN, FLOW = b"\x1e", b"\x11\x13"
 NOBODY = "neither Play nor Edit answers"
 OLDER = (
@@ -50,7 +52,12 @@ class Client:
         self.version: dict[str, str] = {}
         self._listed: dict[int, tuple[int | None, str]] | None = None  # for find(), which a command asks for each of its words
         self.slack = 0.0
-        self.version = self._fields(self._ask_version(patience))
+        for _ in range(TRIES):
+            self.version = self._fields(self._ask_version(patience))
+            if self.version.get("image", "").isalpha() and self.version.get("pages", "128") in ("128", "256"):
+                break
+        else:
+            raise NoAnswerError(DAMAGED.format("its name"))
         self.slack = slack
 
     def _ask_version(self, patience: Sequence[float]) -> str:
@@ -112,12 +119,15 @@ class Client:
     # Pages
 
     def list_pages(self) -> dict[int, tuple[int | None, str]]:
-        """page -> (steps, name), or (None, what is wrong)."""
-        text = self.ask("list", 6.0)
-        out = {}
-        for number, steps, name in re.findall(r'(\d+):(\d+|!):"([^"]*)"', text):
-            out[int(number)] = (None if steps == "!" else int(steps), name)
-        return out
+        """page -> (steps, name), or (None, what is wrong). The answer has no checksum, and a page that is missing in it would be overwritten
+        or not saved, so it must come twice in the same words."""
+        before = None
+        for _ in range(2 * TRIES):
+            text = " " + self.ask("list", 6.0)
+            if text == before and re.fullmatch(f"({LISTED})* ?", text):
+                return {int(number): (None if steps == "!" else int(steps), name) for number, steps, name in re.findall(LISTED, text)}
+            before = text
+        raise NoAnswerError(DAMAGED.format("the list of its pages"))
 
     def find(self, word: str) -> int:
         """A page by number or name."""
@@ -152,7 +162,7 @@ class Client:
                     return Page(data)
             except (ValueError, IndexError):
                 pass
-        raise NoAnswerError(f"page {number} came damaged, {TRIES} times")
+        raise NoAnswerError(DAMAGED.format(f"page {number}"))
 
     @property
     def pages(self) -> int:
@@ -210,7 +220,7 @@ class Client:
             found = self._fields(self.ask("where"))
             if found.get("state", "").isalpha() and all(re.fullmatch(form, found.get(word, absent)) for word, (form, absent) in WHERE.items()):
                 return found
-        raise NoAnswerError(f"what the robot does came damaged, {TRIES} times. Is the cable good?")
+        raise NoAnswerError(DAMAGED.format("what the robot does"))
 
     def shape(self) -> dict[str, str]:
         """What shapes the motion: rate, blend, amplitude ("60", or "60 3,4:120" where joints differ), layer (the second page, 0: none),
