@@ -95,15 +95,7 @@ def test_pages_rename_to_a_name_that_is_taken_says_so(m512, lib):
 
 
 @pytest.mark.parametrize(
-    "words",
-    [
-        ("copy", "walk", "0"),
-        ("copy", "0", "9"),
-        ("mirror", "walk", "0"),
-        ("combine", "walk", "stop", "1..2", "0"),
-        ("merge", "LIB", "walk:0"),
-        ("merge", "LIB", "0:9"),
-    ],
+    "words", [("copy", "walk", "0"), ("copy", "0", "9"), ("mirror", "walk", "0"), ("merge", "LIB", "walk:0"), ("merge", "LIB", "0:9")]
 )
 @pytest.mark.parametrize("replace", [(), ("--replace",)])
 def test_pages_no_motion_takes_the_place_of_the_trim(m512, lib, words, replace):
@@ -157,15 +149,6 @@ def test_pages_extract_and_merge_with_links(m512, lib, tmp_path):
     assert 'page 40 "walk": exit 5 is not among the pages taken' in result.stderr
     assert m512("pages", tmp_path / "new.bin", "merge", lib, "all", "--in-place").exit_code == 0
     assert image(tmp_path / "new.bin")[5].name == b"stop"
-
-
-def test_pages_combine_upper_and_lower_body(m512, lib):
-    assert m512("pages", lib, "combine", "walk", "left", "1..2", "50", "--in-place").exit_code == 0
-    page = image(lib)[50]
-    # left takes 25 ticks and goes on with walk; 25 of the 50 ticks to its first step are over at tick 50.
-    assert (page.time(0), page.time(1)) == (25, 25)
-    assert words(page, 0) == [100, 200, 600, 700] and words(page, 1) == [250, 350, 600, 700]
-    assert page.compliance(1) == 0x55 and image(lib)[3].compliance(1) == 0x77
 
 
 def test_pages_mirror(m512, lib):

@@ -13,7 +13,7 @@ import click
 
 from m512 import ui
 from m512.cli.board import Finite, board_option
-from m512.cli.files import PAGE_NUMBER, id_list, page_moves, page_numbers
+from m512.cli.files import PAGE_NUMBER, page_moves, page_numbers
 from m512.errors import EXIT_DIFFERENT, FileError, RefusedError, WordError
 from m512.files import formats, storage
 from m512.files.page import Page
@@ -263,29 +263,6 @@ def merge(source: Source, other: Path, page: Sequence[str], replace: bool, **whe
 
     image = formats.load(other, source.bits)
     source.store(operations.place(source.image, image, page_moves(page, image), replace), **where)
-
-
-@pages.command(
-    epilog="""\b
-Example: m512 pages lib.bin combine walk_loop wave 1..6 40 -o new.bin   (arms of wave, legs of walk_loop)"""
-)
-@click.argument("base")
-@click.argument("other")
-@click.argument("joints")
-@click.argument("target", type=PAGE_NUMBER)
-@click.option("--from", "other_file", type=click.Path(path_type=Path), help="File that holds OTHER.")
-@replacing
-@changes
-def combine(source: Source, base: str, other: str, joints: Any, target: Any, other_file: Any, replace: bool, **where: Any) -> None:
-    """From page TARGET on: the motion of BASE, with JOINTS (1..6 or 1,3,5) doing that of OTHER.
-
-    A motion is a page and what it links to. The two may have any lengths: the result has a step wherever one of them has
-    one, on free pages behind TARGET when one page is not enough. What ends first holds its pose, or goes round again.
-    """
-    from m512.pages import overlay
-
-    donor = formats.load(other_file, source.bits) if other_file else source.image
-    source.store(overlay.combine(source.image, source.image.find(base), donor, donor.find(other), id_list(joints), target, replace), **where)
 
 
 @pages.command(epilog="Example: m512 pages lib.bin mirror kick_left 41 --in-place")
