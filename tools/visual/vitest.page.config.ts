@@ -11,6 +11,6 @@ export default defineConfig({
         maxWorkers: 2,
         isolate: false,
         retry: 1,
-        expect: { poll: { timeout: Number(process.env['WAIT_MS'] ?? 240_000) } }, // as long as every other wait (page-bench.ts)
+        expect: { poll: { timeout: Number(process.env.WAIT_MS ?? 240_000) } }, // as long as every other wait (page-bench.ts)
     },
 });

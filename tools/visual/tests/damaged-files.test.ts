@@ -17,7 +17,7 @@ import { libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
 
 const ROOT = new URL('../../../', import.meta.url).pathname;
 const body = JSON.parse(readFileSync(`${ROOT}build/wasm/body.json`, 'utf8')) as Body;
-const how = process.env['CASES'] === 'all' ? 'all' : 'quick';
+const how = process.env.CASES === 'all' ? 'all' : 'quick';
 
 /** What m512 makes of a file on this machine. */
 interface Case {

@@ -55,7 +55,7 @@ test.each(Object.keys(SUFFIXES))('our library as %s: written and read as m512 do
 
 test('files as they are found, and those of others where they are there', async () => {
     const samples = join(ROOT, 'tests/samples');
-    const folders = [samples, join(samples, 'wild'), join(process.env['M512_SHARED'] ?? join(ROOT, '../shared'), 'data')];
+    const folders = [samples, join(samples, 'wild'), join(process.env.M512_SHARED ?? join(ROOT, '../shared'), 'data')];
     const lists = await Promise.all(folders.map(async data => (await readdir(data).catch(() => [])).map(name => join(data, name))));
     const paths = lists.flat().filter(path => /\.(mtn|bin|hex)$/.test(path));
     expect(paths.length).toBeGreaterThan(20);

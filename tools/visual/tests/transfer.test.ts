@@ -223,7 +223,7 @@ test('the cable pulled at requests of a write of twenty pages: old or new, the a
         return ofKind[Math.floor(bench.random() * ofKind.length)] ?? (['@open', 1] as const);
     });
     expect(every.length).toBeGreaterThan(100);
-    const cuts = process.env['CUTS'] === 'all' ? every : some;
+    const cuts = process.env.CUTS === 'all' ? every : some;
     const waiting = [...cuts];
     for (let cut = waiting.shift(); cut; cut = waiting.shift()) {
         const [kind, nth] = cut;

@@ -168,7 +168,7 @@ export class AppShell extends HTMLElement {
     private changeTheme(): void {
         const root = document.documentElement;
         const isDark = getComputedStyle(root).getPropertyValue('--ground').trim() === '#14181c';
-        root.dataset['theme'] = isDark ? 'light' : 'dark';
+        root.dataset.theme = isDark ? 'light' : 'dark';
     }
 
     private choose(name: Tab): void {

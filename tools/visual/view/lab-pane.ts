@@ -77,8 +77,8 @@ export class LabPane extends HTMLElement {
     }
 
     private showLeds(bits: number): void {
-        if (this.leds.dataset['bits'] === String(bits)) return;
-        this.leds.dataset['bits'] = String(bits);
+        if (this.leds.dataset.bits === String(bits)) return;
+        this.leds.dataset.bits = String(bits);
         this.leds.replaceChildren(...LEDS.map((name, i) => make('span', { class: (bits >> i) & 1 ? 'lit' : '' }, name)));
         const lit = LEDS.filter((_, i) => (bits >> i) & 1);
         this.leds.setAttribute('aria-label', `Lamps lit: ${lit.join(', ') || 'none'}`);

@@ -112,7 +112,7 @@ export class RobotFigure {
 
     /** Leaves out the parts of these links: a ghost has no need of them where the figure stands the same. */
     hide(links: ReadonlySet<string>): void {
-        for (const mesh of this.meshes) mesh.visible = !links.has(String(mesh.userData['link']));
+        for (const mesh of this.meshes) mesh.visible = !links.has(String(mesh.userData.link));
     }
 
     link(name: string): Object3D | undefined {
@@ -158,8 +158,8 @@ export class RobotFigure {
         put(mesh, shape);
         mesh.receiveShadow = this.ghost === null;
         mesh.castShadow = this.ghost === null && !WITHOUT_SHADOW.includes(shape.material);
-        mesh.userData['link'] = shape.body;
-        mesh.userData['shape'] = shape.name;
+        mesh.userData.link = shape.body;
+        mesh.userData.shape = shape.name;
         this.links.get(shape.body)?.add(mesh);
         this.meshes.push(mesh);
         if (LAMPS.includes(shape.name ?? '') && !this.ghost)

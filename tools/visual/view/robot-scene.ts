@@ -142,11 +142,11 @@ export class RobotScene {
     pick(x: number, y: number): Picked | null {
         this.raycaster.setFromCamera(new Vector2(x, y), this.camera);
         const hit = this.raycaster.intersectObjects(this.figure.meshes, false)[0];
-        const link: unknown = hit?.object.userData['link'];
+        const link: unknown = hit?.object.userData.link;
         if (!hit || typeof link !== 'string') return null;
         const frame = this.figure.link(link);
         const local = frame ? frame.worldToLocal(hit.point.clone()) : hit.point;
-        const shape: unknown = hit.object.userData['shape'];
+        const shape: unknown = hit.object.userData.shape;
         return {
             link,
             shape: typeof shape === 'string' ? shape : null,
@@ -167,7 +167,7 @@ export class RobotScene {
 
     /** Where a shape of the figure is in the picture (-1..1, y up); null: there is none of that name. */
     placeOf(shape: string): readonly [number, number] | null {
-        const mesh = this.figure.meshes.find(one => one.userData['shape'] === shape);
+        const mesh = this.figure.meshes.find(one => one.userData.shape === shape);
         if (!mesh) return null;
         const { x, y } = mesh.getWorldPosition(new Vector3()).project(this.camera);
         return [x, y];

@@ -244,7 +244,7 @@ export class RobotView extends HTMLElement {
 
     /** Nothing over the picture covers the hand that drags: what is told of the drag goes to the other half (robot-view.css). */
     private makeRoom(event: PointerEvent): void {
-        this.dataset['hand'] = this.at(event)[1] > 0 ? 'high' : 'low';
+        this.dataset.hand = this.at(event)[1] > 0 ? 'high' : 'low';
     }
 
     /** Your hand. A limb that is being taught becomes limp under it. */
@@ -272,7 +272,7 @@ export class RobotView extends HTMLElement {
         if (!this.scene) return;
         this.scene.controls.enabled = true;
         this.holder = null;
-        delete this.dataset['hand'];
+        delete this.dataset.hand;
         this.pose?.up(keep);
         if (!this.grabbed) return;
         this.grabbed = null;

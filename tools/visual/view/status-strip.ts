@@ -64,7 +64,7 @@ export class StatusStrip extends HTMLElement {
 
     private write(line: HTMLElement, notice: Notice | null): void {
         setText(line, notice?.text ?? '');
-        line.dataset['tone'] = notice?.tone ?? 'calm';
+        line.dataset.tone = notice?.tone ?? 'calm';
     }
 }
 

@@ -34,7 +34,7 @@ test('no serious finding in any area and any dialog; in the dark the contrast ho
     const found: string[] = [];
     const paint = (theme: 'light' | 'dark'): Promise<void> =>
         page.evaluate(name => {
-            document.documentElement.dataset['theme'] = name;
+            document.documentElement.dataset.theme = name;
         }, theme);
     /** Looks at what is open, light and dark; the button for it is behind a dialog. */
     const look = async (name: string, part: 'body' | 'main' | 'dialog[open]'): Promise<void> => {
@@ -68,7 +68,7 @@ test('no serious finding in any area and any dialog; in the dark the contrast ho
         await look(area, area === 'Remote' ? 'body' : 'main'); // the head is the same
     }
     await person.button('Light or dark').click(); // by its button, too
-    expect(await page.evaluate(() => document.documentElement.dataset['theme'])).toBe('dark');
+    expect(await page.evaluate(() => document.documentElement.dataset.theme)).toBe('dark');
     await paint('light');
 
     await person.open('Steps');

@@ -72,7 +72,7 @@ const STANDS = /^(The robot stands and waits|Edit runs: its screen is in the ter
 /** robot-view.ts sets it. */
 const ROBOT_DRAWN = 'robot-drawn';
 /** Of every wait that names none: a busy machine decides no verdict. Somebody who writes tests does not wait so long (WAIT_MS). */
-const LIMIT_MS = Number(process.env['WAIT_MS'] ?? 240_000);
+const LIMIT_MS = Number(process.env.WAIT_MS ?? 240_000);
 
 export class PageServer {
     readonly address: string;

@@ -250,7 +250,7 @@ export class CompareDialog extends HTMLElement {
         const count = this.chosen.length;
         const isBad = this.reading === null && (this.trouble !== null || (isRobot && state.phase === 'stopped'));
         this.status.textContent = this.reading ?? this.trouble ?? (isRobot ? transferText(state) : '');
-        this.status.dataset['tone'] = isBad ? 'bad' : 'calm';
+        this.status.dataset.tone = isBad ? 'bad' : 'calm';
         this.bar.hidden = !isMoving;
         this.bar.max = Math.max(1, state.total);
         this.bar.value = state.done;

@@ -76,8 +76,8 @@ export class CurvesPane extends HTMLElement {
     /** The chosen lines by name, each in its colour. */
     private sayLegend({ chosen }: Drawn): void {
         const key = chosen.join();
-        if (key === this.legend.dataset['joints']) return;
-        this.legend.dataset['joints'] = key;
+        if (key === this.legend.dataset.joints) return;
+        this.legend.dataset.joints = key;
         const { joints } = this.desk.body;
         const items = chosen.map((servo, i) => {
             const joint = joints.find(one => one.servo === servo);
@@ -141,7 +141,7 @@ export class CurvesPane extends HTMLElement {
     private sayFast(fast: ReadonlyMap<number, readonly TickSpan[]>): void {
         const text = fast.size === 0 ? CURVE_TEXTS.notFast : CURVE_TEXTS.fast([...fast.keys()]);
         if (this.fast.textContent !== text) this.fast.textContent = text;
-        this.fast.dataset['tone'] = fast.size === 0 ? 'calm' : 'bad';
+        this.fast.dataset.tone = fast.size === 0 ? 'calm' : 'bad';
     }
 }
 

@@ -62,7 +62,7 @@ export class EditBar extends HTMLElement {
         this.documents.replaceChildren(...options, ...damaged, make('hr'), ...deeds);
         this.documents.value = openId;
         this.kept.textContent = keptText(saving);
-        this.kept.dataset['state'] = saving;
+        this.kept.dataset.state = saving;
     }
 
     private renderEdits(state: EditorState): void {

@@ -204,12 +204,12 @@ function box(page: number, laid: Laid, node: PageNode | null, links: readonly Pa
 /** What is chosen and what plays, on a chart that stands. */
 export function markChart(chart: Element, { selected, playing }: ChartMarks): void {
     for (const node of chart.querySelectorAll<SVGElement>('.node')) {
-        const page = Number(node.dataset['page']);
+        const page = Number(node.dataset.page);
         node.classList.toggle('selected', page === selected);
         node.classList.toggle('playing', page === playing);
         node.setAttribute('tabindex', page === selected ? '0' : '-1');
     }
     for (const line of chart.querySelectorAll<SVGElement>('.edge')) {
-        line.classList.toggle('selected', Number(line.dataset['source']) === selected || Number(line.dataset['target']) === selected);
+        line.classList.toggle('selected', Number(line.dataset.source) === selected || Number(line.dataset.target) === selected);
     }
 }

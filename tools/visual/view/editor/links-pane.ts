@@ -102,7 +102,7 @@ export class LinksPane extends HTMLElement {
         const isPulling = this.pulled !== 0 && event.buttons === 1 && over !== this.pulled;
         this.chart.classList.toggle('pulling', isPulling);
         for (const node of this.chart.querySelectorAll<SVGElement>('.node'))
-            node.classList.toggle('over', isPulling && Number(node.dataset['page']) === over);
+            node.classList.toggle('over', isPulling && Number(node.dataset.page) === over);
     }
 
     private async drop(event: PointerEvent): Promise<void> {
@@ -136,7 +136,7 @@ export class LinksPane extends HTMLElement {
             const there = node.getBoundingClientRect();
             const along = (there.x - here.x) * dx + (there.y - here.y) * dy;
             const across = Math.abs((there.x - here.x) * dy) + Math.abs((there.y - here.y) * dx);
-            if (along > 4 && along + 2 * across < best.far) best = { page: Number(node.dataset['page']), far: along + 2 * across };
+            if (along > 4 && along + 2 * across < best.far) best = { page: Number(node.dataset.page), far: along + 2 * across };
         }
         if (best.page !== 0) this.choose(best.page);
     }
@@ -145,7 +145,7 @@ export class LinksPane extends HTMLElement {
 /** The page under the pointer; 0: none. */
 function pageAt(event: PointerEvent): number {
     const node = document.elementFromPoint(event.clientX, event.clientY)?.closest<SVGElement>('.node');
-    return Number(node?.dataset['page'] ?? 0);
+    return Number(node?.dataset.page ?? 0);
 }
 
 define('links-pane', LinksPane);

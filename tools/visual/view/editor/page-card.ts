@@ -45,7 +45,7 @@ export class PageCard extends HTMLElement {
     connectedCallback(): void {
         if (this.hasChildNodes()) return;
         this.setAttribute('role', 'option');
-        this.dataset['page'] = String(this.page);
+        this.dataset.page = String(this.page);
         this.title1.textContent = String(this.page);
         this.append(this.frame, make('span', { class: 'line' }, this.title1, ' ', this.name1), ' ', this.facts);
     }

@@ -155,7 +155,7 @@ export class PoseBar extends HTMLElement {
                     ? POSE_TEXTS.tips
                     : `Balance: ${Math.round(margin * 1000)} mm inside the soles`;
         if (this.balance.textContent !== text) this.balance.textContent = text;
-        this.balance.dataset['tone'] = margin !== null && margin < 0 && !isInHand ? 'bad' : 'calm';
+        this.balance.dataset.tone = margin !== null && margin < 0 && !isInHand ? 'bad' : 'calm';
     }
 
     private showTouches(): void {
