@@ -218,7 +218,7 @@ export function reach(angles: Angles, limb: Limb, target: Target): Reach {
     }
     const moved = move(limb, best.angles);
     const all = new Map(angles);
-    joints.forEach((joint, i) => all.set(joint.servo, best.angles[i] ?? 0));
+    for (const [i, joint] of joints.entries()) all.set(joint.servo, best.angles[i] ?? 0);
     return {
         angles: all,
         offM: length(subtract(target.pos, moved.point)),

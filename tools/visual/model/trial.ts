@@ -89,7 +89,7 @@ export function posesOf({ ticks, goals, marks }: Curve, page: number): { readonl
         tick => marks[MARK_BYTES * tick] === page,
     );
     const poses = new Uint16Array(seen.length * JOINTS);
-    seen.forEach((tick, i) => poses.set(goals.subarray(tick * JOINTS, (tick + 1) * JOINTS), i * JOINTS));
+    for (const [i, tick] of seen.entries()) poses.set(goals.subarray(tick * JOINTS, (tick + 1) * JOINTS), i * JOINTS);
     return { poses, steps: seen.map(tick => (marks[MARK_BYTES * tick + 1] ?? 1) - 1) };
 }
 

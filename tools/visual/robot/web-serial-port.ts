@@ -15,7 +15,12 @@ export interface BrowserSerialPort {
 /** The answers of 128 pages come without a pause; the browser's own buffer of 255 bytes would overrun. */
 const BUFFER_BYTES = 16_384;
 
-const VENDORS: Readonly<Record<number, string>> = { 0x0403: 'FTDI', 0x067b: 'Prolific', 0x10c4: 'Silicon Labs', 0x1a86: 'WCH' };
+const VENDORS: ReadonlyMap<number, string> = new Map([
+    [0x0403, 'FTDI'],
+    [0x067b, 'Prolific'],
+    [0x10c4, 'Silicon Labs'],
+    [0x1a86, 'WCH'],
+]);
 
 export class WebSerialPort implements Port {
     readonly name: string;
@@ -24,7 +29,7 @@ export class WebSerialPort implements Port {
     constructor(port: BrowserSerialPort) {
         this.port = port;
         const vendor = port.getInfo?.().usbVendorId;
-        this.name = vendor === undefined ? 'serial port' : `USB serial port (${VENDORS[vendor] ?? vendor.toString(16)})`;
+        this.name = vendor === undefined ? 'serial port' : `USB serial port (${VENDORS.get(vendor) ?? vendor.toString(16)})`;
     }
 
     get readable(): ReadableStream<Uint8Array> | null {

@@ -74,7 +74,7 @@ export class PhysicalBody implements HandledBody {
         const up = this.soles.reduce<Vector>((sum, { link }) => add(sum, rotate(this.linkPlace(link).quat, [0, 0, 1])), [0, 0, 0]);
         const axis = cross(up, [0, 0, 1]);
         const lean = length(axis) < 1e-9 ? STILL : turn(scale(axis, 1 / length(axis)), Math.atan2(length(axis), up[2]));
-        lean.forEach((value, i) => (qpos[3 + i] = value));
+        qpos.set(lean, 3);
         this.mujoco.mj_forward(this.model, this.data);
         qpos[2] = (qpos[2] ?? 0) - this.lowestSole() + CLEARANCE_M;
         this.mujoco.mj_forward(this.model, this.data);

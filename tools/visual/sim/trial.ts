@@ -148,6 +148,6 @@ export class TrialStand {
         const { joints } = this.body;
         const from = play.ticks++ * JOINTS;
         const positions = new Float64Array(this.api.memory.buffer, this.api.trial_api_positions(), joints.length);
-        joints.forEach(({ servo }, i) => (play.positions[from + servo] = positions[i] ?? NaN));
+        for (const [i, { servo }] of joints.entries()) play.positions[from + servo] = positions[i] ?? NaN;
     }
 }

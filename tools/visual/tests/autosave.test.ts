@@ -94,8 +94,14 @@ test('closed at 500 moments: all that was finished is there, with its undo and r
                     : 'finish'
                 : (['edit', 'edit', 'undo', 'redo', 'begin'] as const)[Math.floor(random() * 5)];
             if (kind === 'edit' && editor.dispatch(editor.edits.rename(now(editor), page, `n${seed}_${moment}`))) finished();
-            if (kind === 'undo' && at > 0) editor.undo(), at--;
-            if (kind === 'redo' && at < versions.length - 1) editor.redo(), at++;
+            if (kind === 'undo' && at > 0) {
+                editor.undo();
+                at--;
+            }
+            if (kind === 'redo' && at < versions.length - 1) {
+                editor.redo();
+                at++;
+            }
             if (kind === 'begin' || kind === 'change') {
                 open ??= editor.gesture('drag');
                 open.change(editor.edits.setLink(open.start, page, 'exit', 1 + Math.floor(random() * 127)));

@@ -7,10 +7,11 @@ import type { Body } from '../model/body.ts';
 import { Standing } from '../sim/standing.ts';
 import { STILL } from '../model/space.ts';
 import type { Place } from '../model/space.ts';
+import { present } from './present.ts';
 
 const body = JSON.parse(readFileSync(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
 const HERE: Place = { pos: [0, 0, 0], quat: STILL };
-const joint = (servo: number) => body.joints.find(one => one.servo === servo)!; // 18 of them: first test
+const joint = (servo: number) => present(body.joints.find(one => one.servo === servo));
 
 test('18 joints, all links carried by one trunk, parents first', () => {
     expect(body.joints.map(one => one.servo).sort((a, b) => a - b)).toEqual(Array.from({ length: 18 }, (_, i) => i + 1));
@@ -31,7 +32,7 @@ test('angles: 300 degrees are 1024 positions, 512 is straight, and back again', 
 
 test('straight legs: ankles 150 below the hips, and mirrored', () => {
     const places = placeLinks(body, HERE, () => 0);
-    const at = (name: string) => places.get(name)!.pos; // names of tools/body
+    const at = (name: string) => present(places.get(name)).pos;
     expect(at('right_thigh')[2] - at('right_ankle')[2]).toBeCloseTo(0.15, 6);
     expect(at('right_thigh')[0] - at('right_shank')[0]).toBeCloseTo(0.0145, 6);
     for (const part of ['hand', 'foot', 'thigh', 'forearm']) {
@@ -42,8 +43,8 @@ test('straight legs: ankles 150 below the hips, and mirrored', () => {
 
 test('positive angles: arms and thighs to the front, as the body says', () => {
     const lifted = placeLinks(body, HERE, one => (one.servo === 1 || one.servo === 11 ? 0.5 : 0));
-    expect(lifted.get('right_forearm')!.pos[0]).toBeGreaterThan(0.02);
-    expect(lifted.get('right_shank')!.pos[0]).toBeGreaterThan(0.02);
+    expect(present(lifted.get('right_forearm')).pos[0]).toBeGreaterThan(0.02);
+    expect(present(lifted.get('right_shank')).pos[0]).toBeGreaterThan(0.02);
 });
 
 test('standing: the soles are on the floor, whatever the knees do', () => {
@@ -53,7 +54,7 @@ test('standing: the soles are on the floor, whatever the knees do', () => {
         const angles: Record<number, number> = { 11: angle, 12: angle, 13: -2 * angle, 14: -2 * angle, 15: angle, 16: angle };
         const trunk = standing.move(one => angles[one.servo] ?? 0);
         const places = placeLinks(body, trunk, one => angles[one.servo] ?? 0);
-        expect(places.get('right_foot')!.pos[2]).toBeCloseTo(0.032, 4);
-        expect(places.get('left_foot')!.pos[2]).toBeCloseTo(0.032, 3);
+        expect(present(places.get('right_foot')).pos[2]).toBeCloseTo(0.032, 4);
+        expect(present(places.get('left_foot')).pos[2]).toBeCloseTo(0.032, 3);
     }
 });

@@ -126,7 +126,9 @@ export class FakeServos {
                 to.set(bytes);
                 return bytes.length;
             },
-            printed: bytes => void (this.text += new TextDecoder('latin1').decode(bytes)),
+            printed: bytes => {
+                this.text += new TextDecoder('latin1').decode(bytes);
+            },
             told: sentence => void this.said.push(sentence),
             kept: this.options.kept ?? [null, null, null],
             keep: memories => {

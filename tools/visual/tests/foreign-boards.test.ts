@@ -55,7 +55,9 @@ function loaderThatSays(banner: string) {
         sent.push(new TextDecoder('latin1').decode(bytes));
         if (bytes.includes(13)) port.push(new TextEncoder().encode("\r\n Bad Command.('help' for instructions definition)\r\n - "));
     });
-    const say = (): void => [...banner].forEach(letter => port.push(new TextEncoder().encode(letter)));
+    const say = (): void => {
+        for (const letter of banner) port.push(new TextEncoder().encode(letter));
+    };
     return { port, sent, say };
 }
 

@@ -11,6 +11,7 @@ import { STILL, add, length, rotate, subtract } from '../model/space.ts';
 import type { Vector } from '../model/space.ts';
 import { OBJECT, makeMujoco } from '../sim/mujoco.ts';
 import { makeFormat } from './motion-bench.ts';
+import { present } from './present.ts';
 import { randomNumbers } from './robot-bench.ts';
 
 const BUILD = new URL('../../../build/wasm/', import.meta.url);
@@ -21,7 +22,7 @@ const among = (random: () => number, share = 1): Angles =>
     new Map(body.joints.map(joint => [joint.servo, share * (joint.low + random() * (joint.high - joint.low))]));
 const tipOf = (side: Side, angles: Angles): Vector => {
     const limb = handLimb(body, side);
-    const place = placeLinks(body, ORIGIN, angleIn(angles)).get(`${side}_forearm`)!; // a link of this body
+    const place = present(placeLinks(body, ORIGIN, angleIn(angles)).get(`${side}_forearm`));
     return add(place.pos, rotate(place.quat, limb.point));
 };
 const staysWithin = (angles: Angles): boolean =>
@@ -69,21 +70,21 @@ test('feet: from a standing pose to any place near by, the sole flat, to 0.1 mm 
     const before = placeLinks(body, ORIGIN, angleIn(ready));
     for (let i = 0; i < 200; i++) {
         const side = i % 2 ? 'left' : 'right';
-        const foot = before.get(`${side}_foot`)!; // a link of this body
+        const foot = present(before.get(`${side}_foot`));
         const way = (size: number): number => (random() - 0.5) * 2 * size;
         const target = { pos: add(foot.pos, [way(0.03), way(0.01), random() * 0.03]), quat: STILL };
         const found = reach(ready, footLimb(body, side), target);
         expect(staysWithin(found.angles)).toBe(true);
         expect(found.offM, `seed ${SEED + 1}, case ${i}`).toBeLessThan(1e-4);
         expect(found.offRad).toBeLessThan(0.002);
-        const there = placeLinks(body, ORIGIN, angleIn(found.angles)).get(`${side}_foot`)!;
+        const there = present(placeLinks(body, ORIGIN, angleIn(found.angles)).get(`${side}_foot`));
         expect(length(subtract(there.pos, target.pos))).toBeLessThan(1e-4);
         expect(rotate(there.quat, [0, 0, 1])[2]).toBeGreaterThan(0.999998);
     }
 });
 
 test('a straight leg that shall be 20 mm shorter bends its knee as the law of cosines says', () => {
-    const foot = placeLinks(body, ORIGIN, angleIn(STRAIGHT)).get('left_foot')!;
+    const foot = present(placeLinks(body, ORIGIN, angleIn(STRAIGHT)).get('left_foot'));
     const { angles } = reach(STRAIGHT, footLimb(body, 'left'), { pos: add(foot.pos, [0, 0, 0.02]), quat: STILL });
     const bone = Math.hypot(75, 14.5);
     const inner = (between: number): number => Math.acos((2 * bone * bone - between * between) / (2 * bone * bone));
@@ -102,15 +103,15 @@ test('the mirror of the edits is the mirror of this body: mirrored positions giv
                     [right, left],
                     [left, right],
                 ] as const
-            ).map(([to, from]) => [to, format.mirrored(positions.get(from)!)] as const),
+            ).map(([to, from]) => [to, format.mirrored(present(positions.get(from)))] as const),
         ),
     );
     expect(mirrored.size).toBe(18);
-    const places = (all: ReadonlyMap<number, number>) => placeLinks(body, ORIGIN, one => jointAngle(one, all.get(one.servo)!));
+    const places = (all: ReadonlyMap<number, number>) => placeLinks(body, ORIGIN, one => jointAngle(one, present(all.get(one.servo))));
     const [here, there] = [places(positions), places(mirrored)];
     for (const part of ['forearm', 'foot', 'shank']) {
-        const right = here.get(`right_${part}`)!.pos;
-        expect(there.get(`left_${part}`)!.pos).toEqual([right[0], -right[1], right[2]].map(v => expect.closeTo(v, 9)));
+        const right = present(here.get(`right_${part}`)).pos;
+        expect(present(there.get(`left_${part}`)).pos).toEqual([right[0], -right[1], right[2]].map(v => expect.closeTo(v, 9)));
     }
 });
 
@@ -124,13 +125,13 @@ test('the centre of mass is where MuJoCo sees it, in 20 poses', async () => {
         const angles = among(random);
         for (const joint of body.joints) {
             const index = mujoco.mj_name2id(model, OBJECT.joint, joint.name);
-            data.qpos[model.jnt_qposadr[index]!] = angles.get(joint.servo)!;
+            data.qpos[present(model.jnt_qposadr[index])] = present(angles.get(joint.servo));
         }
         const trunk = { pos: [0.1, -0.2, 0.3] as const, quat: STILL };
-        [...trunk.pos, ...trunk.quat].forEach((value, at) => (data.qpos[at] = value));
+        data.qpos.set([...trunk.pos, ...trunk.quat]);
         mujoco.mj_forward(model, data);
         const index = mujoco.mj_name2id(model, OBJECT.body, 'trunk');
-        const theirs = [0, 1, 2].map(axis => data.subtree_com[3 * index + axis]!);
+        const theirs = [0, 1, 2].map(axis => present(data.subtree_com[3 * index + axis]));
         expect(centreOfMass(body, placeLinks(body, trunk, angleIn(angles)))).toEqual(theirs.map(v => expect.closeTo(v, 6)));
     }
     data.delete();
@@ -147,7 +148,7 @@ test('straight on two feet: the soles cover 100 x 137 mm and the centre of mass 
     const [x, y] = centreOfMass(body, places);
     expect(marginInside(polygon, [x, y])).toBeGreaterThan(0.02);
     const lifted = reach(STRAIGHT, footLimb(body, 'left'), {
-        pos: add(placeLinks(body, ORIGIN, angleIn(STRAIGHT)).get('left_foot')!.pos, [0, 0, 0.03]),
+        pos: add(present(placeLinks(body, ORIGIN, angleIn(STRAIGHT)).get('left_foot')).pos, [0, 0, 0.03]),
         quat: STILL,
     }).angles;
     expect(lowerFoot(body, lifted)).toBe('right');
@@ -182,14 +183,14 @@ test('the kept foot stays where it is whatever the joints do', () => {
     for (let i = 0; i < 20; i++) {
         const angles = among(random, 0.5);
         const at = { pos: [0.3, -0.1, 0] as const, quat: STILL };
-        const foot = placeLinks(body, trunkOn(body, 'left', angles, at), angleIn(angles)).get('left_foot')!;
+        const foot = present(placeLinks(body, trunkOn(body, 'left', angles, at), angleIn(angles)).get('left_foot'));
         expect(foot.pos).toEqual([0.3, -0.1, 0.032].map(v => expect.closeTo(v, 9)));
         expect(rotate(foot.quat, [0, 0, 1])[2]).toBeCloseTo(1, 9);
     }
 });
 
 test('an angle becomes the nearest whole position, never one beyond a limit', () => {
-    const knee = body.joints.find(joint => joint.name === 'right_knee')!;
+    const knee = present(body.joints.find(joint => joint.name === 'right_knee'));
     expect(nearestPosition(knee, -0.5)).toBe(512 - Math.round((0.5 * 180) / Math.PI / (300 / 1024)));
     expect(nearestPosition(knee, 1)).toBe(512);
     expect(nearestPosition(knee, -9)).toBe(512 - Math.round(140 / (300 / 1024)));

@@ -30,11 +30,11 @@ function sourcesIn(folder: string): string[] {
     return readdirSync(resolve(ROOT, folder), { recursive: true, encoding: 'utf8' }).filter(name => name.endsWith('.ts'));
 }
 
-export function importsOf(source: string): string[] {
+function importsOf(source: string): string[] {
     return Array.from(source.matchAll(/\b(?:from|import)\s*\(?\s*'([^']+)'/g), match => match[1] ?? '');
 }
 
-export function wrongImports(folder: string, file: string, source: string): string[] {
+function wrongImports(folder: string, file: string, source: string): string[] {
     return importsOf(source).filter(name => {
         if (!name.startsWith('.')) return !PACKAGES[folder]?.test(name);
         const to = relative(ROOT, resolve(dirname(file), name));

@@ -11,10 +11,10 @@ const { format } = await makeFormat();
 /** "000  62 6F 77 ..", a `*` stands for rows like the one before it. */
 function dumpOfBow(): Uint8Array {
     const text = readFileSync(new URL('../../../motion/PAGE_FORMAT.md', import.meta.url), 'utf8');
-    const block = /```\n(000  [\s\S]*?)```/.exec(text)?.[1] ?? '';
+    const block = /```\n(000 {2}[\s\S]*?)```/.exec(text)?.[1] ?? '';
     const bytes = new Uint8Array(512);
     let end = 0;
-    for (const [, at, row] of block.matchAll(/^([0-9A-F]{3})  ((?:[0-9A-F]{2} ?){16})$/gm)) {
+    for (const [, at, row] of block.matchAll(/^([0-9A-F]{3}) {2}((?:[0-9A-F]{2} ?){16})$/gm)) {
         const start = Number.parseInt(at ?? '', 16);
         for (; end < start; end++) bytes[end] = bytes[end - 16] ?? 0;
         bytes.set(

@@ -98,10 +98,10 @@ test('a stiff arm follows the hand a little, and goes back when the hand lets go
     expect(Math.max(...arm().map((position, i) => Math.abs(position - (rest[i] ?? 0))))).toBeGreaterThan(5);
     robot.simulation.setGrip(null);
     robot.run(3 * SECOND);
-    arm().forEach((position, i) => expect(position).toBeCloseTo(rest[i] ?? 0, -1));
+    for (const [i, position] of arm().entries()) expect(position).toBeCloseTo(rest[i] ?? 0, -1);
     const there = robot.trunk.pos;
     robot.run(2 * SECOND);
-    robot.trunk.pos.forEach((at, i) => expect(at).toBeCloseTo(there[i] ?? 0, 3)); // to half a millimetre in 2 s
+    for (const [i, at] of robot.trunk.pos.entries()) expect(at).toBeCloseTo(there[i] ?? 0, 3); // to half a millimetre in 2 s
     expect(robot.simulation.hasFallen).toBe(false);
 });
 

@@ -9,6 +9,7 @@ import { dragged, flattened, grab, partOf } from '../model/pose-drag.ts';
 import type { Grab } from '../model/pose-drag.ts';
 import { add, length, rotate, subtract, turn } from '../model/space.ts';
 import type { Place, Vector } from '../model/space.ts';
+import { present } from './present.ts';
 import { randomNumbers } from './robot-bench.ts';
 
 const body = JSON.parse(readFileSync(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
@@ -19,7 +20,7 @@ const AT: Place = { pos: [0.5, 0.2, 0], quat: turn([0, 0, 1], 0.7) };
 const STANCE = { keep: 'right', at: AT } as const;
 const placesOf = (angles: Angles, held: Grab) => placeLinks(body, trunkOn(body, held.stance.keep, angles, held.stance.at), angleIn(angles));
 const pointOf = (angles: Angles, held: Grab): Vector => {
-    const place = placesOf(angles, held).get(held.link)!; // a link of this body
+    const place = present(placesOf(angles, held).get(held.link));
     return add(place.pos, rotate(place.quat, held.point));
 };
 const changed = (angles: Angles): number[] =>
@@ -48,8 +49,8 @@ test('a hand follows the mouse; only its arm moves', () => {
 
 test('one joint turns until the point lies in the direction of the mouse, and no farther than it can', () => {
     const held = grab(body, 'right_forearm', 'right_forearm', [0.019, 0, -0.02], READY, STANCE);
-    const axis = rotate(held.places.get('right_forearm')!.quat, [-1, 0, 0]);
-    const elbow = held.places.get('right_forearm')!.pos;
+    const axis = rotate(present(held.places.get('right_forearm')).quat, [-1, 0, 0]);
+    const elbow = present(held.places.get('right_forearm')).pos;
     for (const by of [0.3, -0.5, 0.8, -1.4]) {
         const wanted = add(elbow, rotate(turn(axis, by), subtract(held.world, elbow)));
         const angles = dragged(body, held, wanted, true);
@@ -67,12 +68,12 @@ test('a foot moves with its sole flat while the other one stays; the kept foot c
         const before = placesOf(READY, held);
         const angles = dragged(body, held, add(held.world, [0.02, 0.01, 0.02]), true);
         const after = placesOf(angles, held);
-        expect(subtract(after.get(`${side}_foot`)!.pos, before.get(`${side}_foot`)!.pos)).toEqual(
+        expect(subtract(present(after.get(`${side}_foot`)).pos, present(before.get(`${side}_foot`)).pos)).toEqual(
             [0.02, 0.01, 0.02].map(v => expect.closeTo(v, 4)),
         );
-        expect(rotate(after.get(`${side}_foot`)!.quat, [0, 0, 1])[2]).toBeCloseTo(1, 5);
+        expect(rotate(present(after.get(`${side}_foot`)).quat, [0, 0, 1])[2]).toBeCloseTo(1, 5);
         const stays = `${held.stance.keep}_foot`;
-        expect(after.get(stays)!.pos).toEqual(before.get(stays)!.pos.map(v => expect.closeTo(v, 4)));
+        expect(present(after.get(stays)).pos).toEqual(present(before.get(stays)).pos.map(v => expect.closeTo(v, 4)));
     }
 });
 
@@ -86,10 +87,11 @@ test('the trunk moves over feet that stay, and stops where the legs end', () => 
     ] as const) {
         const after = placesOf(dragged(body, held, add(held.world, by), true), held);
         for (const foot of ['right_foot', 'left_foot']) {
-            expect(after.get(foot)!.pos).toEqual(before.get(foot)!.pos.map(v => expect.closeTo(v, 3)));
-            expect(rotate(after.get(foot)!.quat, [0, 0, 1])[2]).toBeCloseTo(1, 4);
+            expect(present(after.get(foot)).pos).toEqual(present(before.get(foot)).pos.map(v => expect.closeTo(v, 3)));
+            expect(rotate(present(after.get(foot)).quat, [0, 0, 1])[2]).toBeCloseTo(1, 4);
         }
-        if (by[2] < 0.1) expect(subtract(after.get('trunk')!.pos, before.get('trunk')!.pos)).toEqual(by.map(v => expect.closeTo(v, 3)));
+        if (by[2] < 0.1)
+            expect(subtract(present(after.get('trunk')).pos, present(before.get('trunk')).pos)).toEqual(by.map(v => expect.closeTo(v, 3)));
     }
 });
 
@@ -98,8 +100,8 @@ test('both feet flat: whatever the ankles did, the soles lie on the floor', () =
     const angles = flattened(body, twisted, { keep: 'right', at: ORIGIN });
     const places = placeLinks(body, trunkOn(body, 'right', angles, ORIGIN), angleIn(angles));
     for (const foot of ['right_foot', 'left_foot']) {
-        expect(rotate(places.get(foot)!.quat, [0, 0, 1])[2]).toBeCloseTo(1, 4);
-        expect(places.get(foot)!.pos[2]).toBeCloseTo(0.032, 3);
+        expect(rotate(present(places.get(foot)).quat, [0, 0, 1])[2]).toBeCloseTo(1, 4);
+        expect(present(places.get(foot)).pos[2]).toBeCloseTo(0.032, 3);
     }
-    expect(rotate(places.get('trunk')!.quat, [0, 0, 1])[2]).toBeCloseTo(1, 4);
+    expect(rotate(present(places.get('trunk')).quat, [0, 0, 1])[2]).toBeCloseTo(1, 4);
 });

@@ -30,8 +30,14 @@ vi.mock('../view/robot-store.ts', () => {
     };
     return {
         loadRobot: () => tried().then(() => browser.kept),
-        saveRobot: (_: string, robot: KeptRobot) => tried().then(() => void (browser.kept = robot)),
-        forgetRobot: () => tried().then(() => void (browser.kept = null)),
+        saveRobot: async (_: string, robot: KeptRobot) => {
+            await tried();
+            browser.kept = robot;
+        },
+        forgetRobot: async () => {
+            await tried();
+            browser.kept = null;
+        },
     };
 });
 
@@ -53,7 +59,9 @@ function page() {
         frame: () => undefined,
         text: () => undefined,
         connection: state => seen.connections.push(state),
-        change: change => void (change.stopped !== undefined && (seen.stopped = change.stopped)),
+        change: change => {
+            if (change.stopped !== undefined) seen.stopped = change.stopped;
+        },
         motions: image => (seen.motions = Uint8Array.from(image)),
     });
     return { source, seen };

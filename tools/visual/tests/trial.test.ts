@@ -31,7 +31,7 @@ function pageOf(steps: readonly Step[], accelTime = 0): MotionDocument {
 
 function request(document: MotionDocument, change: Partial<TrialRequest> = {}): TrialRequest {
     const image = imageOf(document);
-    document.pages.forEach((bytes, page) => motion.setPage(page, bytes));
+    for (const [page, bytes] of document.pages.entries()) motion.setPage(page, bytes);
     const pose = motion.firstPose(5, new Uint16Array(JOINTS).fill(512));
     return { image, page: 5, law: 'exact', shape: AS_STORED, pose, ticks: 600, toTheEnd: true, volts: 9.6, ...change };
 }

@@ -50,17 +50,17 @@ export function closesByItself(menu: HTMLElement & { open: boolean }): () => voi
     const press = (event: Event): void => {
         if (menu.open && event.target instanceof Node && !menu.contains(event.target)) menu.open = false;
     };
-    const escape = (event: KeyboardEvent): void => {
+    const keyDown = (event: KeyboardEvent): void => {
         if (event.key !== 'Escape' || !menu.open) return;
         event.preventDefault();
         menu.open = false;
         menu.querySelector<HTMLElement>('summary, [aria-expanded]')?.focus();
     };
     document.addEventListener('pointerdown', press, { capture: true });
-    document.addEventListener('keydown', escape);
+    document.addEventListener('keydown', keyDown);
     return () => {
         document.removeEventListener('pointerdown', press, { capture: true });
-        document.removeEventListener('keydown', escape);
+        document.removeEventListener('keydown', keyDown);
     };
 }
 

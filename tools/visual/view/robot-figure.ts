@@ -1,18 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The robot as three's objects, made from the body's numbers. It shows what it is told and holds nothing itself.
 
-import {
-    BufferGeometry,
-    CapsuleGeometry,
-    Color,
-    CylinderGeometry,
-    Group,
-    Mesh,
-    MeshStandardMaterial,
-    Object3D,
-    SphereGeometry,
-    Vector3,
-} from 'three';
+import { CapsuleGeometry, Color, CylinderGeometry, Group, Mesh, MeshStandardMaterial, SphereGeometry, Vector3 } from 'three';
+import type { BufferGeometry, Object3D } from 'three';
 import { RoundedBoxGeometry } from 'three/examples/jsm/geometries/RoundedBoxGeometry.js';
 import type { Angles, Body, Joint, Shape } from '../model/body.ts';
 import type { Place } from '../model/space.ts';
@@ -92,7 +82,7 @@ export class RobotFigure {
 
     /** The board's lamps, bit by bit. */
     light(bits: number): void {
-        LAMPS.forEach((name, bit) => this.lamps.get(name)?.emissive.set((bits >> bit) & 1 ? LIT : 0x000000));
+        for (const [bit, name] of LAMPS.entries()) this.lamps.get(name)?.emissive.set((bits >> bit) & 1 ? LIT : 0x000000);
     }
 
     /** Lights up one link; null: none. */
@@ -121,7 +111,7 @@ export class RobotFigure {
 
     dispose(): void {
         for (const mesh of this.meshes) mesh.geometry.dispose();
-        for (const list of [...this.materials.values(), [...this.lamps.values()]]) list.forEach(material => material.dispose());
+        for (const materials of [...this.materials.values(), this.lamps.values()]) for (const one of materials) one.dispose();
     }
 
     private addLink(link: Body['links'][number], joint: Joint | undefined): void {

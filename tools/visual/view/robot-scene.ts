@@ -5,7 +5,6 @@ import {
     BufferGeometry,
     Line,
     LineBasicMaterial,
-    Object3D,
     PCFShadowMap,
     PerspectiveCamera,
     Quaternion,
@@ -17,6 +16,7 @@ import {
     WebGLRenderer,
     Plane,
 } from 'three';
+import type { Object3D } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import type { Body } from '../model/body.ts';
 import type { Place, Vector } from '../model/space.ts';

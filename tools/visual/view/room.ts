@@ -18,10 +18,9 @@ import {
     MeshStandardMaterial,
     RepeatWrapping,
     SRGBColorSpace,
-    Scene,
     SphereGeometry,
-    Vector3,
 } from 'three';
+import type { Scene, Vector3 } from 'three';
 
 /** Colours of the page's theme. */
 export interface RoomColours {

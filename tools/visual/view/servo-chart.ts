@@ -57,7 +57,7 @@ export class ServoChart extends HTMLElement {
         const y = (units: number): number => height * (0.5 - (units - middle) / (2 * half));
         const line = (values: readonly number[], colour: string, dash: number[]): void => {
             context.beginPath();
-            values.forEach((value, i) => context.lineTo(width * (1 - (values.length - 1 - i) / TICKS), y(value)));
+            for (const [i, value] of values.entries()) context.lineTo(width * (1 - (values.length - 1 - i) / TICKS), y(value));
             context.strokeStyle = style.getPropertyValue(colour);
             context.setLineDash(dash);
             context.lineWidth = 1.5 * devicePixelRatio;

@@ -51,7 +51,7 @@ export class WayList extends HTMLElement {
     }
 
     private item({ kind, code, page, name }: Way): HTMLLIElement {
-        const keys = kind === 'stop' ? '6' : kind === 'then' ? WAY_TEXTS.then : codeText(code).replaceAll(/B(\d)/g, '$1');
+        const keys = kind === 'stop' ? '6' : kind === 'then' ? WAY_TEXTS.atItsEnd : codeText(code).replaceAll(/B(\d)/g, '$1');
         const content = [make('kbd', {}, keys), make('span', {}, name === '' ? String(page) : name)];
         return make(
             'li',

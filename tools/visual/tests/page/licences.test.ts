@@ -22,10 +22,10 @@ test.each(dependencies)('%s: its copyright and its licence', name => {
 });
 
 test.each([
-    ['simavr', /Michel Pollet[^]*GNU GENERAL PUBLIC LICENSE\s+Version 3[^]*END OF TERMS AND CONDITIONS/],
+    ['simavr', /Michel Pollet[\s\S]*GNU GENERAL PUBLIC LICENSE\s+Version 3[\s\S]*END OF TERMS AND CONDITIONS/],
     ['simavr', /complete source/],
     ['wasi-libc', /Rich Felker/],
-    ['compiler-rt', /LLVM[^]*Apache License/],
+    ['compiler-rt', /LLVM[\s\S]*Apache License/],
     ['Python', /Python Software Foundation/],
     ['intelhex', /Alexander Belchenko/],
     ['Motion512', /MIT License|Permission is hereby granted/],

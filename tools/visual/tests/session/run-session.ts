@@ -51,7 +51,11 @@ function act(board: Board, faults: string[], verb: string, what: unknown): void 
 
 async function hash(parts: readonly Uint8Array[]): Promise<string> {
     const all = new Uint8Array(parts.reduce((sum, part) => sum + part.length, 0));
-    parts.reduce((at, part) => (all.set(part, at), at + part.length), 0);
+    let at = 0;
+    for (const part of parts) {
+        all.set(part, at);
+        at += part.length;
+    }
     const digest = new Uint8Array(await crypto.subtle.digest('SHA-256', all));
     return Array.from(digest, byte => byte.toString(16).padStart(2, '0')).join('');
 }
@@ -77,9 +81,9 @@ export async function runSession(session: Session, files: SessionFiles): Promise
     const positions: Uint8Array[] = [];
     const events = [...session.events];
     for (let tick = 1; tick <= session.seconds * 128; tick++) {
-        while (events[0] && events[0][0] * CYCLES_PER_MS <= (tick - 1) * CYCLES_PER_TICK) {
-            const [, verb, what] = events.shift()!; // events[0] was there
-            act(board, faults, verb, what);
+        for (let next = events[0]; next && next[0] * CYCLES_PER_MS <= (tick - 1) * CYCLES_PER_TICK; next = events[0]) {
+            events.shift();
+            act(board, faults, next[1], next[2]);
         }
         if (!board.runTo(tick * CYCLES_PER_TICK)) throw new Error(`${board.violation?.kind}: ${board.violation?.text}`);
         console.push(board.receive());

@@ -88,7 +88,7 @@ export function drawCurves(context: CanvasRenderingContext2D, frame: CurveFrame,
     context.rect(EDGE.left - POINT, EDGE.top, frame.width - EDGE.left - EDGE.right + 2 * POINT, frame.height - EDGE.top - EDGE.bottom);
     context.clip();
     for (const joint of scene.joints) if (!scene.chosen.has(joint)) drawJoint(context, frame, scene.curve, joint, colours.faint, 1);
-    [...scene.chosen].forEach((joint, i) => drawChosen(context, frame, scene, joint, chosenColour(colours, i)));
+    for (const [i, joint] of [...scene.chosen].entries()) drawChosen(context, frame, scene, joint, chosenColour(colours, i));
     for (const joint of scene.joints) drawFast(context, frame, scene, joint, colours);
     context.restore();
     drawWayPoints(context, frame, scene, colours);

@@ -35,7 +35,8 @@ export class JointTurn {
 
     /** The key goes down, or repeats itself. pose: servo units by ID, asked for once. */
     turn(units: number, pose: () => readonly number[]): void {
-        const held = (this.held ??= { gesture: this.editor.gesture('set-joints'), pose: pose(), units: 0 });
+        this.held ??= { gesture: this.editor.gesture('set-joints'), pose: pose(), units: 0 };
+        const held = this.held;
         held.units += units;
         held.gesture.change(this.edit(held.gesture.start, changedBy(this.body, this.editor.state.get().joints, held.pose, held.units)));
     }

@@ -95,7 +95,8 @@ export class TeachBar extends HTMLElement {
     }
 
     private carry(group: LimbGroup): void {
-        this.desk.lab.hold((this.isCarrying = true));
+        this.isCarrying = true;
+        this.desk.lab.hold(true);
         if (/leg$/.test(group.title)) this.mustCarry = true;
     }
 

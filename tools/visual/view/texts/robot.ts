@@ -164,7 +164,7 @@ export const FAULT_TITLES: Readonly<Record<string, string>> = {
 /** The remote's list of keys. */
 export const WAY_TEXTS = {
     keys: 'What the keys start',
-    then: 'then',
+    atItsEnd: 'then',
     plays: (page: number, name: string) => `${name === '' ? `Page ${page}` : name} plays; at its end the keys lead on to`,
 } as const;
 
