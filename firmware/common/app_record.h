@@ -14,7 +14,7 @@
 #define APP_RECORD_MAGIC { 'M', '5', '1', '2' }
 #define APP_RECORD_LAYOUT 1u
 
-enum { APP_RECORD_CM5 = 1, APP_RECORD_CM2 = 2 };                 /* board */
+enum { APP_RECORD_CM5 = 1, APP_RECORD_CM2 = 2, APP_RECORD_PC = 3 }; /* board; PC: a program of hal/host */
 enum { APP_RECORD_PLAY = 1, APP_RECORD_EDIT = 2, APP_RECORD_OTHER = 255 };  /* kind */
 
 /* Little-endian, no padding on either side. */

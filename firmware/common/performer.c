@@ -404,10 +404,10 @@ static void watch_computer(performer_t *performer)
 void performer_poll(performer_t *performer)
 {
     uint32_t failed;
-    performer_verdict_t verdict;
     servo_link_poll(performer->servos);
     watch_computer(performer);
-    if ((verdict = performer_watch(performer, &failed)) != WATCH_GO_ON) { /* one a turn: it may block for 3 ms */
+    const performer_verdict_t verdict = performer_watch(performer, &failed);
+    if (verdict != WATCH_GO_ON) { /* one a turn: it may block for 3 ms */
         act_on(performer, verdict, failed);
     }
     if (performer->state == PERFORMER_READY) {

@@ -125,6 +125,13 @@ static inline bool performer_is_idle(const performer_t *performer)    /* no play
     return performer->state == PERFORMER_IDLE;
 }
 
+/* The page that plays, and player.now.step with it, or that a play begins with; 0: none. */
+static inline uint8_t performer_page(const performer_t *performer)
+{
+    const uint8_t page = performer->state == PERFORMER_PLAY ? performer->player.now.page : performer->page;
+    return performer_is_idle(performer) ? 0 : page;
+}
+
 static inline bool performer_is_paused(const performer_t *performer)
 {
     return performer->state > PERFORMER_READY && player_is_paused(&performer->player);

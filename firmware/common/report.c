@@ -79,6 +79,11 @@ void report_version(const app_record_t *record)
     }
 }
 
+const char *report_board_P(const app_record_t *record)
+{
+    return record->board == APP_RECORD_CM2 ? TEXT_P("cm2") : record->board == APP_RECORD_PC ? TEXT_P("pc") : TEXT_P("cm5");
+}
+
 void report_joints(uint32_t joints)
 {
     uint8_t run = 0; /* joints in a row so far: 0, 1, or 2 for two and more */

@@ -24,6 +24,9 @@ void report_failed_assert(void);
 /* The version in an image's record: "1.0.0". */
 void report_version(const app_record_t *record);
 
+/* The board of the record: "cm5". */
+const char *report_board_P(const app_record_t *record);
+
 /* The joints of a mask: "1-18 20", or "none". */
 void report_joints(uint32_t joints);
 

@@ -64,7 +64,7 @@ static uint8_t do_where(const shell_args_t *args)
     const bool plays = performer->state == PERFORMER_PLAY;
     TEXT(" state=");
     print_state_name(performer);
-    text_P_number(TEXT_P(" page="), performer_is_idle(performer) ? 0 : performer->page);
+    text_P_number(TEXT_P(" page="), performer_page(performer));
     text_P_number(TEXT_P(" step="), plays ? performer->player.now.step : 0);
     text_P_number(TEXT_P(" repetition="), plays ? performer->player.repetition : 0);
     text_P_number(TEXT_P(" code="), plays ? performer->link.code : 0);
@@ -131,7 +131,7 @@ void requests_print_now(void)
     if (watch.on_channel) {
         channel_print_begin();
     }
-    text_P_number(TEXT_P("@now "), performer_is_idle(performer) ? 0 : performer->page);
+    text_P_number(TEXT_P("@now "), performer_page(performer));
     text_put(' ');
     text_number(performer->state == PERFORMER_PLAY ? performer->player.now.step : 0);
     text_put(' ');
@@ -263,7 +263,8 @@ static uint8_t do_ver(const shell_args_t *args)
     if (board_record(&record)) {
         TEXT(" version=");
         report_version(&record);
-        text_P(record.board == APP_RECORD_CM2 ? TEXT_P(" board=cm2") : TEXT_P(" board=cm5"));
+        TEXT(" board=");
+        text_P(report_board_P(&record));
     }
     STATIC_ASSERT(PAGE_JOINTS == 31, "the number in the line after the next");
     text_P_number(TEXT_P(" protocol=1 pages="), PAGE_COUNT);

@@ -6,6 +6,7 @@
 #include "hal/host/host.h"
 #include "hal/host/machine.h"
 
+#include "app_record.h"
 #include "journal.h"
 #include "page_service.h"
 #include <stddef.h>
@@ -31,7 +32,9 @@ static void complete_save(void)
 
 int program_start(void)
 {
-    host_recall();
+    static const app_record_t record = {.magic = APP_RECORD_MAGIC, .board = APP_RECORD_PC, .version = {PROGRAM_VERSION},
+                                        .layout = APP_RECORD_LAYOUT};
+    host_recall(&record, sizeof record);
     complete_save();
     return image_main();
 }

@@ -36,7 +36,8 @@ endfunction()
 function(m512_program_settings name image)
     target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/firmware/${image} ${CMAKE_SOURCE_DIR}/firmware/common
         ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/hal/host ${CMAKE_SOURCE_DIR}/hal ${CMAKE_SOURCE_DIR}/motion ${CMAKE_SOURCE_DIR}/linker)
-    target_compile_definitions(${name} PRIVATE _GNU_SOURCE ${ARGN})
+    string(REPLACE . , version ${PROJECT_VERSION})
+    target_compile_definitions(${name} PRIVATE _GNU_SOURCE PROGRAM_VERSION=${version} ${ARGN})
     target_compile_options(${name} PRIVATE ${M512_WARNINGS})
     # The main of the image is called by the main of firmware/host.
     set_source_files_properties(${CMAKE_SOURCE_DIR}/firmware/${image}/main.c PROPERTIES

@@ -57,8 +57,11 @@ uint8_t commands_do_play(const shell_args_t *args)
         if (!shell_take(args, 1, RANGE_PLAYED, &page) || (args->count > 2 && !shell_take(args, 2, RANGE_CODE, &code))) {
             return SHELL_ERR_RANGE;
         }
-    } else if ((page = page_of_name(args)) == 0) {
-        return SHELL_ERR_REPORTED;
+    } else {
+        page = page_of_name(args);
+        if (page == 0) {
+            return SHELL_ERR_REPORTED;
+        }
     }
     return requests_refusal(performer_start(&the_play.performer, (uint8_t)page, (uint8_t)code));
 }

@@ -76,7 +76,7 @@ static void print_state(void)
     const performer_t *performer = &the_play.performer;
     if (performer_is_paused(performer)) {
         TEXT("Paused in ");
-        report_page(performer->page);
+        report_page(performer_page(performer));
     } else {
         switch (performer->state) {
         case PERFORMER_IDLE:
@@ -84,11 +84,11 @@ static void print_state(void)
             break;
         case PERFORMER_PLAY:
             TEXT("Playing ");
-            report_page(performer->page);
+            report_page(performer_page(performer));
             break;
         default:
             TEXT("On the way to ");
-            report_page(performer->page);
+            report_page(performer_page(performer));
             break;
         }
     }
@@ -205,7 +205,7 @@ void views_print_version(void)
     TEXT("Motion512 Play ");
     if (board_record(&record)) {
         report_version(&record);
-        text_P(record.board == APP_RECORD_CM2 ? TEXT_P(" for CM-2") : TEXT_P(" for CM-5"));
+        text_P(record.board == APP_RECORD_CM2 ? TEXT_P(" for CM-2") : record.board == APP_RECORD_PC ? TEXT_P(" for a PC") : TEXT_P(" for CM-5"));
     }
     TEXT(", last reset: ");
     text_P(reset_text_P(system_reset_cause()));

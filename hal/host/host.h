@@ -30,8 +30,8 @@ bool host_has_held(void);
 /* bus.c: tells every servo to switch its torque off, at once and whatever the firmware does. */
 void host_torque_off(void);
 
-/* memory.c: fetches what was kept. Before anything else. */
-void host_recall(void);
+/* memory.c: fetches what was kept. Before anything else. record: what the image says of itself, at MEM_APP_RECORD. */
+void host_recall(const void *record, uint16_t bytes);
 /* memory.c: makes sure what was kept, once nothing moves. */
 void host_settle(void);
 

@@ -20,12 +20,13 @@ static uint8_t flash[TARGET_FLASH_END];   /* what the chip has, and the pages ab
 static uint8_t eeprom[EEPROM_BYTES];
 static bool eeprom_is_unsettled;
 
-void host_recall(void)
+void host_recall(const void *record, uint16_t bytes)
 {
     static const boot_api_head_t loader = {.signature = BOOT_API_SIGNATURE, .version = BOOT_API_VERSION,
                                            .features = BOOT_HAS_WRITE | BOOT_HAS_PROGRAM | BOOT_HAS_JOURNAL};
     memset(flash, 0xFF, sizeof flash);
     memset(eeprom, 0xFF, sizeof eeprom);
+    memcpy(flash + MEM_APP_RECORD, record, bytes);
     memcpy(flash + MEM_BOOT_API, &loader, sizeof loader);
     (void)machine_recall(MACHINE_PAGES, flash + TARGET_MOTION_START, PAGES_BYTES);
     (void)machine_recall(MACHINE_JOURNAL, flash + MEM_JOURNAL_START, JOURNAL_BYTES);

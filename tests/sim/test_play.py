@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Play on the simulated robot: what it does beside talking. The words are in test_play_sessions.py."""
 
+import re
+
 import pytest
 
 from m512.files.image import Image
@@ -381,3 +383,22 @@ def test_a_name_that_two_pages_have_starts_none():
     board.run(ms=500)
     assert "state=idle" in ask(board, "@where")
     assert ask(board, "play turn left").endswith("OK")
+
+
+def test_where_names_a_page_and_a_step_of_it():
+    """At a page's end the next step is planned a tick before it moves: then, too, page and step belong together."""
+    image = Image.empty()
+    image[5] = page("two", [(9, {1: 560}), (9, {1: 464})], next=6)
+    image[6] = page("three", [(9, {1: 560}), (9, {1: 464}), (9, {1: 512})], next=5)
+    board, places = robot(pages=image.to_bytes()), []
+    ask(board, "play 5")
+    board.expect("Page 6 step 2", ms=4000)
+    for _ in range(300):
+        board.send("@where\r")
+        board.run(ms=60)
+        found = re.search(r"@where state=play\w* page=(\d) step=(\d)", board.take().decode("latin-1"))
+        places.append(found and (int(found[1]), int(found[2])))
+    order = [(5, 1), (5, 2), (6, 1), (6, 2), (6, 3)]  # 60 ms and a step's 70: the next place is the same, or one or two further
+    told = [(before, after) for before, after in zip(places, places[1:]) if before and after]
+    assert len(told) > 200 and set(place for pair in told for place in pair) == set(order)
+    assert [pair for pair in told if (order.index(pair[1]) - order.index(pair[0])) % 5 > 2] == []

@@ -37,7 +37,7 @@ void tearDown(void)
 static journal_result_t begin(void)
 {
     uint8_t work[PAGE_BYTES];
-    host_recall();
+    host_recall("record", 6);
     TEST_ASSERT_EQUAL(PAGE_SERVICE_OURS, page_service_init(NULL));
     return journal_recover(work);
 }

@@ -96,7 +96,7 @@ static void read_motions(uint8_t *bytes, uint32_t count)
 {
     FILE *file = fopen(pc_options.motions, "rb");
     const size_t got = file != NULL ? fread(bytes, 1, count, file) : 0;
-    const bool is_whole = file != NULL && fgetc(file) == EOF;
+    const bool is_whole = file != NULL && ferror(file) == 0 && fgetc(file) == EOF;
     if (file != NULL) {
         fclose(file);
     }

@@ -99,7 +99,8 @@ function wrapper(folder: string, pty: string, origin: string): string {
 /** From now on the port that the browser sees is another one. */
 function plugInto(folder: string, pty: string): void {
     const browser = readFileSync(join(folder, 'pid'), 'utf8').trim();
-    execFileSync('nsenter', [`--mount=/proc/${browser}/ns/mnt`, 'sh', '-c', `umount -l /dev/ttyS0 && mount --bind ${pty} /dev/ttyS0`]); // the old one is gone
+    const change = `umount -l /dev/ttyS0 && mount --bind ${pty} /dev/ttyS0`; // the old one is gone
+    execFileSync('nsenter', ['--target', browser, '--mount', '--root', 'sh', '-c', change]); // its root: the tests may run in another one
 }
 
 interface Bench {
