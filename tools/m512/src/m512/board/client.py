@@ -96,7 +96,9 @@ class Client:
         if number == ERR_WORD:
             image = self.version.get("image", "this image")
             other = {"edit": "Play", "play": "Edit"}.get(image)
-            text = f"{image.capitalize()} does not know {word}" + (f", {other} does: m512 run {self.file_of(other)}" if other else "")
+            text = f"{image.capitalize()} does not know {word}" + (f", {other} does" if other else "")
+            if other and self.version.get("board") != "pc":  # the programs for an adapter are not flashed
+                text += f": m512 run {self.file_of(other)}"
         return BoardError(text or f"error {number}", number)
 
     def _answer(self, word: str, seconds: float) -> str | None:
