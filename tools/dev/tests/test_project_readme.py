@@ -95,3 +95,14 @@ def test_tools_readme_has_one_row_for_everything(folder, heading):
 def test_every_folder_of_the_top_is_in_the_readme():
     top = {path.name for path in TOP.iterdir() if path.is_dir() and not path.name.startswith(".")} - {"build"}
     assert [name for name in top if f"{name}/" not in README] == []
+
+
+def test_nothing_that_was_built_is_in_the_repository():
+    done = subprocess.run(["git", "-C", TOP, "ls-files", "-z"], capture_output=True, check=False)
+    tracked = [TOP / name.decode() for name in done.stdout.split(b"\0") if name]
+    if done.returncode:
+        pytest.skip("this tree has no git history")
+    programs = [path for path in tracked if path.is_file() and path.read_bytes()[:4] in (b"\x7fELF", b"\0asm")]
+    assert len(tracked) > 500
+    assert [str(path) for path in tracked if {"build", "node_modules", "__pycache__"} & set(path.relative_to(TOP).parts[:-1])] == []
+    assert [str(path) for path in programs] == []

@@ -1,2 +1,0 @@
-# SPDX-License-Identifier: MIT
-"""Play and Edit as programs of this computer."""
