@@ -63,7 +63,7 @@ def play_all(options, play, count, sample, schedule, at_once, words):
     if options.only is not None:
         options.keep = False
         outcomes = play([options.only])
-        print(f"   {schedule(options.only).weather}: {outcomes[0]}")
+        print(f"   {schedule(options.only).conditions}: {outcomes[0]}")
     else:
         count = sample if options.sample else options.schedules or count
         first = options.seed * 1_000_000

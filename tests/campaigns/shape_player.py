@@ -4,7 +4,7 @@
 import functools
 
 from tests.campaigns import proof
-from tests.models import classic, handed, jumps, shaped
+from tests.models import classic, hand_over, jumps, shaped
 
 # --- what is played ---
 
@@ -54,23 +54,23 @@ def law_figures(options):
 
 # --- a layer that comes and goes at every tick ---
 
-EVERY_DEPTH = range(1, handed.DEPTH)
+EVERY_DEPTH = range(1, hand_over.DEPTH)
 BY_CHANCE = 2000
 
 
 def came_at(offs, item):
     """(walks, [what is wrong]) of a walk over which a layer came at this tick and went after each of so many."""
     law, name, on = item
-    return handed.every_tick(law, name, ons=[on], offs=offs)
+    return hand_over.every_tick(law, name, ons=[on], offs=offs)
 
 
 def hand_over_figures(options):
-    offs, chances = (range(3, handed.DEPTH, 40), 100) if options.sample else (EVERY_DEPTH, BY_CHANCE)
-    items = [(law, name, on) for law in handed.LAWS for name in handed.LAYERS for on in range(handed.CYCLE)]
+    offs, chances = (range(3, hand_over.DEPTH, 40), 100) if options.sample else (EVERY_DEPTH, BY_CHANCE)
+    items = [(law, name, on) for law in hand_over.LAWS for name in hand_over.LAYERS for on in range(hand_over.CYCLE)]
     results = proof.each(functools.partial(came_at, offs), items, "layer", options.jobs)
     bad = [said for _, found in results for said in found]
     seeds = range(options.seed, options.seed + chances)
-    strange = [said for said in proof.each(handed.by_chance, seeds, "pages by chance", options.jobs) if said]
+    strange = [said for said in proof.each(hand_over.by_chance, seeds, "pages by chance", options.jobs) if said]
     walks = sum(count for count, _ in results)
     how = "the player on the PC against the page of the spec; a joint that changes hands: 60 degrees/s, however many ticks one looks at"
     return [

@@ -18,7 +18,7 @@ from fractions import Fraction
 from m512.files.formats import load
 from tests.models import shaping  # tests/models, on the path by now
 from tests.models.played import EXACT, JOINTS, STEP, TOP, Played
-from tests.models.shaped import Judge
+from tests.models.shaped import Check
 
 WALK = "walk"
 ROBOT = sum(1 << joint for joint in range(1, 19))
@@ -61,16 +61,16 @@ def bound_of(way, ticks, accel, before, after):
     return most
 
 
-def speed_changes(judge, accel):
+def speed_changes(check, accel):
     """(largest change of speed in a tick, largest part of it that is above its step's bound); the last two steps are left out."""
-    steps = [(begin, goals) for _, begin, goals in judge.steps]
+    steps = [(begin, goals) for _, begin, goals in check.steps]
     largest, excess = 0, Fraction(-99)
     for joint in range(1, 19):
         ways = [after[1][joint] - now[1][joint] for now, after in zip(steps, steps[1:])]
         ticks = [after[0] - now[0] for now, after in zip(steps, steps[1:])]
         ends = [(0, 0)] + [way_point_speeds(*step) for step in zip(ways, ticks, ways[1:], ticks[1:])]
         bounds = [bound_of(way, count, accel, before, after) for way, count, before, after in zip(ways, ticks, ends, ends[1:])]
-        row = [steps[0][1][joint]] * 2 + [goals[joint] for goals in judge.ticks]
+        row = [steps[0][1][joint]] * 2 + [goals[joint] for goals in check.ticks]
         for k, bound in enumerate(bounds):
             beside = max(bounds[max(0, k - 1) : k + 1])  # its first tick joins the step before
             for tick in range(steps[k][0], steps[k + 1][0]):
@@ -86,15 +86,15 @@ def broken(what, steps, seed=1):
     image, page = library.to_bytes(), library.find(WALK)
     pose = [library[page].word(0, joint) if ROBOT >> joint & 1 else 512 for joint in range(JOINTS)]
     play = Played(image, page, EXACT, ROBOT, dict(enumerate(pose)), shape=[("reset",), ("centre", library.find("ready")), ("voltage", VOLTS_DV)])
-    judge, changes = Judge(image, pose), jumps_of(what, seed)
+    check, changes = Check(image, pose), jumps_of(what, seed)
     shape = shaping.Shape(centre_page=library.find("ready"), volts=Fraction(VOLTS_DV, 10))
-    wrong = judge.follow(play, shape, lambda events: next(changes) if events & STEP else [], limit=steps * TICKS_A_STEP)
-    idle = sum(goals is None for goals in judge.ticks)
+    wrong = check.follow(play, shape, lambda events: next(changes) if events & STEP else [], limit=steps * TICKS_A_STEP)
+    idle = sum(goals is None for goals in check.ticks)
     if wrong or idle:
         return wrong or f"{idle} idle ticks", ""
-    largest, excess = speed_changes(judge, library[page].accel)
+    largest, excess = speed_changes(check, library[page].accel)
     said = (
-        f"{len(judge.steps)} steps: 0 past a way-point, 0 idle ticks, largest change of speed {largest} units a tick, "
+        f"{len(check.steps)} steps: 0 past a way-point, 0 idle ticks, largest change of speed {largest} units a tick, "
         f"{float(ROUNDING - excess):.2f} below the bound"
     )
     return (None if excess < ROUNDING else f"a change of speed is {float(excess):.2f} above the law's own"), said

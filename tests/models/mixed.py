@@ -3,10 +3,10 @@
 """Everything at once, by chance: a shape that changes, a second page, motion made by code, pause, stop, break and lost joints, over steps of
 1 to 40 ticks under both laws (mixed_cases.py). No model of the whole is needed: what the page of the spec calls equal is played twice.
 
-    tests/models/mixed.py [--first SEED] [--count N]      10,000 cases by default; exit code 1 when a judge objects
-    tests/models/mixed.py --seed SEED                     this case alone, with the fewest actions to which the same judge objects
+    tests/models/mixed.py [--first SEED] [--count N]      10,000 cases by default; exit code 1 when a check objects
+    tests/models/mixed.py --seed SEED                     this case alone, with the fewest actions to which the same check objects
 
-Judges (mixed_judges.py):
+Checks (mixed_checks.py):
 bytes      A shaped play goes as a play of pages that hold the shaped positions (tests/models/shaping.py), bit by bit: goals of all joints,
            events. So each step was shaped once, whatever was set behind the look, and was planned like any other.
 layers     Without its second page and without motion by code the main play has the same timing, and the joints that were never lent have
@@ -26,33 +26,33 @@ import sys
 
 from tests.models import mixed_cases
 from tests.models.mixed_cases import play
-from tests.models.mixed_judges import JUDGES
+from tests.models.mixed_checks import CHECKS
 
 SHOWN = 20
 
 
-def first_objection(case, judges=tuple(JUDGES)):
-    """None, or (judge, what is wrong)."""
+def first_objection(case, checks=tuple(CHECKS)):
+    """None, or (check, what is wrong)."""
     run = play(case)
-    for name in judges if run else ():
-        wrong = JUDGES[name](case, run)
+    for name in checks if run else ():
+        wrong = CHECKS[name](case, run)
         if wrong:
             return name, wrong
     return None
 
 
-def shrunk(case, judge):
-    """Leaves only actions without which the judge objects no more."""
+def shrunk(case, check):
+    """Leaves only actions without which the check objects no more."""
     for action in list(case.actions):
         actions = case.actions
         case.actions = [other for other in actions if other is not action]
-        if not first_objection(case, [judge]):
+        if not first_objection(case, [check]):
             case.actions = actions
     return case
 
 
 def objections(first, count):
-    """[(seed, judge, what is wrong)]"""
+    """[(seed, check, what is wrong)]"""
     found = ((seed, first_objection(mixed_cases.case_by_chance(seed))) for seed in range(first, first + count))
     return [(seed, *said) for seed, said in found if said]
 
@@ -79,9 +79,9 @@ def main():
     if asked.seed is not None:
         return tell(asked.seed)
     found = objections(asked.first, asked.count)
-    for seed, judge, what in found[:SHOWN]:
-        print(f"seed {seed}, {judge}: {what}")
-    each = ", ".join(f"{judge} {count}" for judge, count in collections.Counter(judge for _, judge, _ in found).items())
+    for seed, check, what in found[:SHOWN]:
+        print(f"seed {seed}, {check}: {what}")
+    each = ", ".join(f"{check} {count}" for check, count in collections.Counter(check for _, check, _ in found).items())
     print(f"{asked.count} cases by chance from seed {asked.first}: {len(found)} objections" + (f" ({each})" if each else ""))
     return 1 if found else 0
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What happened in a run of a case, for the judges of mixed.py: what was in force, who had which joint, where two runs part."""
+"""What happened in a run of a case, for the checks of mixed.py: what was in force, who had which joint, where two runs part."""
 
 from fractions import Fraction
 

@@ -100,7 +100,7 @@ def model_pose(image, place, shape):
     return shaping.shaped_pose(image, place[0], place[1], shape)
 
 
-class Judge:
+class Check:
     """Follows a play tick by tick and says what is wrong with it."""
 
     def __init__(self, image, pose):
@@ -191,7 +191,7 @@ def first_difference(seed):
     play = Played(image, pages[0], EXACT, ALL, dict(enumerate(pose)), shape=[("reset",), *changes])
     if not play.started:
         return None
-    return Judge(image, pose).follow(play, shape, lambda events: [change_by_chance(chance, pages)] if chance.random() < 0.03 else [])
+    return Check(image, pose).follow(play, shape, lambda events: [change_by_chance(chance, pages)] if chance.random() < 0.03 else [])
 
 
 def compare(first, count):

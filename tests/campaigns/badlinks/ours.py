@@ -14,7 +14,7 @@ from m512.board.memory import Plan
 
 from .factory_model import BOOT, PAGE
 from .runs import APP_END, DONE, MOTION_START, MOTIONS, Outcome, Schedule, contents
-from .wire import weather, wires
+from .wire import conditions, wires
 
 HZ = 16_000_000
 SLICE = 0.002  # how long the board runs before its words are looked for
@@ -109,10 +109,10 @@ class OurSchedule(Schedule):
     def __init__(self, number: int):
         self.number = number
         self.chance = chance = random.Random(f"ours {number}")
-        self.weather = weather(chance)
+        self.conditions = conditions(chance)
         self.before = APPLICATION + chance.randbytes(BOOT - len(APPLICATION))
         self.eeprom = chance.randbytes(EEPROM_BYTES - 13) + b"\xff" * 12 + chance.choice((b"\xff", b"\x11"))
-        self.wires = wires(self.weather, number)
+        self.wires = wires(self.conditions, number)
         self.board = ShippedBoard(self.before, self.eeprom, *self.wires)
         self.section = bytes(self.board.sim.flash[BOOT:])
         self.named, self.errors, self.faults = set(), [], []

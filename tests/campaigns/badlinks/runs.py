@@ -15,7 +15,7 @@ from m512.errors import M512Error
 
 from .factory_model import BANNER, BANNER_AT, BOOT, PAGE, Board, Loader
 from .line import BROKEN, CANCELLED, KILLED, Killed, Line
-from .wire import Weather, weather, wires
+from .wire import Conditions, conditions, wires
 
 APP_END, MOTION_START, MOTIONS = 0xC000, 0xE000, 128
 WAIT = 20.0  # how long m512 waits for the button
@@ -45,7 +45,7 @@ NASTY = (
 @dataclasses.dataclass
 class Outcome:
     number: int
-    kind: str  # of the weather
+    kind: str  # of the conditions
     ends: list  # what became of each process
     faults: list  # promises broken, in words
     errors: list  # what m512 said when it gave up
@@ -96,14 +96,14 @@ class Schedule:
     def __init__(self, number: int):
         self.number = number
         self.chance = chance = random.Random(number)
-        self.weather = weather(chance)
+        self.conditions = conditions(chance)
         self.before = chance.randbytes(0x20000)
         if chance.random() < 0.7:  # as the known version has it; others restart to say their banner
             self.before = self.before[:BANNER_AT] + BANNER + self.before[BANNER_AT + len(BANNER) :]
         eeprom = bytearray(chance.randbytes(0x1000))
         eeprom[0xFF4], eeprom[0xFFF] = 0xFF, chance.choice((0xFF, 0x11))
         self.loader = Loader(self.before, eeprom)
-        self.wires = wires(self.weather, number)
+        self.wires = wires(self.conditions, number)
         self.board = Board(self.loader, *self.wires)
         self.named: set = set()
         self.errors: list = []
@@ -122,10 +122,10 @@ class Schedule:
             ends.append(self.process())
             self.board.advance_by(chance.choice((0.0, 0.05, 0.3, 2.0)))
             if chance.random() < 0.3:
-                self.wires[0].weather = self.wires[1].weather = Weather()
+                self.wires[0].conditions = self.wires[1].conditions = Conditions()
         self.board.advance_by(self.settle_seconds)
         self.judge(ends[-1])
-        return Outcome(self.number, self.weather.kind, ends, self.faults, self.errors, self.board.now, self.loads, self.mails)
+        return Outcome(self.number, self.conditions.kind, ends, self.faults, self.errors, self.board.now, self.loads, self.mails)
 
     settle_seconds, wait_seconds = 60, WAIT
 

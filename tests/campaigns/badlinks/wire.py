@@ -5,7 +5,7 @@ A Wire is one direction. It knows no protocol and no clock: whoever uses it says
 on every serial bridge. What was sent arrives, even when the sender has died meanwhile: an operating system's buffer and a
 bridge's memory outlive a program.
 
-    to_board, to_pc = wires(weather(random.Random(seed)), seed)
+    to_board, to_pc = wires(conditions(random.Random(seed)), seed)
     to_board.send(now, b"load e000\\r")
     board.hear(to_board.arrived(now))        # whenever time has passed
 """
@@ -17,11 +17,11 @@ import random
 from collections import deque
 
 BYTE_SECONDS = 10 / 57143  # the UART at the board's end (UBRR 34 at 16 MHz): bytes never come closer than this
-OUTAGE_MOST = 3.0  # seconds; the longest hole that weather() makes
+OUTAGE_MOST = 3.0  # seconds; the longest hole that conditions() makes
 
 
 @dataclasses.dataclass(frozen=True)
-class Weather:
+class Conditions:
     """The faults of a line. Chances are per byte, times in seconds."""
 
     kind: str = "good"
@@ -43,7 +43,7 @@ class Weather:
         return " ".join([self.kind, *shown])
 
 
-def weather(chance: random.Random) -> Weather:
+def conditions(chance: random.Random) -> Conditions:
     """Draws a line: one of the plain kinds, or every fault at once."""
     slow = dict(speed=chance.uniform(0.05, 0.9))
     late = dict(late=chance.choice((0.016, 0.05, 0.2, 0.6)) * chance.uniform(0.5, 1.0))
@@ -74,7 +74,7 @@ def weather(chance: random.Random) -> Weather:
         "everything": {**slow, **late, **lumpy, **holes, **lossy, **changing, "double": 10 ** chance.uniform(-4, -1.5)},
     }
     kind = chance.choice(list(kinds))
-    return Weather(kind, **kinds[kind])
+    return Conditions(kind, **kinds[kind])
 
 
 class Wire:
@@ -82,8 +82,8 @@ class Wire:
 
     PACKET = 64
 
-    def __init__(self, weather: Weather, seed: int):
-        self.weather, self.chance = weather, random.Random(seed)
+    def __init__(self, conditions: Conditions, seed: int):
+        self.conditions, self.chance = conditions, random.Random(seed)
         self.waiting: deque[tuple[float, int]] = deque()  # (when, byte) on their way
         self.sent_until = self.arrived_until = float("-inf")
         self.hole = (float("inf"), float("inf"))
@@ -104,23 +104,23 @@ class Wire:
             self._next_hole(now)
         for at in range(0, len(data), self.PACKET):
             packet = data[at : at + self.PACKET]
-            again = self.weather.packet_double and self.chance.random() < self.weather.packet_double
+            again = self.conditions.packet_double and self.chance.random() < self.conditions.packet_double
             packet += packet if again else b""
-            pause = self.chance.randrange(len(packet)) if self.weather.hiccup and self.chance.random() < self.weather.hiccup else -1
+            pause = self.chance.randrange(len(packet)) if self.conditions.hiccup and self.chance.random() < self.conditions.hiccup else -1
             for k, byte in enumerate(packet):
                 self._send(now, byte, self.chance.uniform(0.12, 0.6) if k == pause else 0.0)
 
     def _send(self, now: float, byte: int, pause: float) -> None:
-        weather, chance = self.weather, self.chance
-        self.sent_until = max(now, self.sent_until) + pause + BYTE_SECONDS / weather.speed
-        if weather.lose and chance.random() < weather.lose:
+        conditions, chance = self.conditions, self.chance
+        self.sent_until = max(now, self.sent_until) + pause + BYTE_SECONDS / conditions.speed
+        if conditions.lose and chance.random() < conditions.lose:
             return
-        if weather.change and chance.random() < weather.change:
+        if conditions.change and chance.random() < conditions.change:
             byte ^= 1 << chance.randrange(8)
-        when = self._through_holes(self.sent_until + weather.late)
-        if weather.lump:
-            when = (when // weather.lump + 1) * weather.lump
-        for _ in range(2 if weather.double and chance.random() < weather.double else 1):
+        when = self._through_holes(self.sent_until + conditions.late)
+        if conditions.lump:
+            when = (when // conditions.lump + 1) * conditions.lump
+        for _ in range(2 if conditions.double and chance.random() < conditions.double else 1):
             self.arrived_until = max(when, self.arrived_until + BYTE_SECONDS)
             self.waiting.append((self.arrived_until, byte))
 
@@ -131,9 +131,9 @@ class Wire:
 
     def _next_hole(self, now: float) -> None:
         self.hole = (float("inf"), float("inf"))
-        if self.weather.hole_every:
-            start = now + self.chance.expovariate(1 / self.weather.hole_every)
-            self.hole = (start, start + self.weather.hole * self.chance.random())
+        if self.conditions.hole_every:
+            start = now + self.chance.expovariate(1 / self.conditions.hole_every)
+            self.hole = (start, start + self.conditions.hole * self.chance.random())
 
     def next_arrival(self) -> float:
         """When the next byte comes; infinity: none is under way."""
@@ -147,6 +147,6 @@ class Wire:
         return bytes(out)
 
 
-def wires(weather: Weather, seed: int) -> tuple[Wire, Wire]:
+def wires(conditions: Conditions, seed: int) -> tuple[Wire, Wire]:
     """Returns both directions of a line: to the board, to the PC."""
-    return Wire(weather, 2 * seed), Wire(weather, 2 * seed + 1)
+    return Wire(conditions, 2 * seed), Wire(conditions, 2 * seed + 1)

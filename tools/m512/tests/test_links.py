@@ -15,21 +15,21 @@ from m512.errors import CancelledError, M512Error, NoAnswerError
 from tests.campaigns.badlinks import runs
 from tests.campaigns.badlinks.factory_model import Board, Loader
 from tests.campaigns.badlinks.line import CANCELLED, KILLED, Killed, Line
-from tests.campaigns.badlinks.wire import BYTE_SECONDS, Weather, Wire, wires
+from tests.campaigns.badlinks.wire import BYTE_SECONDS, Conditions, Wire, wires
 
-GOOD = Weather()
+GOOD = Conditions()
 
 
 class Bench:
     """A board with a factory kind of loader at its prompt, and a line to it."""
 
-    def __init__(self, weather=GOOD, ends=None):
+    def __init__(self, conditions=GOOD, ends=None):
         self.loader = Loader(random.Random(1).randbytes(0x20000))
         self.loader.eeprom[0xFFF] = 0xFF
         self.before = bytes(self.loader.flash)
-        self.wires = wires(weather, 1)
+        self.wires = wires(conditions, 1)
         self.board = Board(self.loader, *self.wires)
-        self.board.advance_by(1 + 30 * weather.late)
+        self.board.advance_by(1 + 30 * conditions.late)
         self.wires[1].waiting.clear()
         self.line = Line(self.board, *self.wires, ends)
 
@@ -114,7 +114,7 @@ def test_model_copies_the_mailbox_and_brings_lines_back():
 
 
 def test_wire_keeps_the_order_and_the_rate_and_outlives_the_sender():
-    wire = Wire(Weather(speed=0.5, late=0.2), 1)
+    wire = Wire(Conditions(speed=0.5, late=0.2), 1)
     wire.send(10.0, bytes(range(100)))
     assert wire.arrived(10.2) == b"" and wire.arrived(10.2 + 100 * BYTE_SECONDS) != bytes(range(100))
     assert wire.next_arrival() < float("inf") and wire.arrived(99) and wire.next_arrival() == float("inf")
@@ -130,7 +130,7 @@ def motion_pages(*numbers):
 
 @pytest.mark.parametrize("speed", [1.0, 0.43, 0.05])
 def test_slow_line_as_reported(speed):
-    bench, pages = Bench(Weather("slow", speed=speed)), motion_pages(3, 115, 127)
+    bench, pages = Bench(Conditions("slow", speed=speed)), motion_pages(3, 115, 127)
     loader = FactoryLoader(bench.line)
     loader.write(pages)
     assert bench.changed() == sorted(pages) and not bench.loader.crashes

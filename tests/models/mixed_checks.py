@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The judges of mixed.py: each compares two plays that the page of the spec calls equal, or asks a bound. A judge takes a Case and the Run
+"""The checks of mixed.py: each compares two plays that the page of the spec calls equal, or asks a bound. A check takes a Case and the Run
 that was made of it, and returns None or what is wrong."""
 
 import itertools
@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from tests.models import (
     classic_law,  # tests/models, on the path by now
-    handed,
+    hand_over,
     mixed_cases,
     shaping,
 )
@@ -80,7 +80,7 @@ def unrolled(case, run, poses):
     return bytes(image), until
 
 
-def judge_bytes(case, run):
+def check_bytes(case, run):
     if case.about["rates"] or not run.steps:
         return None
     if dropped(run) and by_way(case, run):
@@ -110,7 +110,7 @@ def by_way(case, run):
     return limited or any(case.image[BYTES_PAGE * page + 16] == 0 for page in mixed_cases.MAIN_PAGES)
 
 
-def judge_layers(case, run):
+def check_layers(case, run):
     if not any(action[1] in LAYER_ACTIONS for action in case.actions):
         return None
     plain = play(case, actions=[action for action in case.actions if action[1] not in LAYER_ACTIONS])
@@ -120,8 +120,8 @@ def judge_layers(case, run):
 # --- hands, and motion by code ---
 
 
-def judge_hands(case, run):
-    per_tick, paused = case.deg_s * handed.UNITS_A_TICK, paused_ticks(run)
+def check_hands(case, run):
+    per_tick, paused = case.deg_s * hand_over.UNITS_A_TICK, paused_ticks(run)
     layer_ends = [(tick + 1, 0, 0) for tick in range(run.ticks) if run.layer_events[tick] & ENDED]
     steps = sorted(run.layer_steps + layer_ends)
     plain = play(case, actions=[action for action in case.actions if action[1] not in LAYER_ACTIONS])
@@ -132,9 +132,9 @@ def judge_hands(case, run):
             if tick == 0 or tick >= end:
                 continue
             if owner == "main":
-                wrong = handed.judge_return(row, plain.columns[joint], tick - 1, end, per_tick)
+                wrong = hand_over.check_return(row, plain.columns[joint], tick - 1, end, per_tick)
             elif owner == "page":
-                wrong, _ = handed.judge_hand_over(row, steps, tick - 1, end, per_tick)
+                wrong, _ = hand_over.check_hand_over(row, steps, tick - 1, end, per_tick)
             elif owner == "code":
                 wrong = by_code(row, action, tick, end, per_tick, paused)
             else:
@@ -153,7 +153,7 @@ def by_code(row, action, begin, end, per_tick, paused):
         most = max(per_tick, 6.3 * action[3] / action[4]) + 2
         fast = [tick for tick in moves if abs(row[tick] - row[tick - 1]) > most]
         return f"tick {fast[0]}: a swing of {most:.1f} units a tick goes {row[fast[0] - 1]} -> {row[fast[0]]}" if fast else None
-    slow = handed.bounded_until(row[:end], begin - 1, per_tick) + 1
+    slow = hand_over.bounded_until(row[:end], begin - 1, per_tick) + 1
     if slow < end:
         return f"tick {slow}: an aim is too fast, {row[slow - 1]} -> {row[slow]}"
     most_left = max(0, abs(row[begin - 1] - action[2]) - per_tick * len(moves) + 2)
@@ -163,7 +163,7 @@ def by_code(row, action, begin, end, per_tick, paused):
 # --- nothing set ---
 
 
-def judge_nothing(case, run):
+def check_nothing(case, run):
     if any(action[0] == "rate" for action in case.before) or case.about["rates"]:
         return None
     actions = case.only("pause", "resume", "stop", "break", "drop")
@@ -173,7 +173,7 @@ def judge_nothing(case, run):
 # --- lengths ---
 
 
-def judge_lengths(case, run):
+def check_lengths(case, run):
     if case.law != EXACT or is_broken(run) or case.only("drop"):
         return None
     plain = play(case, actions=[action for action in case.actions if action[1] not in LAYER_ACTIONS]) if case.only(*LAYER_ACTIONS) else run
@@ -231,7 +231,7 @@ def length_wrong(run, target, pose, shape, ideal, k, ends):
 # --- pauses and breaks ---
 
 
-def judge_pauses(case, run):
+def check_pauses(case, run):
     if not case.only("pause", "break"):
         return None
     plain = play(case, actions=case.only("pause", "resume", "break"))
@@ -284,11 +284,11 @@ def stands_well(case, run):
     return None
 
 
-JUDGES = {
-    "bytes": judge_bytes,
-    "layers": judge_layers,
-    "hands": judge_hands,
-    "nothing": judge_nothing,
-    "lengths": judge_lengths,
-    "pauses": judge_pauses,
+CHECKS = {
+    "bytes": check_bytes,
+    "layers": check_layers,
+    "hands": check_hands,
+    "nothing": check_nothing,
+    "lengths": check_lengths,
+    "pauses": check_pauses,
 }

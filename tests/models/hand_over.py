@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Lays a second page over a walk at every tick of it and takes it away again at every tick, and says what becomes of every joint.
 
-    tests/models/handed.py [--laws exact classic] [--offs N] [--chance N]
+    tests/models/hand_over.py [--laws exact classic] [--offs N] [--chance N]
 
 Shown, by the page of the spec alone ("Layers", and the exact law's rules 2 and 3):
 * the joints that the layer does not take have the goals of the walk without it, bit by bit;
@@ -113,7 +113,7 @@ def first_step_behind(steps, tick):
     return (steps[k][0], steps[k + 1][0]) if k + 1 < len(steps) else (None, None)
 
 
-def judge_hand_over(row, steps, at, end, per_tick):
+def check_hand_over(row, steps, at, end, per_tick):
     """(None or what is wrong, first tick at which it is not held back any more): the joint changes hands behind tick `at`."""
     free = bounded_until(row[:end], at, per_tick) + 1
     behind = first_step_behind(steps, at)[1]
@@ -122,7 +122,7 @@ def judge_hand_over(row, steps, at, end, per_tick):
     return None, free
 
 
-def judge_return(row, source, at, end, per_tick):
+def check_return(row, source, at, end, per_tick):
     """None, or what is wrong with a joint that goes back to the walk behind tick `at`: until it meets the walk without a layer it goes at the
     speed, and from then on with the walk, bit by bit."""
     met = end = min(end, len(row), len(source))
@@ -136,7 +136,7 @@ def judge_return(row, source, at, end, per_tick):
     return None
 
 
-def judge(image, law, plain, run, joints, on, off, per_tick):
+def check(image, law, plain, run, joints, on, off, per_tick):
     """None, or what is wrong with one walk over which a layer lay from behind tick `on` to behind tick `off` (None: it ended by itself)."""
     for joint in range(JOINTS):
         if joint not in joints and run.columns[joint] != plain.columns[joint]:
@@ -147,11 +147,11 @@ def judge(image, law, plain, run, joints, on, off, per_tick):
         places = [word(image, page, step, joint) for _, page, step in run.layer_steps]
         last = run.layer_steps[-1]
         steps = [*run.layer_steps, (last[0] + step_ticks(image, *last[1:]), 0, 0)]
-        wrong, free = judge_hand_over(row, steps, on, ended + 1, per_tick)
+        wrong, free = check_hand_over(row, steps, on, ended + 1, per_tick)
         wrong = wrong or owned(row, steps, places, free, ended + 1)
         if wrong:
             return f"joint {joint}, to the layer: {wrong}"
-        wrong = judge_return(row, plain.columns[joint], ended, len(row), per_tick)
+        wrong = check_return(row, plain.columns[joint], ended, len(row), per_tick)
         if wrong:
             return f"joint {joint}, back to the walk: {wrong}"
         if row[-CYCLE // 2 :] != plain.columns[joint][-CYCLE // 2 :]:
@@ -167,7 +167,7 @@ def lay(walk, plain, page, joints, on, off, deg_s=APPROACH_DEG_S):
         assert library.played_layer(page, mask, deg_s) == 0
 
     run = walk.run(len(plain.columns[0]), (on + 1, come), *([(off + 1, library.played_layer_off)] if off is not None else []))
-    return judge(walk.image, walk.law, plain, run, joints, on, off, deg_s * UNITS_A_TICK)
+    return check(walk.image, walk.law, plain, run, joints, on, off, deg_s * UNITS_A_TICK)
 
 
 # --- our walk, every tick ---
@@ -213,7 +213,7 @@ def page_by_chance(chance, steps, next_page, ticks, joints, spread):
 
 def by_chance(seed):
     """A walk, a layer, its joints and moments by chance; None, or what is wrong."""
-    chance = random.Random(f"handed {seed}")
+    chance = random.Random(f"hand_over {seed}")
     image, everybody = bytearray(65536), list(range(1, 21))
     image[512:1024] = page_by_chance(chance, chance.randint(2, 7), 1, (4, 20), everybody, 120)
     joints = sorted(chance.sample(everybody, chance.randint(1, 6)))
