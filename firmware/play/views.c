@@ -205,7 +205,9 @@ void views_print_version(void)
     TEXT("Motion512 Play ");
     if (board_record(&record)) {
         report_version(&record);
-        text_P(record.board == APP_RECORD_CM2 ? TEXT_P(" for CM-2") : record.board == APP_RECORD_PC ? TEXT_P(" for a PC") : TEXT_P(" for CM-5"));
+        text_P(record.board == APP_RECORD_CM2 ? TEXT_P(" for CM-2") :
+               record.board == APP_RECORD_PC  ? TEXT_P(" for a PC") :
+                                                TEXT_P(" for CM-5"));
     }
     TEXT(", last reset: ");
     text_P(reset_text_P(system_reset_cause()));
