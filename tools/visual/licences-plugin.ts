@@ -71,7 +71,7 @@ function npmNotice(folder: string, name: string): Notice {
     return {
         title: `${name} ${about.version}`,
         about: `npm package, ${about.license}`,
-        texts: name === '@mujoco/mujoco' ? [...texts, read(join(HERE, 'beside/mujoco-parts.txt'))] : texts,
+        texts: name === '@mujoco/mujoco' ? [...texts, read(join(HERE, 'licences/mujoco-parts.txt'))] : texts,
     };
 }
 

@@ -3,8 +3,8 @@
 
 import './view/theme.css';
 import { fileFormats, motionInstance, motionLibrary, robotBody } from './app/assets.ts';
-import { RobotDesk } from './app/desk.ts';
-import type { DeskStorage } from './app/document-parts.ts';
+import { RobotSession } from './app/robot-session.ts';
+import type { ChosenStorage } from './app/document-parts.ts';
 import type { EditorParts } from './app/editor.ts';
 import { simulatedMotions } from './app/simulated-source.ts';
 import { documentFrom } from './model/document.ts';
@@ -17,18 +17,18 @@ import { TEXTS } from './view/texts/robot.ts';
 async function start(): Promise<void> {
     if (typeof WebAssembly === 'undefined') return fail(TEXTS.noWebAssembly);
     const [body, parts, storage] = await Promise.all([robotBody(), editorParts(), documentStorage()]);
-    const desk = new RobotDesk(body, parts, fileFormats(), storage);
-    await Promise.all([desk.start(), show(desk, parts)]); // the robot starts in its worker while the page is built
-    keepOffline(desk);
-    window.addEventListener('beforeunload', event => desk.documents.state.get().saving === 'off' && event.preventDefault());
+    const session = new RobotSession(body, parts, fileFormats(), storage);
+    await Promise.all([session.start(), show(session, parts)]); // the robot starts in its worker while the page is built
+    keepOffline(session);
+    window.addEventListener('beforeunload', event => session.documents.state.get().saving === 'off' && event.preventDefault());
 }
 
-async function show(desk: RobotDesk, parts: EditorParts): Promise<void> {
-    await desk.documents.start(parts.document);
+async function show(session: RobotSession, parts: EditorParts): Promise<void> {
+    await session.documents.start(parts.document);
     const shell = new AppShell();
-    shell.desk = desk;
+    shell.session = session;
     document.body.append(shell);
-    void desk.files.readAddress(window.location.hash);
+    void session.files.readAddress(window.location.hash);
 }
 
 /** The first document holds what the robot in the page has. */
@@ -47,7 +47,7 @@ async function editorParts(): Promise<EditorParts> {
     };
 }
 
-async function documentStorage(): Promise<DeskStorage> {
+async function documentStorage(): Promise<ChosenStorage> {
     try {
         return { storage: await BrowserStorage.open(), isKept: true };
     } catch {
@@ -57,12 +57,12 @@ async function documentStorage(): Promise<DeskStorage> {
 
 /** Keeps the whole page in the browser, once everything it needs now has been loaded. Only the built page has a service
  *  worker. */
-function keepOffline(desk: RobotDesk): void {
+function keepOffline(session: RobotSession): void {
     if (!import.meta.env.PROD) return;
-    const unwatch = desk.state.watch(state => {
+    const unwatch = session.state.watch(state => {
         if (state.physics === 'loading') return;
         queueMicrotask(() => unwatch());
-        void desk.version.keep();
+        void session.version.keep();
     });
 }
 

@@ -3,18 +3,18 @@
 
 import type { ConnectionState } from '../robot/connection-table.ts';
 import { askList, askPose } from '../robot/protocol.ts';
-import type { DeskState } from '../view/desk.ts';
+import type { SessionState } from '../view/session/session.ts';
 import type { Store } from '../view/store.ts';
 import { TEXTS } from '../view/texts/robot.ts';
 import type { DocumentEditor } from './editor.ts';
 import type { RobotSources } from './sources.ts';
 import type { Status } from './status.ts';
-import type { Strip } from './strip.ts';
+import type { StatusMessages } from './status-messages.ts';
 import type { RobotTransfer } from './transfer.ts';
 
 export interface ArrivalParts {
-    readonly state: Store<DeskState>;
-    readonly strip: Strip;
+    readonly state: Store<SessionState>;
+    readonly messages: StatusMessages;
     readonly status: Status;
     readonly sources: RobotSources;
     readonly editor: DocumentEditor;
@@ -29,14 +29,14 @@ export class Arrival {
     }
 
     connectionChanged(connection: ConnectionState): void {
-        const { state, strip, status, sources, editor } = this.parts;
+        const { state, messages, status, sources, editor } = this.parts;
         const { version, name, error } = sources.connection;
         state.set({ connection, version, portName: name, where: null });
         status.tell();
         status.look();
-        if (connection === 'other-board') strip.fail(error);
+        if (connection === 'other-board') messages.fail(error);
         if (connection !== 'ready') return;
-        void askList(sources.connection.requests).then(pages => state.set({ pages }), strip.fail);
+        void askList(sources.connection.requests).then(pages => state.set({ pages }), messages.fail);
         this.standUp();
         void status.ask();
         if (!sources.isSimulated && editor.state.get().robot.length === 0) void this.learnYours();
@@ -44,27 +44,28 @@ export class Arrival {
 
     /** The robot in the page stands up by itself as soon as it answers and has a body, whichever comes last. */
     standUp(): void {
-        const { state, strip, sources } = this.parts;
+        const { state, messages, sources } = this.parts;
         const { connection, version } = state.get();
-        if (sources.isSimulated && connection === 'ready' && version?.image === 'play') void sources.simulated.prepare().catch(strip.fail);
+        if (sources.isSimulated && connection === 'ready' && version?.image === 'play')
+            void sources.simulated.prepare().catch(messages.fail);
     }
 
     /** Reads what your robot has and keeps it, as soon as it is known; no question is asked for it. */
     private async learnYours(): Promise<void> {
-        const { state, strip, editor, transfer } = this.parts;
+        const { state, messages, editor, transfer } = this.parts;
         if (!(await transfer.read()).isDone) return;
         const pages = editor.state.get().robot.filter(bytes => bytes !== null);
-        await transfer.keep(pages).catch(strip.fail);
-        if (state.get().source === 'servos') return this.tellServos().catch(strip.fail);
-        strip.say({ text: TEXTS.robotKept, tone: 'calm' });
+        await transfer.keep(pages).catch(messages.fail);
+        if (state.get().source === 'servos') return this.tellServos().catch(messages.fail);
+        messages.say({ text: TEXTS.robotKept, tone: 'calm' });
     }
 
     /** Who answers of servos that nobody knows yet, and who should. */
     private async tellServos(): Promise<void> {
-        const { strip, sources } = this.parts;
+        const { messages, sources } = this.parts;
         const ids = (await askPose(sources.connection.requests)).map(({ id }) => id);
-        if (ids.length === 0) return strip.say({ text: TEXTS.noServos, tone: 'bad' });
+        if (ids.length === 0) return messages.say({ text: TEXTS.noServos, tone: 'bad' });
         const missing = Array.from({ length: Math.max(...ids) }, (_, i) => i + 1).filter(id => !ids.includes(id));
-        strip.say({ text: TEXTS.servosFound(ids.length, missing), tone: missing.length > 0 ? 'bad' : 'good' });
+        messages.say({ text: TEXTS.servosFound(ids.length, missing), tone: missing.length > 0 ? 'bad' : 'good' });
     }
 }

@@ -3,39 +3,39 @@
 // what it played, a document that is kept again.
 
 import type { EditorState } from '../model/editor-state.ts';
-import type { DeskState } from '../view/desk.ts';
-import type { DocumentsState } from '../view/documents-desk.ts';
+import type { SessionState } from '../view/session/session.ts';
+import type { DocumentsState } from '../view/session/documents.ts';
 import type { Store } from '../view/store.ts';
-import type { Strip } from './strip.ts';
+import type { StatusMessages } from './status-messages.ts';
 
 export interface CausesParts {
-    readonly strip: Strip;
-    readonly robot: Store<DeskState>;
+    readonly messages: StatusMessages;
+    readonly robot: Store<SessionState>;
     readonly editor: Store<EditorState>;
     readonly documents: Store<DocumentsState>;
 }
 
-export function watchCauses({ strip, robot, editor, documents }: CausesParts): void {
+export function watchCauses({ messages, robot, editor, documents }: CausesParts): void {
     onChange(
         editor,
         state => state.document,
-        () => strip.over('edit'),
+        () => messages.over('edit'),
     );
     onChange(
         editor,
         state => state.page,
-        () => strip.over('edit'),
+        () => messages.over('edit'),
     );
-    onChange(robot, isQuiet, quiet => quiet && strip.over('robot'));
+    onChange(robot, isQuiet, quiet => quiet && messages.over('robot'));
     onChange(
         documents,
         state => state.saving,
-        saving => saving === 'saved' && strip.over('storage'),
+        saving => saving === 'saved' && messages.over('storage'),
     );
 }
 
 /** It answers, and nothing moves. */
-function isQuiet({ connection, where }: DeskState): boolean {
+function isQuiet({ connection, where }: SessionState): boolean {
     return connection === 'ready' && (where === null || where.state === 'idle' || where.state === 'ready');
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the desk joins to the editor: the documents of this browser, and the way to the robot.
+// What the session joins to the editor: the documents of this browser, and the way to the robot.
 
 import { emptyDocument } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
@@ -14,12 +14,12 @@ import { holdDocument } from './hold-document.ts';
 import { RobotTransfer } from './transfer.ts';
 
 /** Where documents are kept; isKept false: only as long as the page is open. */
-export interface DeskStorage {
+export interface ChosenStorage {
     readonly storage: DocumentStorage;
     readonly isKept: boolean;
 }
 
-/** The robot on the desk, as far as pages go there. */
+/** The robot in use, as far as pages go there. */
 export interface RobotForPages {
     /** By which its backups are told apart. */
     name(): string;
@@ -31,8 +31,8 @@ export interface RobotForPages {
 
 export function makeDocuments(
     editor: DocumentEditor,
-    { storage, isKept }: DeskStorage,
-    told: Pick<DocumentsParts, 'failed' | 'copied'>,
+    { storage, isKept }: ChosenStorage,
+    events: Pick<DocumentsParts, 'failed' | 'copied'>,
 ): KeptDocuments {
     const shown = {
         open: (document: MotionDocument, history: History) => editor.open(document, history),
@@ -42,7 +42,7 @@ export function makeDocuments(
     return new KeptDocuments(shown, {
         storage,
         isKept,
-        ...told,
+        ...events,
         hold: holdDocument,
         empty: emptyDocument(editor.format, ''),
         nowMs: () => Date.now(),

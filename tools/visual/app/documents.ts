@@ -9,7 +9,7 @@ import type { HistoryLog, StepsChange } from '../model/history-log.ts';
 import type { Edited, History } from '../model/history.ts';
 import { NO_HISTORY } from '../model/history.ts';
 import type { Backup, DocumentStorage, KeptDocument } from '../view/document-storage.ts';
-import type { Documents, DocumentsState } from '../view/documents-desk.ts';
+import type { Documents, DocumentsState } from '../view/session/documents.ts';
 import { Store } from '../view/store.ts';
 
 /** Where a document is shown. */

@@ -5,18 +5,18 @@
 import type { Connection } from '../robot/connection.ts';
 import { remotePacket } from '../robot/remote.ts';
 import type { RemoteButton } from '../robot/remote.ts';
-import type { DeskState } from '../view/desk.ts';
+import type { SessionState } from '../view/session/session.ts';
 import type { Store } from '../view/store.ts';
 import { TEXTS } from '../view/texts/robot.ts';
 import { REPEAT_MS, RemoteKeys } from './remote-keys.ts';
 import type { SimulatedSource } from './simulated-source.ts';
 import { StickDrive } from './stick.ts';
 import type { Stick } from './stick.ts';
-import type { Strip } from './strip.ts';
+import type { StatusMessages } from './status-messages.ts';
 
 export interface DrivingParts {
-    readonly state: Store<DeskState>;
-    readonly strip: Strip;
+    readonly state: Store<SessionState>;
+    readonly messages: StatusMessages;
     readonly simulated: Pick<SimulatedSource, 'post' | 'isHeld'>;
     /** Throws RobotError not-connected when there is none. */
     connection(): Connection;
@@ -34,12 +34,12 @@ export class Driving {
 
     constructor(parts: DrivingParts) {
         this.parts = parts;
-        this.stick = new StickDrive(parts.connection, () => this.walkPage(), parts.strip.fail);
+        this.stick = new StickDrive(parts.connection, () => this.walkPage(), parts.messages.fail);
     }
 
     remote(held: ReadonlySet<RemoteButton>): void {
         if (held.size > 0 && this.state.source !== 'yours' && !this.hears) this.keep(held);
-        if (held.size > 0 && this.isYoursWithEdit) this.parts.strip.complain(TEXTS.editNoRemote, 'robot');
+        if (held.size > 0 && this.isYoursWithEdit) this.parts.messages.complain(TEXTS.editNoRemote, 'robot');
         this.keys.hold(held);
     }
 
@@ -64,7 +64,7 @@ export class Driving {
                 () => this.carryOut(),
                 (error: unknown) => {
                     this.wish = null;
-                    this.parts.strip.fail(error);
+                    this.parts.messages.fail(error);
                 },
             )
             .finally(() => (this.isBecoming = false));
@@ -86,9 +86,9 @@ export class Driving {
 
     /** To Edit they would be letters. */
     private send(packet: Uint8Array): void {
-        const { strip, simulated } = this.parts;
+        const { messages, simulated } = this.parts;
         if (this.isSimulated && this.hears) simulated.post({ kind: 'bytes', sender: 'remote', bytes: packet });
-        else if (!this.isSimulated && this.state.version?.image !== 'edit') void this.parts.connection().write(packet).catch(strip.fail);
+        else if (!this.isSimulated && this.state.version?.image !== 'edit') void this.parts.connection().write(packet).catch(messages.fail);
     }
 
     private get isYoursWithEdit(): boolean {
@@ -99,7 +99,7 @@ export class Driving {
         return this.state.source === 'simulated';
     }
 
-    private get state(): DeskState {
+    private get state(): SessionState {
         return this.parts.state.get();
     }
 }

@@ -19,7 +19,7 @@ import type { PageView } from '../model/page.ts';
 import type { Refusal, Result } from '../model/result.ts';
 import type { JointPair } from '../model/step-edits.ts';
 import type { EditName, Transaction } from '../model/transaction.ts';
-import type { CurveOptions, Editor, Gesture } from '../view/editor-desk.ts';
+import type { CurveOptions, Editor, Gesture } from '../view/session/editor.ts';
 import { Store } from '../view/store.ts';
 
 const CURVE_TICKS = 4096;

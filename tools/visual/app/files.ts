@@ -9,7 +9,7 @@ import type { FileFormats, NoRoom, Opened, Refused, Suffix } from '../model/file
 import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
 import { readPage } from '../model/page.ts';
 import { FILE_TEXTS } from '../view/texts/files.ts';
-import type { ChosenFile, Files, FilesState, LookedAt, SavedFile } from '../view/files-desk.ts';
+import type { ChosenFile, Files, FilesState, LookedAt, SavedFile } from '../view/session/files.ts';
 import { Store } from '../view/store.ts';
 import type { DocumentEditor } from './editor.ts';
 

@@ -2,14 +2,14 @@
 // The page's own versions: the browser keeps the one that is open (service-worker.js) and looks for a newer one when the page opens
 // and whenever somebody comes back to it. The newer one takes over when a person says so.
 
-import type { DeskState } from '../view/desk.ts';
+import type { SessionState } from '../view/session/session.ts';
 import type { Store } from '../view/store.ts';
 
 export class PageVersion {
-    private readonly state: Store<DeskState>;
+    private readonly state: Store<SessionState>;
     private registration: ServiceWorkerRegistration | null = null;
 
-    constructor(state: Store<DeskState>) {
+    constructor(state: Store<SessionState>) {
         this.state = state;
     }
 

@@ -14,9 +14,9 @@ import type { Curve } from '../model/motion.ts';
 import { heading, multiply, rotate, turn } from '../model/space.ts';
 import type { Place } from '../model/space.ts';
 import { Standing } from '../sim/standing.ts';
-import type { DeskState } from '../view/desk.ts';
-import type { Editor } from '../view/editor-desk.ts';
-import type { Figure, Preview, PreviewState, ShownPose } from '../view/preview-desk.ts';
+import type { SessionState } from '../view/session/session.ts';
+import type { Editor } from '../view/session/editor.ts';
+import type { Figure, Preview, PreviewState, ShownPose } from '../view/session/preview.ts';
 import { Store } from '../view/store.ts';
 
 /** The feet are followed so often: 64 times a second. */
@@ -28,7 +28,7 @@ const ORIGIN: Place = { pos: [0, 0, 0], quat: [1, 0, 0, 0] };
 export interface PreviewParts {
     readonly body: Body;
     readonly editor: Editor;
-    readonly state: Store<DeskState>;
+    readonly state: Store<SessionState>;
     /** Where the robot stands: there the motion begins. */
     trunk(): Place | null;
     /** The robot goes after the edited step: it moves, and the step is still what one looks at. */
@@ -36,7 +36,7 @@ export interface PreviewParts {
     /** A hand is standing the robot up: it moves, and a motion that is shown meanwhile is what one looks at. */
     isStoodUp(): boolean;
     /** `shownPage` of the state has changed. */
-    told(): void;
+    pageChanged(): void;
     /** Calls back once, at the next picture, with the time in milliseconds. */
     nextFrame(call: (nowMs: number) => void): void;
 }
@@ -234,6 +234,6 @@ export class MotionPreview implements Preview {
         const shownPage = figure === 'shown' ? page : null;
         if (this.parts.state.get().shownPage === shownPage) return;
         this.parts.state.set({ shownPage, shownName: this.parts.editor.page(page).name });
-        this.parts.told();
+        this.parts.pageChanged();
     }
 }

@@ -5,7 +5,7 @@
 import type { PageFormat } from '../model/page-format.ts';
 import { hasUnsavedEdits } from '../robot/page-requests.ts';
 import { RobotError } from '../robot/robot-error.ts';
-import type { DeskState, ImageName, Notice } from '../view/desk.ts';
+import type { SessionState, ImageName, Notice } from '../view/session/session.ts';
 import { PLAY_TEXTS } from '../view/texts/steps.ts';
 import type { Store } from '../view/store.ts';
 import type { SimulatedSource } from './simulated-source.ts';
@@ -13,11 +13,11 @@ import type { SimulatedSource } from './simulated-source.ts';
 const READY_MS = 180_000;
 
 export interface ImageParts {
-    readonly state: Store<DeskState>;
+    readonly state: Store<SessionState>;
     readonly format: PageFormat;
     /** The one whose image is meant. */
     robot(): Pick<SimulatedSource, 'restart' | 'forget' | 'prepare' | 'connection'>;
-    say(said: Notice): void;
+    say(message: Notice): void;
     fail(error: unknown): void;
 }
 
@@ -62,7 +62,7 @@ export class RobotImages {
         await this.parts.robot().prepare();
     }
 
-    private get state(): DeskState {
+    private get state(): SessionState {
         return this.parts.state.get();
     }
 

@@ -9,13 +9,13 @@ import { askPageCrcs } from '../robot/page-requests.ts';
 import { aim, askList, free, play, setAmplitude, setBlend, setLayer, setRate, swing } from '../robot/protocol.ts';
 import type { Requests } from '../robot/requests.ts';
 import { RobotError } from '../robot/robot-error.ts';
-import type { Beside, DeskState } from '../view/desk.ts';
+import type { Overlay, SessionState } from '../view/session/session.ts';
 import type { Store } from '../view/store.ts';
 import type { DocumentEditor } from './editor.ts';
 import type { RobotTransfer } from './transfer.ts';
 
 export interface PlayParts {
-    readonly state: Store<DeskState>;
+    readonly state: Store<SessionState>;
     readonly editor: DocumentEditor;
     readonly transfer: RobotTransfer;
     /** Throws RobotError not-connected when there is none. */
@@ -61,7 +61,7 @@ export class RobotPlays {
         await setBlend(requests, blend);
     }
 
-    async beside(what: Beside): Promise<void> {
+    async overlay(what: Overlay): Promise<void> {
         const { requests } = this;
         switch (what.kind) {
             case 'layer':

@@ -8,7 +8,7 @@ import { WebSerialPort } from '../robot/web-serial-port.ts';
 import { canRunServos } from '../servos/machine.ts';
 import type { FromServos, PortHint } from '../servos/messages.ts';
 import { ServosClient } from '../servos/servos-client.ts';
-import type { ImageName } from '../view/desk.ts';
+import type { ImageName } from '../view/session/session.ts';
 import { forgetServos, loadServos, saveServos } from '../view/robot-store.ts';
 import { TEXTS } from '../view/texts/robot.ts';
 import { motionLibrary, servosModule } from './assets.ts';
@@ -136,8 +136,8 @@ export class ServosSource {
 
     private take(message: FromServos): void {
         switch (message.kind) {
-            case 'told':
-                return this.say(message.sentence, 'calm');
+            case 'sentence':
+                return this.say(message.text, 'calm');
             case 'adapter':
                 return this.events.change({ adapter: message.isThere ? 'back' : 'out' });
             case 'ended': // a restart, as a board does it
@@ -155,7 +155,7 @@ export class ServosSource {
     }
 
     private say(text: string, tone: 'calm' | 'bad'): void {
-        this.events.change({ said: { text, tone } });
+        this.events.change({ message: { text, tone } });
     }
 
     private stop(why: string): void {

@@ -12,7 +12,7 @@ import { MOTIONS_ADDRESS } from '../sim/board.ts';
 import type { Images } from '../sim/machine.ts';
 import type { FromSim, ToSim } from '../sim/messages.ts';
 import { SimulatedRobot } from '../sim/robot-client.ts';
-import type { DeskState, ImageName } from '../view/desk.ts';
+import type { SessionState, ImageName } from '../view/session/session.ts';
 import { forgetRobot, loadRobot, saveRobot } from '../view/robot-store.ts';
 import type { KeptRobot } from '../view/robot-store.ts';
 import { TEXTS, violationText } from '../view/texts/robot.ts';
@@ -39,7 +39,7 @@ export interface SourceEvents {
     frame(state: RobotState): void;
     text(bytes: Uint8Array): void;
     connection(state: ConnectionState): void;
-    change(change: Partial<DeskState>): void;
+    change(change: Partial<SessionState>): void;
     /** What the robot in the page has in its flash: the 65,536 bytes of its motion pages. */
     motions(image: Uint8Array): void;
 }
@@ -65,7 +65,7 @@ export class SimulatedSource {
     private clock = new TickClock();
     /** Only one tab keeps what its robot saves: two would write over each other. */
     private readonly mayKeep = holdRobot();
-    private isSecondTold = false;
+    private isSecondShown = false;
     private readonly waiting: ((state: RobotState) => void)[] = [];
     connection: Connection | null = null;
 
@@ -98,7 +98,8 @@ export class SimulatedSource {
         return this.inTurn(async () => {
             const parts = await this.parts(image);
             await this.end();
-            if (await this.mayKeep) await forgetRobot(KEY).catch(() => this.events.change({ said: { text: TEXTS.notKept, tone: 'bad' } }));
+            if (await this.mayKeep)
+                await forgetRobot(KEY).catch(() => this.events.change({ message: { text: TEXTS.notKept, tone: 'bad' } }));
             this.begin(parts, null);
         });
     }
@@ -214,7 +215,7 @@ export class SimulatedSource {
             const { bodyXml, wasm } = await physics();
             robot.post({ kind: 'physics', bodyXml, wasm }, [wasm]);
         } catch {
-            this.events.change({ physics: 'off', said: { text: TEXTS.noPhysics, tone: 'bad' } });
+            this.events.change({ physics: 'off', message: { text: TEXTS.noPhysics, tone: 'bad' } });
         }
     }
 
@@ -231,7 +232,7 @@ export class SimulatedSource {
                 return this.events.change(
                     message.error === null
                         ? { physics: 'on' }
-                        : { physics: 'off', said: { text: `${TEXTS.noPhysics} (${message.error})`, tone: 'bad' } },
+                        : { physics: 'off', message: { text: `${TEXTS.noPhysics} (${message.error})`, tone: 'bad' } },
                 );
             case 'memories':
                 return void this.keep(message.memories);
@@ -256,14 +257,14 @@ export class SimulatedSource {
         await this.connection?.close();
         this.connection = null;
         robot?.dispose();
-        this.events.change({ physics: 'loading', speed: 1, version: null, where: null, said: null });
+        this.events.change({ physics: 'loading', speed: 1, version: null, where: null, message: null });
     }
 
     private async load(): Promise<KeptRobot | null> {
         try {
             return await loadRobot(KEY);
         } catch {
-            this.events.change({ said: { text: TEXTS.notKept, tone: 'bad' } });
+            this.events.change({ message: { text: TEXTS.notKept, tone: 'bad' } });
             return null;
         }
     }
@@ -274,12 +275,12 @@ export class SimulatedSource {
         try {
             await saveRobot(KEY, memories);
         } catch {
-            this.events.change({ said: { text: TEXTS.notKept, tone: 'bad' } });
+            this.events.change({ message: { text: TEXTS.notKept, tone: 'bad' } });
         }
     }
 
     private tellSecond(): void {
-        if (!this.isSecondTold) this.events.change({ said: { text: TEXTS.secondRobot, tone: 'bad' } });
-        this.isSecondTold = true;
+        if (!this.isSecondShown) this.events.change({ message: { text: TEXTS.secondRobot, tone: 'bad' } });
+        this.isSecondShown = true;
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which robot stands on the desk: the one in the page, yours, or your servos with a program in the page. The one in the page waits
+// Which robot is used: the one in the page, yours, or your servos with a program in the page. The one in the page waits
 // meanwhile.
 
 import type { Body } from '../model/body.ts';
@@ -8,7 +8,7 @@ import type { Connection } from '../robot/connection.ts';
 import { askWhere, command } from '../robot/protocol.ts';
 import type { Where } from '../robot/protocol.ts';
 import { RobotError } from '../robot/robot-error.ts';
-import type { DeskState } from '../view/desk.ts';
+import type { SessionState } from '../view/session/session.ts';
 import type { Store } from '../view/store.ts';
 import type { DocumentEditor } from './editor.ts';
 import { ServosSource } from './servos-source.ts';
@@ -17,7 +17,7 @@ import type { SourceEvents } from './simulated-source.ts';
 import { YourSource } from './your-source.ts';
 
 export interface SourcesParts {
-    readonly state: Store<DeskState>;
+    readonly state: Store<SessionState>;
     readonly editor: DocumentEditor;
     readonly events: Omit<SourceEvents, 'motions'>;
     /** Whether the page may ask a robot something by itself. */
@@ -37,7 +37,7 @@ export class RobotSources {
     /** What the robot in the page has in its flash. */
     private inPage: readonly Uint8Array[] = [];
     /** What is said of it, and comes back with it. */
-    private ofPage: Pick<DeskState, 'image' | 'stopped'> = { image: 'play', stopped: null };
+    private ofPage: Pick<SessionState, 'image' | 'stopped'> = { image: 'play', stopped: null };
     private wasHidden = false;
 
     constructor(body: Body, parts: SourcesParts) {
@@ -56,7 +56,7 @@ export class RobotSources {
         return this.parts.state.get().source === 'simulated';
     }
 
-    /** To the robot on the desk. Throws RobotError not-connected when there is none. */
+    /** To the robot in use. Throws RobotError not-connected when there is none. */
     get connection(): Connection {
         const { connection } = this.current;
         if (!connection) throw new RobotError('not-connected');
@@ -83,7 +83,7 @@ export class RobotSources {
         this.yours.connect();
     }
 
-    /** Rejects never: what went wrong is said, and the robot on the desk stays. */
+    /** Rejects never: what went wrong is said, and the robot in use stays. */
     async connectServos(): Promise<void> {
         try {
             if (!(await this.servos.choose())) return; // the chooser was closed: no error

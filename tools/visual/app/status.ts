@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What the page asks of a robot by itself, again and again, and the sentence in the strip that says what it does. It also has Edit draw its
+// What the page asks of a robot by itself, again and again, and the sentence in the status bar that says what it does. It also has Edit draw its
 // screen for a terminal that has just been opened, or has another size.
 
 import type { Connection } from '../robot/connection.ts';
 import { TICKS_PER_SECOND } from '../model/motion.ts';
 import { askWhere } from '../robot/protocol.ts';
 import { RobotError } from '../robot/robot-error.ts';
-import type { DeskState, TerminalSize } from '../view/desk.ts';
+import type { SessionState, TerminalSize } from '../view/session/session.ts';
 import type { Store } from '../view/store.ts';
 import { doingText } from '../view/texts/robot.ts';
 
@@ -17,7 +17,7 @@ const ROWS_LEAST = 24;
 const START_TICKS = 10 * TICKS_PER_SECOND;
 
 export interface StatusParts {
-    readonly state: Store<DeskState>;
+    readonly state: Store<SessionState>;
     /** Throws RobotError not-connected when there is none. */
     connection(): Connection;
     /** Pages are being written: a question in between would only cost time. */
@@ -56,7 +56,7 @@ export class Status {
         }
     }
 
-    /** The strip says what the robot does now. */
+    /** The status bar says what the robot does now. */
     tell(): void {
         const { stopped, connection, where } = this.state;
         const tone =
@@ -95,7 +95,7 @@ export class Status {
         void connection.write(new TextEncoder().encode(reports)).catch(() => undefined); // a lost line has no screen
     }
 
-    private get state(): DeskState {
+    private get state(): SessionState {
         return this.parts.state.get();
     }
 

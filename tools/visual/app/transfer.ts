@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pages between the document and the robot on the desk: read with as little talk as can be, a backup before anything is
+// Pages between the document and the robot in use: read with as little talk as can be, a backup before anything is
 // written, written with an account (robot/page-write.ts), and gone on with after a pulled cable.
 //
 //   idle --read--> reading --> idle             idle --write--> writing --> written
@@ -15,7 +15,7 @@ import { PageWrite } from '../robot/page-write.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { Requests } from '../robot/requests.ts';
 import { errorText } from '../view/texts/robot.ts';
-import type { Transfer, TransferEnd, TransferState } from '../view/transfer-desk.ts';
+import type { Transfer, TransferEnd, TransferState } from '../view/session/transfer.ts';
 import { Store } from '../view/store.ts';
 
 export interface TransferParts {
@@ -49,7 +49,7 @@ export class RobotTransfer implements Transfer {
         return this.state.get().phase === 'writing';
     }
 
-    /** Keeps pages as a backup of the robot on the desk. Rejects with RobotError. */
+    /** Keeps pages as a backup of the robot in use. Rejects with RobotError. */
     keep(pages: readonly Uint8Array[]): Promise<void> {
         return this.parts.backUp(pages);
     }

@@ -8,7 +8,7 @@ import { deepestTouches, posesOf, verdictOf } from '../model/trial.ts';
 import type { StepTouch, Touch, TrialRecord, TrialRequest } from '../model/trial.ts';
 import type { TrialClient } from '../sim/trial-client.ts';
 import { Store } from '../view/store.ts';
-import type { Trials, TrialsState } from '../view/trial-desk.ts';
+import type { Trials, TrialsState } from '../view/session/trials.ts';
 import type { DocumentEditor } from './editor.ts';
 
 /** A motion that goes round is told to stop then: 6 s. */

@@ -70,23 +70,23 @@ function strange(request: string, answer: string): RobotError {
 
 export async function askVersion(requests: Requests, options?: RequestOptions): Promise<Version> {
     const answer = await requests.ask('@ver', options);
-    const said = fields(answer);
-    const image = said.get('image');
+    const values = fields(answer);
+    const image = values.get('image');
     if (!image) throw strange('@ver', answer);
     return {
         image,
-        version: said.get('version') ?? '',
-        board: said.get('board') ?? '',
-        protocol: Number(said.get('protocol') ?? 0),
-        can: new Set((said.get('can') ?? '').split(',')),
+        version: values.get('version') ?? '',
+        board: values.get('board') ?? '',
+        protocol: Number(values.get('protocol') ?? 0),
+        can: new Set((values.get('can') ?? '').split(',')),
     };
 }
 
 export async function askWhere(requests: Requests, options?: RequestOptions): Promise<Where> {
     const answer = await requests.ask('@where', options);
-    const said = fields(answer);
-    const number = (name: string): number => Number(said.get(name) ?? 0);
-    const state = said.get('state') ?? '';
+    const values = fields(answer);
+    const number = (name: string): number => Number(values.get(name) ?? 0);
+    const state = values.get('state') ?? '';
     if (!STATES.includes(state)) throw strange('@where', answer);
     return {
         state: state as PlayState,
@@ -95,8 +95,8 @@ export async function askWhere(requests: Requests, options?: RequestOptions): Pr
         repetition: number('repetition'),
         code: number('code'),
         batteryVolts: number('dv') / 10,
-        faulty: Number.parseInt(said.get('faulty') ?? '0', 16),
-        fields: said,
+        faulty: Number.parseInt(values.get('faulty') ?? '0', 16),
+        fields: values,
     };
 }
 

@@ -22,7 +22,7 @@ export interface MachineParts {
     isAskedToEnd(): boolean;
     typed(to: Uint8Array): number;
     printed(bytes: Uint8Array): void;
-    told(sentence: string): void;
+    sentence(text: string): void;
     readonly kept: Memories;
     /** Resolves when the memories are kept; false: they are not. */
     keep(memories: readonly Uint8Array[]): Promise<boolean>;
@@ -81,7 +81,7 @@ export async function runProgram(module: WebAssembly.Module, parts: MachineParts
         machine_buttons: () => 0,
         machine_tell: (at: number) => {
             const memory = new Uint8Array(api.memory.buffer);
-            parts.told(new TextDecoder().decode(memory.slice(at, memory.indexOf(0, at))));
+            parts.sentence(new TextDecoder().decode(memory.slice(at, memory.indexOf(0, at))));
         },
         machine_recall: (memory: number, at: number, count: number) => {
             const kept = parts.kept[memory];

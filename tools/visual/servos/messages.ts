@@ -23,7 +23,7 @@ export type FromServos =
     /** The port cannot be opened: nothing runs. */
     | { readonly kind: 'refused'; readonly text: string }
     | { readonly kind: 'bytes'; readonly bytes: Uint8Array }
-    | { readonly kind: 'told'; readonly sentence: string }
+    | { readonly kind: 'sentence'; readonly text: string }
     | { readonly kind: 'adapter'; readonly isThere: boolean }
     /** Keep this, then say `kept`: the program waits for it. */
     | { readonly kind: 'keep'; readonly id: number; readonly memories: readonly Uint8Array[] }

@@ -54,7 +54,7 @@ async function start({ module, kept, port }: Extract<ToServos, { kind: 'start' }
         isAskedToEnd: () => isAskedToEnd,
         typed: to => take(to),
         printed: bytes => tell({ kind: 'bytes', bytes }, [bytes.buffer]),
-        told: sentence => tell({ kind: 'told', sentence }),
+        sentence: text => tell({ kind: 'sentence', text }),
         keep: memories =>
             new Promise(resolve => {
                 const id = nextId++;

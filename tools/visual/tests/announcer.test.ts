@@ -2,7 +2,7 @@
 // What a screen reader hears of a robot that walks for 12 seconds, falls and is told that something cannot be.
 import { expect, test, vi } from 'vitest';
 import { Announcer } from '../view/announcer.ts';
-import type { DeskState } from '../view/desk.ts';
+import type { SessionState } from '../view/session/session.ts';
 import { GetUp } from '../view/get-up.ts';
 
 const START = {
@@ -12,7 +12,7 @@ const START = {
     isLate: false,
     stopped: null,
     shownPage: null,
-    said: null,
+    message: null,
     version: { image: 'play' },
     doing: { text: 'x', tone: 'calm' },
     where: null,
@@ -21,37 +21,40 @@ const START = {
         { page: 21, name: 'walk_r' },
         { page: 22, name: 'walk_l' },
     ],
-} as unknown as DeskState;
-const at = (state: string, page: number, step: number): DeskState => ({ ...START, where: { state, page, step } }) as DeskState;
+} as unknown as SessionState;
+const at = (state: string, page: number, step: number): SessionState => ({ ...START, where: { state, page, step } }) as SessionState;
 
 function heard() {
     vi.useFakeTimers();
-    const said: (readonly [number, string])[] = [];
+    const message: (readonly [number, string])[] = [];
     const began = Date.now();
-    const announcer = new Announcer({ say: text => said.push([Date.now() - began, text]), after: (ms, call) => void setTimeout(call, ms) });
-    return { announcer, said };
+    const announcer = new Announcer({
+        say: text => message.push([Date.now() - began, text]),
+        after: (ms, call) => void setTimeout(call, ms),
+    });
+    return { announcer, message };
 }
 
 test('12 s of walking are two sentences: that it begins, and that it ends', async () => {
-    const { announcer, said } = heard();
+    const { announcer, message } = heard();
     announcer.look(at('idle', 0, 0), '');
     for (let i = 0; i < 40; i++) {
         announcer.look(at(i === 0 ? 'approach' : 'playing', i < 3 ? 20 : 21 + (i % 2), 1 + (i % 4)), '');
         await vi.advanceTimersByTimeAsync(300);
     }
     announcer.look(at('idle', 0, 0), '');
-    expect(said.map(([, text]) => text)).toEqual(['Plays page 20 (walk).', 'The robot stands and waits.']);
+    expect(message.map(([, text]) => text)).toEqual(['Plays page 20 (walk).', 'The robot stands and waits.']);
 });
 
 test('a fall and what went wrong are said, at most one sentence a second, the newest two', async () => {
-    const { announcer, said } = heard();
+    const { announcer, message } = heard();
     announcer.look(at('playing', 20, 1), '');
     announcer.look(at('playing', 20, 1), 'The robot lies on the floor.');
     announcer.look(at('idle', 0, 0), 'The robot lies on the floor.');
-    announcer.look({ ...at('idle', 0, 0), said: { text: 'The robot refused.', tone: 'bad' } }, 'The robot lies on the floor.');
+    announcer.look({ ...at('idle', 0, 0), message: { text: 'The robot refused.', tone: 'bad' } }, 'The robot lies on the floor.');
     await vi.advanceTimersByTimeAsync(5000);
-    expect(said.map(([, text]) => text)).toEqual(['Plays page 20 (walk).', 'The robot stands and waits.', 'The robot refused.']);
-    const times = said.map(([ms]) => ms);
+    expect(message.map(([, text]) => text)).toEqual(['Plays page 20 (walk).', 'The robot stands and waits.', 'The robot refused.']);
+    const times = message.map(([ms]) => ms);
     for (const [i, ms] of times.slice(1).entries()) expect(ms - (times[i] ?? 0)).toBeGreaterThanOrEqual(1000);
 });
 

@@ -2,7 +2,7 @@
 // What the status bar says of a robot in the page that starts, that has no power, and that does not start.
 import { expect, test, vi } from 'vitest';
 import { Status } from '../app/status.ts';
-import type { DeskState } from '../view/desk.ts';
+import type { SessionState } from '../view/session/session.ts';
 import { Store } from '../view/store.ts';
 import { doingText } from '../view/texts/robot.ts';
 
@@ -15,7 +15,7 @@ const START = {
     version: null,
     shownPage: null,
     pages: [],
-} as unknown as DeskState;
+} as unknown as SessionState;
 
 test.each(['closed', 'opening', 'asking', 'silent', 'waiting'] as const)(
     '%s: the robot in the page starts, and nothing is wrong',
@@ -39,7 +39,7 @@ test('one that never answers, and yours: what to do', () => {
 
 test('a slow computer is no silent robot: it is late by its own time alone', () => {
     vi.useFakeTimers();
-    const state = new Store<DeskState>({ ...START, connection: 'silent' });
+    const state = new Store<SessionState>({ ...START, connection: 'silent' });
     const status = new Status({
         state,
         connection: () => {

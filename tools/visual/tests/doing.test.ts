@@ -2,10 +2,10 @@
 // The sentence about what the robot does, for Edit: it has to stay as long as it is true, because who starts Edit looks for its screen.
 import { expect, test } from 'vitest';
 import type { PlayState, Where } from '../robot/protocol.ts';
-import type { DeskState } from '../view/desk.ts';
+import type { SessionState } from '../view/session/session.ts';
 import { doingText } from '../view/texts/robot.ts';
 
-const state = (image: string): DeskState =>
+const state = (image: string): SessionState =>
     ({
         source: 'simulated',
         connection: 'ready',
@@ -14,7 +14,7 @@ const state = (image: string): DeskState =>
         stopped: null,
         pages: [{ page: 2, name: 'bow', steps: 3, fault: '' }],
         version: { image },
-    }) as unknown as DeskState;
+    }) as unknown as SessionState;
 const where = (now: PlayState): Where => ({ state: now, page: 2, step: 1 }) as Where;
 
 test('Edit says where its screen is, before its first answer and after it, until something plays', () => {

@@ -2,11 +2,11 @@
 // A key that is pressed before the robot can do it: kept, carried out when it can, and never in the air.
 import { expect, test, vi } from 'vitest';
 import { Driving } from '../app/driving.ts';
-import { Strip } from '../app/strip.ts';
+import { StatusMessages } from '../app/status-messages.ts';
 import { remotePacket } from '../robot/remote.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
-import type { DeskState } from '../view/desk.ts';
+import type { SessionState } from '../view/session/session.ts';
 import { Store } from '../view/store.ts';
 
 const PLAYS = {
@@ -15,12 +15,12 @@ const PLAYS = {
     connection: 'ready',
     version: { image: 'play' },
     pages: [],
-    said: null,
-} as unknown as DeskState;
+    message: null,
+} as unknown as SessionState;
 
-function driven(start: Partial<DeskState>, isHeld = false) {
+function driven(start: Partial<SessionState>, isHeld = false) {
     vi.useFakeTimers();
-    const state = new Store<DeskState>({ ...PLAYS, ...start });
+    const state = new Store<SessionState>({ ...PLAYS, ...start });
     const sent: Uint8Array[] = [];
     const simulated = { isHeld, post: (message: { kind: string; bytes?: Uint8Array }) => void (message.bytes && sent.push(message.bytes)) };
     let stand = (): void => undefined;
@@ -32,10 +32,10 @@ function driven(start: Partial<DeskState>, isHeld = false) {
             [stand, refuse] = [resolve, reject];
         });
     };
-    const strip = new Strip(state);
+    const messages = new StatusMessages(state);
     const driving = new Driving({
         state,
-        strip,
+        messages,
         simulated,
         connection: () => {
             throw new RobotError('not-connected');
@@ -49,7 +49,7 @@ function driven(start: Partial<DeskState>, isHeld = false) {
         stand();
         await vi.advanceTimersByTimeAsync(0);
     };
-    return { press, becomes, sent, refuse: (error: Error) => refuse(error), asked: () => asked, said: () => state.get().said };
+    return { press, becomes, sent, refuse: (error: Error) => refuse(error), asked: () => asked, message: () => state.get().message };
 }
 
 test('a robot that stands hears a key at once', () => {
@@ -63,7 +63,7 @@ test.each([
     ['while it runs Edit', { image: 'edit', version: { image: 'edit' } }, false],
     ['while it starts', { connection: 'asking', version: null }, false],
 ] as const)('tapped %s: sent and let go when the robot can do it, not before', async (_, start, isHeld) => {
-    const { press, becomes, sent, asked } = driven(start as unknown as Partial<DeskState>, isHeld);
+    const { press, becomes, sent, asked } = driven(start as unknown as Partial<SessionState>, isHeld);
     press('up');
     press();
     await vi.advanceTimersByTimeAsync(3000);
@@ -86,11 +86,11 @@ test('the last of several keys counts; one that is still held goes on by itself'
 });
 
 test('when the robot refuses, the key is dropped with a word', async () => {
-    const { press, refuse, sent, said } = driven({ image: 'edit' });
+    const { press, refuse, sent, message } = driven({ image: 'edit' });
     press('up');
     press();
     refuse(new RobotError('page-unsaved'));
     await vi.advanceTimersByTimeAsync(1000);
     expect(sent).toEqual([]);
-    expect(said()?.text).toMatch(/edits that are not saved/);
+    expect(message()?.text).toMatch(/edits that are not saved/);
 });

@@ -129,7 +129,7 @@ export class FakeServos {
             printed: bytes => {
                 this.text += new TextDecoder('latin1').decode(bytes);
             },
-            told: sentence => void this.said.push(sentence),
+            sentence: text => void this.said.push(text),
             kept: this.options.kept ?? [null, null, null],
             keep: memories => {
                 this.written.push(memories);

@@ -56,7 +56,7 @@ test.each(Object.keys(MAY))('%s imports only what lies below it', folder => {
 test('an import upwards is found', () => {
     const file = resolve(ROOT, 'model/x.ts');
     expect(wrongImports('model', file, "import { a } from '../robot/port.ts';")).toHaveLength(1);
-    expect(wrongImports('robot', file, "import type { A } from '../view/desk.ts';")).toHaveLength(1);
+    expect(wrongImports('robot', file, "import type { A } from '../view/session/session.ts';")).toHaveLength(1);
     expect(wrongImports('view', file, "const x = await import('../sim/worker.ts');")).toHaveLength(1);
     expect(wrongImports('model', file, "import * as THREE from 'three';")).toHaveLength(1);
 });

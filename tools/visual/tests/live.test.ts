@@ -68,7 +68,7 @@ test.each(['play', 'edit'] as const)('%s: 20 poses a second and more, while the 
     follower.start();
     const SECONDS = 5;
     for (let ms = 0; ms < SECONDS * 1000; ms += 300) {
-        // app/desk.ts: WHERE_MS
+        // app/robot-session.ts: WHERE_MS
         void askWhere(connection.requests);
         await bench.run(300);
     }

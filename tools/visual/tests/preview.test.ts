@@ -7,7 +7,7 @@ import { MotionPreview } from '../app/preview.ts';
 import type { Body } from '../model/body.ts';
 import { AS_STORED } from '../model/motion.ts';
 import type { Where } from '../robot/protocol.ts';
-import type { DeskState } from '../view/desk.ts';
+import type { SessionState } from '../view/session/session.ts';
 import { Store } from '../view/store.ts';
 import { libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
 
@@ -19,7 +19,7 @@ const TRUNK = { pos: [2, 1, 0.3], quat: [Math.SQRT1_2, 0, 0, Math.SQRT1_2] } as 
 async function shown() {
     const events = { changed: () => undefined, refused: () => undefined, opened: () => undefined };
     const editor = new DocumentEditor(body, { format, player: await makeMotion(), document: await libraryDocument() }, events);
-    const state = new Store<DeskState>({ where: null, shownPage: null } as DeskState);
+    const state = new Store<SessionState>({ where: null, shownPage: null } as SessionState);
     const hand = { holds: false };
     let frames: ((nowMs: number) => void)[] = [];
     let nowMs = 1000;
@@ -30,7 +30,7 @@ async function shown() {
         trunk: () => TRUNK,
         isFollowing: () => false,
         isStoodUp: () => hand.holds,
-        told: () => undefined,
+        pageChanged: () => undefined,
         nextFrame: call => void frames.push(call),
     });
     const pass = (ms: number): void => {

@@ -272,7 +272,7 @@ test('a play is shaped, and shaped back', async () => {
 test('beside a play: a page laid over the walk, a joint aimed, one swung, all given back; what cannot be is refused and changes nothing', async () => {
     const { bench, connection } = await ready('play', 27);
     const { requests } = connection;
-    const beside = async (): Promise<(string | undefined)[]> => {
+    const overlay = async (): Promise<(string | undefined)[]> => {
         const { fields } = await bench.until(askWhere(requests));
         return ['layer', 'aim'].map(name => fields.get(name));
     };
@@ -286,16 +286,16 @@ test('beside a play: a page laid over the walk, a joint aimed, one swung, all gi
     await bench.until(play(requests, 20));
     for (let i = 0; i < 40 && (await bench.until(askWhere(requests))).state !== 'playing'; i++) await bench.run(250);
     await bench.until(setLayer(requests, 60));
-    expect(await beside()).toEqual(['60', '00000000']);
+    expect(await overlay()).toEqual(['60', '00000000']);
     await bench.until(setLayer(requests, null));
     await bench.until(aim(requests, 2, 600, 90));
     await bench.until(swing(requests, 6, 512, 40, 2000));
-    expect((await beside())[1]).toBe('00000044'); // bits 2 and 6
+    expect((await overlay())[1]).toBe('00000044'); // bits 2 and 6
     expect(await refused(swing(requests, 6, 1000, 100, 2000))).toBe('refused'); // leaves 0..1023
     expect(await refused(setLayer(requests, 126))).toBe('refused'); // no such page
-    expect((await beside())[1]).toBe('00000044');
+    expect((await overlay())[1]).toBe('00000044');
     await bench.until(free(requests, [2]));
     await bench.until(free(requests));
-    expect((await beside())[1]).toBe('00000000');
+    expect((await overlay())[1]).toBe('00000000');
     expect((await bench.until(askWhere(requests))).state).toBe('playing');
 });

@@ -6,7 +6,7 @@ import { RobotTransfer } from '../app/transfer.ts';
 import { DocumentEditor } from '../app/editor.ts';
 import type { MotionDocument } from '../model/document.ts';
 import { readPage, writePage } from '../model/page.ts';
-import type { DeskState } from '../view/desk.ts';
+import type { SessionState } from '../view/session/session.ts';
 import { Store } from '../view/store.ts';
 import { connected } from './connected.ts';
 import { libraryDocument, makeFormat, makeMotion, must } from './motion-bench.ts';
@@ -42,7 +42,7 @@ async function yours(image: 'play' | 'edit', document: MotionDocument, seed: num
         becomeEdit: () => Promise.resolve(),
         backUp: () => Promise.resolve(),
     });
-    const state = new Store({ source: 'yours' } as DeskState);
+    const state = new Store({ source: 'yours' } as SessionState);
     const plays = new RobotPlays({ state, editor, transfer, connection: () => connection, prepare: () => Promise.resolve() });
     return { bench, plays, transfer, played: () => sent.flatMap(bytes => bytes.match(/@play \d+/g) ?? []) };
 }
@@ -86,6 +86,6 @@ test('what somebody has changed in the robot since it was read does not play', a
 
 test('a page is laid over a play only as the document has it', async () => {
     const { bench, plays } = await yours('play', changed(WAVE), 65);
-    const lay = plays.beside({ kind: 'layer', page: WAVE, joints: [] });
+    const lay = plays.overlay({ kind: 'layer', page: WAVE, joints: [] });
     await expect(bench.until(lay)).rejects.toMatchObject({ code: 'layer-differs' });
 });

@@ -4,7 +4,7 @@
 
 import type { PageEntry } from '../robot/protocol.ts';
 import type { RobotState } from '../robot/robot-state.ts';
-import type { Desk, DeskState } from './desk.ts';
+import type { Session, SessionState } from './session/session.ts';
 import { onChoice } from './choice.ts';
 import { define, keepFocus, make } from './element.ts';
 import { GetUp } from './get-up.ts';
@@ -24,7 +24,7 @@ const BUTTONS: readonly (readonly [string, string, 'lesser'?])[] = [
 const GET_UP = { face: 'get_up', back: 'get_up_back' };
 
 export class ActionBar extends HTMLElement {
-    desk!: Desk; // set before it is connected
+    session!: Session; // set before it is connected
     private shown = '';
     private readonly getUp = make(
         'button',
@@ -33,7 +33,7 @@ export class ActionBar extends HTMLElement {
     );
     private readonly letGo = make(
         'button',
-        { title: 'The hand that holds the robot lets go of it', onclick: () => this.desk.lab.hold(false) },
+        { title: 'The hand that holds the robot lets go of it', onclick: () => this.session.sim.hold(false) },
         'Let go',
     );
     private readonly gettingUp = new GetUp(motion => this.playNamed(GET_UP[motion]));
@@ -44,8 +44,8 @@ export class ActionBar extends HTMLElement {
         this.setAttribute('role', 'toolbar');
         this.setAttribute('aria-label', 'Motions');
         this.disposals.push(
-            this.desk.state.watch(state => this.render(state)),
-            this.desk.onFrame(frame => this.look(frame)),
+            this.session.state.watch(state => this.render(state)),
+            this.session.onFrame(frame => this.look(frame)),
         );
     }
 
@@ -53,7 +53,7 @@ export class ActionBar extends HTMLElement {
         for (const dispose of this.disposals.splice(0)) dispose();
     }
 
-    private render(state: DeskState): void {
+    private render(state: SessionState): void {
         const isReady = state.connection === 'ready';
         const key = `${isReady} ${state.source} ${state.pages.map(({ page, name, steps }) => `${page}:${name}:${steps}`).join()}`;
         if (key === this.shown) return;
@@ -61,7 +61,7 @@ export class ActionBar extends HTMLElement {
         const byName = new Map(state.pages.map(page => [page.name, page]));
         const plays = (name: string, title: string, kind = ''): HTMLButtonElement[] => {
             const page = byName.get(name);
-            return page ? [this.button(title, isReady, () => this.desk.play(page.page), kind)] : [];
+            return page ? [this.button(title, isReady, () => this.session.play(page.page), kind)] : [];
         };
         keepFocus(this, () =>
             this.replaceChildren(
@@ -84,16 +84,16 @@ export class ActionBar extends HTMLElement {
 
     private stop(): Promise<void> {
         this.gettingUp.stop();
-        return this.desk.command('stop');
+        return this.session.command('stop');
     }
 
     private look(frame: RobotState | null): void {
         this.frame = frame;
-        const { where } = this.desk.state.get();
+        const { where } = this.session.state.get();
         if (frame) this.gettingUp.look(where !== null && where.state !== 'idle', frame.trunk, frame.hasFallen);
         const lies = frame?.hasFallen === true && frame.isPowered;
         this.letGo.disabled = frame?.isHeld !== true;
-        this.getUp.disabled = !lies || this.desk.state.get().connection !== 'ready' || !frame?.isPowered;
+        this.getUp.disabled = !lies || this.session.state.get().connection !== 'ready' || !frame?.isPowered;
         this.getUp.classList.toggle('wanted', lies);
     }
 
@@ -102,8 +102,8 @@ export class ActionBar extends HTMLElement {
     }
 
     private playNamed(wanted: string): void {
-        const page = this.desk.state.get().pages.find(({ name }) => name === wanted);
-        if (page) void this.desk.play(page.page);
+        const page = this.session.state.get().pages.find(({ name }) => name === wanted);
+        if (page) void this.session.play(page.page);
     }
 
     private button(title: string, isReady: boolean, deed: () => Promise<void>, kind = ''): HTMLButtonElement {
@@ -120,7 +120,7 @@ export class ActionBar extends HTMLElement {
             ...options,
         );
         onChoice(list, page => {
-            if (page !== '') void this.desk.play(Number(page));
+            if (page !== '') void this.session.play(Number(page));
             list.value = '';
         });
         return list;

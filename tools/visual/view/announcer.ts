@@ -2,7 +2,7 @@
 // What a screen reader is told of the robot: that it starts, ends, falls, is held, and what went wrong; at most one sentence a second.
 // The status bar changes at every step of a motion, which nobody can listen to.
 
-import type { DeskState } from './desk.ts';
+import type { SessionState } from './session/session.ts';
 import { startText } from './texts/robot.ts';
 
 export const ANNOUNCE_MS = 1000;
@@ -26,13 +26,13 @@ export class Announcer {
     }
 
     /** fallen: what is said of a robot that lies or is held; '' when it stands. */
-    look(state: DeskState, fallen: string): void {
+    look(state: SessionState, fallen: string): void {
         const moves = state.where !== null && state.where.state !== 'idle' && state.where.state !== 'ready';
         if (moves !== this.isMoving) this.tell(startText(state));
         this.isMoving = moves;
         if (fallen !== this.lastFallen && fallen !== '') this.tell(fallen);
         this.lastFallen = fallen;
-        const trouble = state.said?.tone === 'bad' ? state.said.text : state.connection === 'ready' ? '' : state.doing.text;
+        const trouble = state.message?.tone === 'bad' ? state.message.text : state.connection === 'ready' ? '' : state.doing.text;
         if (trouble !== this.lastTrouble && trouble !== '') this.tell(trouble);
         this.lastTrouble = trouble;
     }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The page: head, picture, areas in tabs, strip.
+// The page: head, picture, areas in tabs, messages.
 
 import { ActionBar } from './action-bar.ts';
 import { AreaTabs } from './area-tabs.ts';
-import type { Desk, DeskState, Tab } from './desk.ts';
+import type { Session, SessionState, Tab } from './session/session.ts';
 import { FilesMenu } from './editor/files-menu.ts';
 import { CurvesPane } from './editor/curves-pane.ts';
 import { EDITING_START } from './editor/editing.ts';
@@ -22,11 +22,11 @@ import { SentCard } from './editor/sent-card.ts';
 import { TourCard } from './editor/tour.ts';
 import { FirstMinute } from './first-minute.ts';
 import { KeysDialog } from './keys-dialog.ts';
-import { LabPane } from './lab-pane.ts';
+import { RobotPane } from './robot-pane.ts';
 import { MoreMenu } from './more-menu.ts';
 import { RemotePad } from './remote-pad.ts';
 import { RobotView } from './robot-view.ts';
-import { StatusStrip } from './status-strip.ts';
+import { StatusBar } from './status-bar.ts';
 import { Store } from './store.ts';
 import { TerminalPane } from './terminal-pane.ts';
 import { TEXTS } from './texts/robot.ts';
@@ -36,18 +36,18 @@ import './app-shell.css';
 const EDITING: readonly Tab[] = ['steps', 'curves', 'pages', 'links', 'checks'];
 
 export class AppShell extends HTMLElement {
-    desk!: Desk; // set before it is connected
+    session!: Session; // set before it is connected
     private readonly editing = new Store<Editing>(EDITING_START);
     private readonly shape = new Store<Shape>(AS_STORED);
     private readonly tabs = new AreaTabs();
     private readonly files = new FilesMenu();
     private readonly panels = new Map<Tab, HTMLElement>();
-    private readonly simulated = make('button', { onclick: () => this.desk.useSimulated() }, 'Robot in this page');
-    private readonly yours = make('button', { onclick: () => void this.desk.connectYours() }, 'Your robot …');
-    private readonly servos = make('button', { onclick: () => void this.desk.connectServos() }, 'My servos …');
+    private readonly simulated = make('button', { onclick: () => this.session.useSimulated() }, 'Robot in this page');
+    private readonly yours = make('button', { onclick: () => void this.session.connectYours() }, 'Your robot …');
+    private readonly servos = make('button', { onclick: () => void this.session.connectServos() }, 'My servos …');
     private readonly newVersion = make(
         'button',
-        { class: 'wanted', hidden: true, title: TEXTS.newVersion, onclick: () => this.desk.takeNewVersion() },
+        { class: 'wanted', hidden: true, title: TEXTS.newVersion, onclick: () => this.session.takeNewVersion() },
         'New version: reload',
     );
     private readonly editBar = new EditBar();
@@ -69,20 +69,20 @@ export class AppShell extends HTMLElement {
             margin: () => robot.margin,
             touches: () => robot.touches,
         });
-        const lab = this.give(new LabPane());
-        lab.onTilt = (front, left) => robot.tilt(front, left);
+        const robotPane = this.give(new RobotPane());
+        robotPane.onTilt = (front, left) => robot.tilt(front, left);
         this.addPanel('remote', Object.assign(this.give(new RemotePad()), { shape: this.shape }));
         this.addPanel('steps', Object.assign(this.give(new StepsPane()), { editing: this.editing }));
         const pages = this.give(new PagesPane());
         const compare = this.give(new CompareDialog());
         pages.onCompare = this.editBar.onTransfer = () => void compare.open();
-        this.addEventListener('open-steps', () => this.desk.show('steps'));
+        this.addEventListener('open-steps', () => this.session.show('steps'));
         this.addPanel('curves', Object.assign(this.give(new CurvesPane()), { shape: this.shape }));
         this.addPanel('pages', pages);
         this.addPanel('links', this.give(new LinksPane()));
         this.addPanel('checks', this.give(new ChecksPane()));
         this.addPanel('terminal', this.give(new TerminalPane()));
-        this.addPanel('lab', lab);
+        this.addPanel('robot', robotPane);
         const tour = Object.assign(this.give(new TourCard()), { editing: this.editing, placeOf: (shape: string) => robot.placeOf(shape) });
         this.startTour = () => tour.start();
         tour.onArea = () => this.foldSheet(false);
@@ -91,12 +91,12 @@ export class AppShell extends HTMLElement {
         const sent = this.give(new SentCard());
         sent.onSent = () => first.close(false);
         sent.onTeach = () => tour.teach();
-        this.tabs.onChoose = (tab, isClick) => (isClick ? this.choose(tab) : this.desk.show(tab));
+        this.tabs.onChoose = (tab, isClick) => (isClick ? this.choose(tab) : this.session.show(tab));
         this.areas.append(this.sheet, this.tabs, this.give(this.editBar), ...this.panels.values());
         this.replaceChildren(
             this.head(),
             make('main', {}, make('div', { class: 'stage' }, robot, poses, this.give(new ActionBar()), tour, sent, first), this.areas),
-            this.give(new StatusStrip()),
+            this.give(new StatusBar()),
             compare,
             this.keys.element,
         );
@@ -104,7 +104,7 @@ export class AppShell extends HTMLElement {
         const unlisten = this.keys.listen();
         const between = (event: KeyboardEvent): void => this.goBetween(event, robot);
         document.addEventListener('keydown', between);
-        const unwatch = this.desk.state.watch(state => this.render(state));
+        const unwatch = this.session.state.watch(state => this.render(state));
         this.unwatch = () => {
             unlisten();
             document.removeEventListener('keydown', between);
@@ -116,8 +116,8 @@ export class AppShell extends HTMLElement {
         this.unwatch();
     }
 
-    private give<T extends HTMLElement & { desk: Desk }>(element: T): T {
-        element.desk = this.desk;
+    private give<T extends HTMLElement & { session: Session }>(element: T): T {
+        element.session = this.session;
         return element;
     }
 
@@ -146,21 +146,21 @@ export class AppShell extends HTMLElement {
             { class: 'tour-start', title: 'Two minutes to the first motion', onclick: () => this.startTour() },
             'Tour',
         );
-        const skip = make('button', { class: 'skip', onclick: () => this.tabs.focusTab(this.desk.state.get().tab) }, 'To the areas');
+        const skip = make('button', { class: 'skip', onclick: () => this.tabs.focusTab(this.session.state.get().tab) }, 'To the areas');
         return make('header', {}, skip, make('h1', {}, 'Motion512'), this.newVersion, tour, more);
     }
 
     /** A button that the mouse has pressed does not keep the keys: beside the remote, the space bar is to stop and not to press it again. */
     private giveKeysBack(event: MouseEvent): void {
         const byMouse = event.detail > 0 && event.target instanceof Element;
-        if (byMouse && this.desk.state.get().tab === 'remote') event.target.closest('button')?.blur();
+        if (byMouse && this.session.state.get().tab === 'remote') event.target.closest('button')?.blur();
     }
 
     /** F6: from the picture to the area, and back. */
     private goBetween(event: KeyboardEvent, robot: RobotView): void {
         if (event.key !== 'F6' || event.ctrlKey || event.altKey || document.querySelector('dialog[open]')) return;
         event.preventDefault();
-        const { tab } = this.desk.state.get();
+        const { tab } = this.session.state.get();
         if (robot.contains(document.activeElement)) this.tabs.focusTab(tab);
         else robot.querySelector('canvas')?.focus();
     }
@@ -173,7 +173,7 @@ export class AppShell extends HTMLElement {
 
     private choose(name: Tab): void {
         this.foldSheet(false);
-        this.desk.show(name);
+        this.session.show(name);
     }
 
     private get isFolded(): boolean {
@@ -186,7 +186,7 @@ export class AppShell extends HTMLElement {
         this.sheet.setAttribute('aria-expanded', String(!folds));
     }
 
-    private render(state: DeskState): void {
+    private render(state: SessionState): void {
         // Whoever was in an area that goes with the keyboard is at the tab of the one that comes.
         const isLeft = [...this.panels].some(([name, panel]) => name !== state.tab && panel.contains(document.activeElement));
         this.editBar.hidden = !EDITING.includes(state.tab);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The tabs of the areas. On the first day there are two, and "More", which brings the others for good.
 
-import type { Tab } from './desk.ts';
+import type { Tab } from './session/session.ts';
 import { define, make } from './element.ts';
 import { isRemembered, remember } from './remembered.ts';
 import { AREA_TEXTS } from './texts/robot.ts';
 import './area-tabs.css';
 
-const TABS: readonly Tab[] = ['remote', 'steps', 'curves', 'pages', 'links', 'checks', 'terminal', 'lab'];
+const TABS: readonly Tab[] = ['remote', 'steps', 'curves', 'pages', 'links', 'checks', 'terminal', 'robot'];
 const FIRST_DAY: readonly Tab[] = ['remote', 'steps'];
 
 export class AreaTabs extends HTMLElement {

@@ -3,7 +3,7 @@
 // or key, and does not come back.
 
 import type { RobotState } from '../robot/robot-state.ts';
-import type { Desk } from './desk.ts';
+import type { Session } from './session/session.ts';
 import { define, make } from './element.ts';
 import { pushRobot } from './push.ts';
 import { isRemembered, remember } from './remembered.ts';
@@ -14,7 +14,7 @@ import './first-minute.css';
 const ON_THE_WAY: readonly string[] = ['Tab', 'Shift', 'Enter', ' ', 'Control', 'Alt', 'Meta', 'F6'];
 
 export class FirstMinute extends HTMLElement {
-    desk!: Desk; // these are set before it is connected
+    session!: Session; // these are set before it is connected
     /** Somebody wants to teach the robot. */
     onTeach: () => void = () => undefined;
     private readonly disposals: (() => void)[] = [];
@@ -69,23 +69,23 @@ export class FirstMinute extends HTMLElement {
 
     /** As the key of the remote that is pressed once: one that comes too early is kept. */
     private walk(): void {
-        this.desk.say({ text: FIRST_TEXTS.walks, tone: 'calm' });
-        this.desk.remote(new Set(['up']));
-        this.desk.remote(new Set());
+        this.session.say({ text: FIRST_TEXTS.walks, tone: 'calm' });
+        this.session.remote(new Set(['up']));
+        this.session.remote(new Set());
     }
 
     /** A robot that a hand still holds is pushed when the hand has let go. */
     private push(): void {
-        const stop = this.desk.onFrame(state => {
+        const stop = this.session.onFrame(state => {
             if (!this.mayBePushed(state)) return;
             stop();
-            pushRobot(this.desk, 1);
+            pushRobot(this.session, 1);
         });
-        this.desk.say({ text: FIRST_TEXTS.pushes, tone: 'calm' });
+        this.session.say({ text: FIRST_TEXTS.pushes, tone: 'calm' });
     }
 
     private mayBePushed({ isHeld, isPowered }: RobotState): boolean {
-        const { physics, connection, where } = this.desk.state.get();
+        const { physics, connection, where } = this.session.state.get();
         return physics !== 'loading' && connection === 'ready' && where !== null && !isHeld && isPowered;
     }
 }

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 // A push at the chest of the robot in the page: what a drag of the mouse at it does, by a key or a button.
 
-import type { Desk } from './desk.ts';
+import type { Session } from './session/session.ts';
 
 const PUSH_TICKS = 38; // 0.3 s
 const REACH_M = 0.2;
 const CHEST_M = 0.03; // above the middle of the trunk
 
 /** direction: 1 ahead, -1 back. Your robot is not pushed. */
-export function pushRobot(desk: Desk, direction: 1 | -1): void {
-    if (desk.state.get().source !== 'simulated') return;
-    const trunk = desk.body.links[0]?.name ?? 'trunk';
-    const stop = desk.onFrame(state => {
+export function pushRobot(session: Session, direction: 1 | -1): void {
+    if (session.state.get().source !== 'simulated') return;
+    const trunk = session.body.links[0]?.name ?? 'trunk';
+    const stop = session.onFrame(state => {
         stop();
         const [x, y, z] = state.trunk.pos;
-        desk.lab.pull({ link: trunk, point: [0, 0, CHEST_M], target: [x + direction * REACH_M, y, z + CHEST_M] }, PUSH_TICKS);
+        session.sim.pull({ link: trunk, point: [0, 0, CHEST_M], target: [x + direction * REACH_M, y, z + CHEST_M] }, PUSH_TICKS);
     });
 }

@@ -5,14 +5,14 @@
 import { wordOf } from '../robot/remote.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import type { Shape } from '../model/motion.ts';
-import type { Desk } from './desk.ts';
+import type { Session } from './session/session.ts';
 import { LayerBar } from './editor/layer-bar.ts';
 import { ShapeBar } from './editor/shape-bar.ts';
 import { define, make } from './element.ts';
 import type { Store } from './store.ts';
 import { REMOTE_TEXTS } from './texts/robot.ts';
 import { WaveButton } from './wave-button.ts';
-import { WayList } from './way-list.ts';
+import { KeyList } from './key-list.ts';
 import './remote-pad.css';
 
 const KEYS: Readonly<Record<string, RemoteButton>> = {
@@ -66,26 +66,26 @@ const BUTTONS: readonly (readonly [RemoteButton, string, string])[] = [
 ];
 
 export class RemotePad extends HTMLElement {
-    desk!: Desk; // these are set before it is connected
+    session!: Session; // these are set before it is connected
     shape!: Store<Shape>;
     private readonly held = { screen: new Set<RemoteButton>(), keys: new Set<RemoteButton>(), pad: new Set<RemoteButton>() };
     private readonly buttons = new Map<RemoteButton, HTMLButtonElement>();
-    private readonly ways = new WayList();
-    private told = '';
+    private readonly keyList = new KeyList();
+    private sent = '';
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         const pad = make('div', { class: 'pad', role: 'group', 'aria-label': REMOTE_TEXTS.title });
         for (const [name, sign, title] of BUTTONS) pad.append(this.button(name, sign, title));
-        this.ways.desk = this.desk;
-        const give = <T extends HTMLElement & { desk: Desk }>(element: T): T => Object.assign(element, { desk: this.desk });
+        this.keyList.session = this.session;
+        const give = <T extends HTMLElement & { session: Session }>(element: T): T => Object.assign(element, { session: this.session });
         const shape = Object.assign(give(new ShapeBar()), { shape: this.shape });
         this.replaceChildren(
             make('h2', {}, REMOTE_TEXTS.title),
             make('div', { class: 'drive' }, pad, make('div', { class: 'goes' }, shape, give(new WaveButton()))),
             make('p', { class: 'hint' }, REMOTE_TEXTS.keys),
-            this.ways,
-            make('details', { class: 'beside' }, make('summary', {}, REMOTE_TEXTS.beside), give(new LayerBar())),
+            this.keyList,
+            make('details', { class: 'overlay' }, make('summary', {}, REMOTE_TEXTS.beside), give(new LayerBar())),
             make('p', { class: 'hint' }, make('a', { href: './motions.html' }, REMOTE_TEXTS.motions)),
         );
         this.listen();
@@ -148,14 +148,14 @@ export class RemotePad extends HTMLElement {
         const isElsewhere =
             target?.closest('input, select, textarea, summary, terminal-pane, [role="tablist"]') !== null && target !== null;
         if (!name || event.ctrlKey || event.altKey || event.metaKey || (event.type === 'keydown' && event.shiftKey)) return; // Shift and the arrows turn the picture
-        if (event.type === 'keydown' && this.desk.state.get().tab !== 'remote') return; // elsewhere the arrows edit
+        if (event.type === 'keydown' && this.session.state.get().tab !== 'remote') return; // elsewhere the arrows edit
         if (event.type === 'keydown' && (isElsewhere || (event.code === 'Space' && target?.closest('button') && !this.isPlaying))) return; // a robot that moves is stopped
         event.preventDefault();
         this.change('keys', name, event.type === 'keydown');
     }
 
     private get isPlaying(): boolean {
-        const { where } = this.desk.state.get();
+        const { where } = this.session.state.get();
         return where !== null && where.state !== 'idle' && where.state !== 'ready';
     }
 
@@ -163,7 +163,7 @@ export class RemotePad extends HTMLElement {
     private readPad(pad: Gamepad | null): void {
         const [x = 0, y = 0] = pad?.axes ?? [];
         const now = PAD.filter(([index]) => pad?.buttons[index]?.pressed).map(([, name]) => name);
-        this.desk.drive(Math.hypot(x, y) < STICK_REST ? null : { x, y: -y });
+        this.session.drive(Math.hypot(x, y) < STICK_REST ? null : { x, y: -y });
         this.held.pad.clear();
         for (const name of now) this.held.pad.add(name);
         this.tell();
@@ -184,11 +184,11 @@ export class RemotePad extends HTMLElement {
     private tell(): void {
         const all = new Set([...this.held.screen, ...this.held.keys, ...this.held.pad]);
         const names = [...all].sort().join(' ');
-        if (names === this.told) return;
-        this.told = names;
+        if (names === this.sent) return;
+        this.sent = names;
         for (const [name, button] of this.buttons) button.setAttribute('aria-pressed', String(all.has(name)));
-        this.ways.light(this.desk.editor.format.remoteCode(wordOf(all)));
-        this.desk.remote(all);
+        this.keyList.light(this.session.editor.format.remoteCode(wordOf(all)));
+        this.session.remote(all);
     }
 }
 

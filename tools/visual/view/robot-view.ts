@@ -8,7 +8,7 @@ import type { Joint } from '../model/body.ts';
 import { limbTo } from '../model/ik.ts';
 import type { Touch } from '../model/trial.ts';
 import type { RobotState } from '../robot/robot-state.ts';
-import type { Desk } from './desk.ts';
+import type { Session } from './session/session.ts';
 import { EDITING_START } from './editor/editing.ts';
 import type { Editing } from './editor/editing.ts';
 import { PoseTool } from './editor/pose-tool.ts';
@@ -31,7 +31,7 @@ const FINGER_PX = 14;
 const AROUND = Array.from({ length: 8 }, (_, i) => (i * Math.PI) / 4);
 
 export class RobotView extends HTMLElement {
-    desk!: Desk; // set before it is connected
+    session!: Session; // set before it is connected
     /** Nobody has touched the picture since it was last looked at, and then there was nothing new to draw: the camera has come to rest. */
     isStill = false;
     editing = new Store<Editing>(EDITING_START);
@@ -54,17 +54,17 @@ export class RobotView extends HTMLElement {
     connectedCallback(): void {
         this.append(this.canvas, this.label, this.spoken);
         try {
-            this.scene = new RobotScene(this.canvas, this.desk.body);
+            this.scene = new RobotScene(this.canvas, this.session.body);
         } catch {
             this.replaceChildren(make('p', { class: 'no-picture' }, TEXTS.noWebGl));
             return;
         }
         this.quality = new PictureQuality(this.scene.isSoftware);
-        this.pose = new PoseTool(this.scene, this.desk, this.editing);
+        this.pose = new PoseTool(this.scene, this.session, this.editing);
         this.watchSize(this.scene);
         this.watchTheme(this.scene);
         this.listen();
-        this.disposals.push(this.desk.onFrame(state => (this.state = state)));
+        this.disposals.push(this.session.onFrame(state => (this.state = state)));
         this.drawFrames(this.scene);
     }
 
@@ -138,7 +138,7 @@ export class RobotView extends HTMLElement {
 
     /** Behind a robot that is driven, until a hand turns the camera: then as that hand has left it. */
     private chases(): boolean {
-        const { tab, where } = this.desk.state.get();
+        const { tab, where } = this.session.state.get();
         const isDriven = tab === 'remote' && where?.state === 'playing';
         if (!isDriven) this.isLookedRound = false;
         return isDriven && !this.isLookedRound && !matchMedia('(prefers-reduced-motion: reduce)').matches;
@@ -229,7 +229,7 @@ export class RobotView extends HTMLElement {
         if (event.button === 0 && this.pick(event) && this.state) this.pose?.showStep(this.state);
         const picked = event.button === 0 ? this.pick(event) : null;
         const isPosing = this.pose?.isPosing === true;
-        if (!picked || !this.scene || (!isPosing && this.desk.state.get().source !== 'simulated')) return;
+        if (!picked || !this.scene || (!isPosing && this.session.state.get().source !== 'simulated')) return;
         event.stopImmediatePropagation(); // the camera stays where it is
         event.preventDefault();
         this.canvas.focus({ preventScroll: true });
@@ -250,9 +250,9 @@ export class RobotView extends HTMLElement {
     /** Your hand. A limb that is being taught becomes limp under it. */
     private take(picked: Picked): void {
         this.grabbed = { ...picked, target: picked.world };
-        const limb = limbTo(this.desk.body, picked.link, picked.point).links.flatMap(({ joint }) => (joint ? [joint.servo] : []));
+        const limb = limbTo(this.session.body, picked.link, picked.point).links.flatMap(({ joint }) => (joint ? [joint.servo] : []));
         this.taught = limb.filter(servo => this.editing.get().taught.has(servo));
-        if (this.taught.length > 0) void this.desk.setTorque(false, this.taught);
+        if (this.taught.length > 0) void this.session.setTorque(false, this.taught);
     }
 
     private move(event: PointerEvent): void {
@@ -264,7 +264,7 @@ export class RobotView extends HTMLElement {
         if (!this.grabbed) return event.pointerType === 'touch' ? undefined : this.hover(event);
         const target = this.scene.drag(...this.at(event), this.grabbed.world);
         this.grabbed = { ...this.grabbed, target };
-        this.desk.lab.pull({ link: this.grabbed.link, point: this.grabbed.point, target });
+        this.session.sim.pull({ link: this.grabbed.link, point: this.grabbed.point, target });
     }
 
     /** keep: false takes back what a drag has changed. */
@@ -283,8 +283,8 @@ export class RobotView extends HTMLElement {
     /** What was taught holds first, so that it does not drop. */
     private async letGo(): Promise<void> {
         const isTaught = this.taught.some(servo => this.editing.get().taught.has(servo));
-        if (isTaught) await this.desk.setTorque(true, this.taught);
-        if (!this.grabbed) this.desk.lab.pull(null);
+        if (isTaught) await this.session.setTorque(true, this.taught);
+        if (!this.grabbed) this.session.sim.pull(null);
     }
 
     private hover(event: PointerEvent): void {
@@ -303,16 +303,16 @@ export class RobotView extends HTMLElement {
 
     /** The chosen joints, as the keys have turned them. */
     private speak(): void {
-        const { joints } = this.desk.editor.state.get();
+        const { joints } = this.session.editor.state.get();
         if (!this.pose?.isPosing || joints.size === 0) return;
-        const said = this.desk.body.joints
+        const spoken = this.session.body.joints
             .filter(({ servo }) => joints.has(servo))
             .map(joint => `${jointTitle(joint)}: ${this.standOf(joint)}`);
-        setText(this.spoken, said.join(', '));
+        setText(this.spoken, spoken.join(', '));
     }
 
     private showJoint(link: string | null): void {
-        const joint = this.desk.body.joints.find(one => one.body === link);
+        const joint = this.session.body.joints.find(one => one.body === link);
         this.label.hidden = !joint;
         if (joint) this.label.textContent = `${joint.servo} ${jointTitle(joint)}: ${this.standOf(joint)}`;
     }
@@ -327,7 +327,7 @@ export class RobotView extends HTMLElement {
         if (event.ctrlKey || event.altKey || event.metaKey) return;
         if (this.pose?.isPosing && this.pose.key(event)) event.preventDefault();
         else if (event.key === 'Escape') this.release(false);
-        else if (event.key.toLowerCase() === 'p' && !this.pose?.isPosing) pushRobot(this.desk, event.shiftKey ? -1 : 1);
+        else if (event.key.toLowerCase() === 'p' && !this.pose?.isPosing) pushRobot(this.session, event.shiftKey ? -1 : 1);
         else this.lookByKey(event);
     }
 

@@ -3,7 +3,7 @@
 
 import { jointTitle } from '../model/body.ts';
 import type { RobotState, ServoState } from '../robot/robot-state.ts';
-import type { Desk } from './desk.ts';
+import type { Session } from './session/session.ts';
 import { onChoice } from './choice.ts';
 import { define, make, setText } from './element.ts';
 import { ServoChart } from './servo-chart.ts';
@@ -21,7 +21,7 @@ interface Row {
 }
 
 export class ServoTable extends HTMLElement {
-    desk!: Desk; // set before it is connected
+    session!: Session; // set before it is connected
     private readonly chart = new ServoChart();
     private readonly rows = new Map<number, Row>();
     private frame = 0;
@@ -29,7 +29,7 @@ export class ServoTable extends HTMLElement {
 
     connectedCallback(): void {
         const body = make('tbody');
-        for (const joint of [...this.desk.body.joints].sort((a, b) => a.servo - b.servo))
+        for (const joint of [...this.session.body.joints].sort((a, b) => a.servo - b.servo))
             body.append(this.row(joint.servo, jointTitle(joint)));
         const head = make(
             'tr',
@@ -47,8 +47,8 @@ export class ServoTable extends HTMLElement {
         );
         this.chart.choose(13);
         this.disposals.push(
-            this.desk.onFrame(state => this.take(state)),
-            this.desk.state.watch(state => this.fillFaults(state.faultNames)),
+            this.session.onFrame(state => this.take(state)),
+            this.session.state.watch(state => this.fillFaults(state.faultNames)),
         );
     }
 
@@ -86,7 +86,7 @@ export class ServoTable extends HTMLElement {
     }
 
     private setFault(servo: number, fault: HTMLSelectElement): void {
-        for (let i = 0; i < fault.options.length - 1; i++) this.desk.lab.setFault(servo, i, fault.value === String(i));
+        for (let i = 0; i < fault.options.length - 1; i++) this.session.sim.setFault(servo, i, fault.value === String(i));
     }
 
     private take(state: RobotState): void {

@@ -4,7 +4,7 @@
 
 import { Terminal } from '@xterm/xterm';
 import '@xterm/xterm/css/xterm.css';
-import type { Desk } from './desk.ts';
+import type { Session } from './session/session.ts';
 import { define, make } from './element.ts';
 import './terminal-pane.css';
 
@@ -19,7 +19,7 @@ const BELOW_PX = 8;
 const LINES_KEPT = 2000;
 
 export class TerminalPane extends HTMLElement {
-    desk!: Desk; // set before it is connected
+    session!: Session; // set before it is connected
     private terminal: Terminal | null = null;
     private readonly full = make(
         'button',
@@ -48,12 +48,12 @@ export class TerminalPane extends HTMLElement {
         terminal.textarea?.setAttribute('aria-label', 'Terminal of the robot');
         // Tab goes on to the next thing, as everywhere: no firmware wants it, and a keyboard must get out of here.
         terminal.attachCustomKeyEventHandler(event => event.key !== 'Tab');
-        terminal.onData(text => this.desk.type(new TextEncoder().encode(text)));
-        terminal.onBinary(text => this.desk.type(Uint8Array.from(text, c => c.charCodeAt(0))));
+        terminal.onData(text => this.session.type(new TextEncoder().encode(text)));
+        terminal.onBinary(text => this.session.type(Uint8Array.from(text, c => c.charCodeAt(0))));
         const observer = new ResizeObserver(() => this.fit(terminal));
         observer.observe(this);
         this.disposals.push(
-            this.desk.onText(bytes => terminal.write(bytes)),
+            this.session.onText(bytes => terminal.write(bytes)),
             () => observer.disconnect(),
             () => terminal.dispose(),
         );
@@ -95,7 +95,7 @@ export class TerminalPane extends HTMLElement {
         const rows = Math.floor(height / (size * LETTER.height));
         terminal.options.fontSize = Math.floor(size * 2) / 2;
         terminal.resize(COLUMNS, Math.max(ROWS_LEAST, Math.min(ROWS_MOST, rows)));
-        this.desk.terminalSize({ rows: terminal.rows, columns: terminal.cols });
+        this.session.terminalSize({ rows: terminal.rows, columns: terminal.cols });
     }
 }
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Waving while it walks: a page of the library that uses the right arm only, laid over the walk. A robot that stands begins to walk first.
 
-import type { Desk, DeskState } from './desk.ts';
+import type { Session, SessionState } from './session/session.ts';
 import { define, make } from './element.ts';
 import { SHAPE_TEXTS } from './texts/robot.ts';
 
 const WAVE = 'wave_over';
 
 export class WaveButton extends HTMLElement {
-    desk!: Desk; // set before it is connected
+    session!: Session; // set before it is connected
     private readonly button = make('button', { title: SHAPE_TEXTS.waveHint, onclick: () => this.press() }, SHAPE_TEXTS.wave);
     /** Asked for, and it does not walk yet. */
     private isWanted = false;
@@ -16,14 +16,14 @@ export class WaveButton extends HTMLElement {
 
     connectedCallback(): void {
         this.replaceChildren(this.button);
-        this.unwatch = this.desk.state.watch(state => this.render(state));
+        this.unwatch = this.session.state.watch(state => this.render(state));
     }
 
     disconnectedCallback(): void {
         this.unwatch();
     }
 
-    private render(state: DeskState): void {
+    private render(state: SessionState): void {
         this.hidden = this.pageOf(state) === undefined;
         this.button.disabled = state.connection !== 'ready' || state.version?.image !== 'play';
         if (!this.isWanted || state.where?.state !== 'playing') return;
@@ -31,20 +31,20 @@ export class WaveButton extends HTMLElement {
         this.wave();
     }
 
-    private pageOf({ pages }: DeskState): number | undefined {
+    private pageOf({ pages }: SessionState): number | undefined {
         return pages.find(({ name }) => name === WAVE)?.page;
     }
 
     private press(): void {
-        if (this.desk.state.get().where?.state === 'playing') return this.wave();
+        if (this.session.state.get().where?.state === 'playing') return this.wave();
         this.isWanted = true;
-        this.desk.remote(new Set(['up']));
-        this.desk.remote(new Set());
+        this.session.remote(new Set(['up']));
+        this.session.remote(new Set());
     }
 
     private wave(): void {
-        const page = this.pageOf(this.desk.state.get());
-        if (page !== undefined) void this.desk.beside({ kind: 'layer', page, joints: [] });
+        const page = this.pageOf(this.session.state.get());
+        if (page !== undefined) void this.session.overlay({ kind: 'layer', page, joints: [] });
     }
 }
 

@@ -27,13 +27,13 @@ async function watch(visitor: Visitor, ms: number): Promise<Sample[]> {
         limit =>
             new Promise<Sample[]>(resolve => {
                 const samples: Sample[] = [];
-                const desk = (
+                const session = (
                     document.querySelector('app-shell') as unknown as {
-                        desk: { onFrame(l: (s: { ticks: number; lateMs: number }) => void): () => void };
+                        session: { onFrame(l: (s: { ticks: number; lateMs: number }) => void): () => void };
                     }
-                ).desk;
+                ).session;
                 const start = performance.now();
-                const stop = desk.onFrame(state => {
+                const stop = session.onFrame(state => {
                     samples.push({ wallMs: performance.now() - start, ticks: state.ticks, lateMs: state.lateMs });
                     if (performance.now() - start < limit) return;
                     stop();
@@ -91,16 +91,16 @@ async function playLatency(visitor: Visitor): Promise<void> {
         () =>
             new Promise<number>(resolve => {
                 type Preview = { state: { watch(l: (s: { tick: number }) => void): () => void } };
-                const { desk } = document.querySelector('app-shell') as unknown as {
-                    desk: { preview: Preview; editor: { state: { get(): { page: number } } }; playEdited(page: number): Promise<void> };
+                const { session } = document.querySelector('app-shell') as unknown as {
+                    session: { preview: Preview; editor: { state: { get(): { page: number } } }; playEdited(page: number): Promise<void> };
                 };
                 const askedMs = performance.now();
-                const stop = desk.preview.state.watch(({ tick }) => {
+                const stop = session.preview.state.watch(({ tick }) => {
                     if (tick === 0) return;
                     queueMicrotask(() => stop());
                     resolve(performance.now() - askedMs);
                 });
-                void desk.playEdited(desk.editor.state.get().page);
+                void session.playEdited(session.editor.state.get().page);
             }),
     );
     console.log(`${'Play after an edit to the first movement'.padEnd(42)}${took.toFixed(0).padStart(6)} ms of 300 ms`);
@@ -128,12 +128,12 @@ async function keyLatency(visitor: Visitor): Promise<void> {
                 code =>
                     new Promise<number>(resolve => {
                         type Frame = { servos: { goalPos: number }[] };
-                        const { desk } = document.querySelector('app-shell') as unknown as {
-                            desk: { onFrame(l: (s: Frame) => void): () => void };
+                        const { session } = document.querySelector('app-shell') as unknown as {
+                            session: { onFrame(l: (s: Frame) => void): () => void };
                         };
                         let before: string | null = null;
                         let pressedMs = 0;
-                        const stop = desk.onFrame(({ servos }) => {
+                        const stop = session.onFrame(({ servos }) => {
                             const goals = servos.map(({ goalPos }) => goalPos).join();
                             if (before === null) {
                                 before = goals;
@@ -175,7 +175,7 @@ await visitor.button('Walk').click();
 await visitor.open('Terminal');
 report('walking, physics, picture, terminal', await watch(visitor, seconds * 1000));
 await visitor.page.evaluate(() =>
-    (document.querySelector('app-shell') as unknown as { desk: { lab: { setSpeed(s: number): void } } }).desk.lab.setSpeed(Infinity),
+    (document.querySelector('app-shell') as unknown as { session: { sim: { setSpeed(s: number): void } } }).session.sim.setSpeed(Infinity),
 );
 report('the same, unthrottled', await watch(visitor, 10_000));
 console.log(`load of the machine ${load()}`);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What a frame of a dragged way-point costs the page's thread, with seven steps of 31 joints shown: the edit with all that
 // watches it, the curve from motion.wasm, and the strokes. Medians of 100 frames.
-import type { Editor } from '../../view/editor-desk.ts';
+import type { Editor } from '../../view/session/editor.ts';
 import { PageServer, Visitor, startBrowser } from '../page/page-bench.ts';
 
 /** What is reached into: private in TypeScript, there at run time. */
 interface Pane {
-    readonly desk: { readonly editor: Editor };
+    readonly session: { readonly editor: Editor };
     makeScene(): unknown;
     draw(): void;
 }
@@ -26,7 +26,7 @@ await visitor.button('Pause').click(); // the robot's own work is not measured h
 await visitor.open('Curves');
 const frames = await visitor.page.locator('curve-canvas').evaluate(async (element, count): Promise<Frames> => {
     const pane = element as unknown as Pane;
-    const { editor } = pane.desk;
+    const { editor } = pane.session;
     const page = 3;
     editor.select({ page });
     const all = new Map(Array.from({ length: 31 }, (_, id) => [id, 500 + id]));

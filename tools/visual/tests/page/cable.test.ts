@@ -12,8 +12,8 @@ const PAGES = [60, 61, 62, 63];
 async function pullAtThirdSave(person: Visitor): Promise<void> {
     await person.page.locator('app-shell').evaluate(shell => {
         type Port = { deliver(bytes: Uint8Array): void; unplug(): void };
-        const { desk } = shell as unknown as { desk: { sources: { simulated: { connection: { port: Port } } } } };
-        const { port } = desk.sources.simulated.connection;
+        const { session } = shell as unknown as { session: { sources: { simulated: { connection: { port: Port } } } } };
+        const { port } = session.sources.simulated.connection;
         const deliver = port.deliver;
         let saves = 0;
         port.deliver = bytes => {

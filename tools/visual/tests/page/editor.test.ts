@@ -20,8 +20,10 @@ function arm(visitor: Visitor): Promise<number[]> {
         () =>
             new Promise<number[]>(resolve => {
                 type Frame = { servos: { id: number; position: number }[] };
-                const { desk } = document.querySelector('app-shell') as unknown as { desk: { onFrame(l: (s: Frame) => void): () => void } };
-                const stop = desk.onFrame(state => {
+                const { session } = document.querySelector('app-shell') as unknown as {
+                    session: { onFrame(l: (s: Frame) => void): () => void };
+                };
+                const stop = session.onFrame(state => {
                     stop();
                     resolve([1, 3, 5].map(id => state.servos.find(one => one.id === id)?.position ?? 0));
                 });
@@ -64,7 +66,7 @@ const said = (visitor: Visitor, text: string | RegExp) =>
 
 /** Seconds of the robot's own time. */
 const robotSeconds = async (visitor: Visitor): Promise<number> =>
-    Number.parseFloat((await visitor.page.locator('lab-pane .clock').textContent()) ?? '0');
+    Number.parseFloat((await visitor.page.locator('robot-pane .clock').textContent()) ?? '0');
 
 /** The hand up beside the head, to the side, up again. */
 const WAVES = [

@@ -142,12 +142,12 @@ test('a hobbyist opens a RoboPlus file found on the net, sees where it is too fa
     await person.leave();
 });
 
-/** In the browser, before the page is there: keeps everything that the strip says of what the robot does, however short. */
+/** In the browser, before the page is there: keeps everything that the status bar says of what the robot does, however short. */
 function noteDoing(): void {
     const said: string[] = [];
     Object.assign(window, { said });
     new MutationObserver(() => {
-        const text = document.querySelector('status-strip .doing')?.textContent ?? '';
+        const text = document.querySelector('status-bar .doing')?.textContent ?? '';
         if (said.at(-1) !== text) said.push(text);
     }).observe(document, { subtree: true, childList: true, characterData: true });
 }

@@ -164,7 +164,7 @@ export class Visitor {
         });
     }
 
-    /** What the strip says of what the robot does. */
+    /** What the status bar says of what the robot does. */
     get doing() {
         return this.page.getByRole('status', { name: 'What the robot does' });
     }
@@ -193,7 +193,7 @@ export class Visitor {
 
     /** Waits until the firmware answers and nothing plays; with physics, until the robot stands by itself. */
     async untilStanding(): Promise<void> {
-        await this.page.locator('status-strip .doing').filter({ hasText: STANDS }).waitFor();
+        await this.page.locator('status-bar .doing').filter({ hasText: STANDS }).waitFor();
     }
 
     /** Until what has changed is on the screen: a mouse hits what is seen there. */

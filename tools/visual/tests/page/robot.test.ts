@@ -153,8 +153,10 @@ function rightArm(visitor: Visitor): Promise<number> {
         () =>
             new Promise<number>(resolve => {
                 type Frame = { servos: { id: number; position: number }[] };
-                const { desk } = document.querySelector('app-shell') as unknown as { desk: { onFrame(l: (s: Frame) => void): () => void } };
-                const stop = desk.onFrame(state => {
+                const { session } = document.querySelector('app-shell') as unknown as {
+                    session: { onFrame(l: (s: Frame) => void): () => void };
+                };
+                const stop = session.onFrame(state => {
                     stop();
                     const at = (id: number): number => state.servos.find(servo => servo.id === id)?.position ?? 0;
                     resolve(Math.abs(at(1) - 512) + Math.abs(at(3) - 512) + Math.abs(at(5) - 512));
@@ -175,9 +177,9 @@ test('a hand pulls a stiff arm and lets it go back; time slow, paused, tick by t
     await expect.poll(async () => Math.abs((await rightArm(person)) - rest), PATIENT).toBeLessThan(4);
 
     await person.open('Robot');
-    const clock = person.page.locator('lab-pane .clock');
+    const clock = person.page.locator('robot-pane .clock');
     const seconds = async (): Promise<number> => Number.parseFloat(await clock.innerText());
-    const facts = person.page.locator('status-strip .facts');
+    const facts = person.page.locator('status-bar .facts');
     await person.button('Pause').click();
     await person.button('Pause').and(person.page.locator('[aria-pressed="true"]')).waitFor();
     await facts.filter({ hasText: 'time stands still' }).waitFor();
@@ -230,7 +232,7 @@ test('somebody who debugs breaks servos, lowers the battery, tilts the floor: th
         await fault(id, what);
         await said.filter({ hasText: says }).waitFor();
         await expect.poll(async () => (await servo(person, id)).state, PATIENT).toBe(state); // the table is written anew ten times a second
-        if (id === 5) await page.screenshot({ path: `${SHOTS}lab-dark.png` });
+        if (id === 5) await page.screenshot({ path: `${SHOTS}robot-dark.png` });
         await fault(id, 'none');
     }
     await said.filter({ hasText: 'Servo 5 answers again' }).waitFor();
@@ -240,7 +242,7 @@ test('somebody who debugs breaks servos, lowers the battery, tilts the floor: th
 
     await page.getByLabel('Battery').fill('6.5');
     await said.filter({ hasText: 'Battery is low: 6.5 V' }).waitFor();
-    await page.locator('status-strip .facts').filter({ hasText: '6.5 V' }).waitFor();
+    await page.locator('status-bar .facts').filter({ hasText: '6.5 V' }).waitFor();
     await page.getByLabel('Slope to the front').fill('15');
     await person.doing.filter({ hasText: LIES }).waitFor();
     await person.leave();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page on every screen: a phone on end and lying, a tablet, a desk, a desk at 200 %. What is measured is what a stranger sees: one row of
+// The page on every screen: a phone on end and lying, a tablet, a desktop, a desktop at 200 %. What is measured is what a stranger sees: one row of
 // head, a picture that stays, letters that can be read, no word cut, few sizes, one blue button.
 import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
@@ -9,9 +9,9 @@ import { SHOTS, pageSuite } from './page-suite.ts';
 const PHONE = { width: 390, height: 844, hasTouch: true };
 const LYING = { width: 844, height: 390, hasTouch: true };
 const TABLET = { width: 1024, height: 768, hasTouch: true };
-const DESK = { width: 1440, height: 900 };
-const DESK_AT_200 = { width: 720, height: 450 };
-const SCREENS = { PHONE, LYING, TABLET, DESK, DESK_AT_200 };
+const DESKTOP = { width: 1440, height: 900 };
+const DESKTOP_AT_200 = { width: 720, height: 450 };
+const SCREENS = { PHONE, LYING, TABLET, DESKTOP, DESKTOP_AT_200 };
 const AREAS = ['Remote', 'Steps', 'Curves', 'Pages', 'Links', 'Checks', 'Terminal', 'Robot'] as const;
 /** A row of buttons that are 40 px for a finger, with its edges. */
 const ROW_PX = 64;
@@ -88,7 +88,7 @@ test.each(Object.entries(SCREENS))(
 );
 
 test('lying and at 200 %, picture and area are beside each other; on end, the area is a sheet that folds', async () => {
-    for (const screen of [LYING, DESK_AT_200]) {
+    for (const screen of [LYING, DESKTOP_AT_200]) {
         const person = await Visitor.come(suite.browser, suite.address, { screen, hasPicture: false, hasPhysics: false });
         const [stage, areas] = [await box(person.page, '.stage'), await box(person.page, '.areas')];
         expect(areas.x).toBeGreaterThanOrEqual(stage.x + stage.width - 1);
@@ -98,7 +98,7 @@ test('lying and at 200 %, picture and area are beside each other; on end, the ar
     const person = await Visitor.come(suite.browser, suite.address, { screen: PHONE, hasPicture: false, hasPhysics: false });
     await person.untilStanding();
     await person.open('Steps');
-    // The strip below may have one line or two meanwhile: what folds is the sheet.
+    // The status bar below may have one line or two meanwhile: what folds is the sheet.
     const height = async (): Promise<number> => (await box(person.page, '.areas')).height;
     const before = await height();
     await person.button('Areas').click();
@@ -147,7 +147,7 @@ test('the terminal has letters of 12 px or more on every screen, and the full sc
 });
 
 test('nothing over the picture covers the hand that is dragged, wherever it goes; no ghost stands before it', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { screen: DESK, hasPhysics: false });
+    const person = await Visitor.come(suite.browser, suite.address, { screen: DESKTOP, hasPhysics: false });
     const { page } = person;
     await person.untilStanding();
     await person.open('Pages');

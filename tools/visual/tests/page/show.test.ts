@@ -27,11 +27,11 @@ test('Play after an edit: within 0.3 s the solid figure moves, no ghost is seen 
     await person.untilSeen();
     await person.page.evaluate(() => {
         const shell = document.querySelector('app-shell') as unknown as {
-            desk: { preview: { pose(): unknown; state: { watch(l: () => void): void; get(): { tick: number } } } };
+            session: { preview: { pose(): unknown; state: { watch(l: () => void): void; get(): { tick: number } } } };
         };
         const button = [...document.querySelectorAll('steps-pane button')].find(one => one.textContent === '▶ Play');
         button?.addEventListener('click', () => performance.mark('play-asked'), { capture: true });
-        const { preview } = shell.desk;
+        const { preview } = shell.session;
         preview.state.watch(
             () => preview.state.get().tick > 0 && !performance.getEntriesByName('moved').length && performance.mark('moved'),
         );
@@ -84,8 +84,8 @@ test('the scrubber, a step and the loop move the picture, and the robot hears no
         await person.page.evaluate(
             () =>
                 (
-                    document.querySelector('app-shell') as unknown as { desk: { state: { get(): { where: { state: string } } } } }
-                ).desk.state.get().where.state,
+                    document.querySelector('app-shell') as unknown as { session: { state: { get(): { where: { state: string } } } } }
+                ).session.state.get().where.state,
         ),
     ).toBe('idle');
     await person.leave();

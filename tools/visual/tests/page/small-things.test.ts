@@ -23,7 +23,7 @@ test('menus, Ctrl+A, F6, a joint spoken, double clicks on "Add step" and Play, a
     await person.button('▶ Play').dblclick(); // plays once, and nothing is refused
     await person.doing.filter({ hasText: /^(Plays|Going slowly|Playing)/ }).waitFor();
     await person.doing.filter({ hasText: /^Edit runs/ }).waitFor();
-    expect(await page.locator('status-strip').textContent()).not.toContain('refused');
+    expect(await page.locator('status-bar').textContent()).not.toContain('refused');
 
     await page.keyboard.press('Control+a');
     expect(await page.locator('step-row .pick[aria-pressed="true"]').count()).toBe(2);

@@ -11,12 +11,12 @@ const HELD = 'A hand holds the robot.';
 /** Two seconds of the robot's time: a hand that lets go needs 0.4 s of it. */
 function twoSeconds(page: Page): Promise<void> {
     return page.evaluate(() => {
-        const { desk } = document.querySelector('app-shell') as unknown as {
-            desk: { onFrame(listener: (state: { ticks: number }) => void): () => void };
+        const { session } = document.querySelector('app-shell') as unknown as {
+            session: { onFrame(listener: (state: { ticks: number }) => void): () => void };
         };
         return new Promise<void>(resolve => {
             let first = -1;
-            const end = desk.onFrame(({ ticks }) => {
+            const end = session.onFrame(({ ticks }) => {
                 if (first < 0) first = ticks;
                 if (ticks - first < 256) return;
                 end();

@@ -41,7 +41,7 @@ test('what the first tab has saved stays, whatever the second saves or forgets; 
     await person.untilStanding();
     const second = await person.page.context().newPage();
     await second.goto(suite.address);
-    await second.locator('status-strip .doing').filter({ hasText: 'The robot stands and waits.' }).waitFor();
+    await second.locator('status-bar .doing').filter({ hasText: 'The robot stands and waits.' }).waitFor();
     const before = await keptEeprom(second);
     await saveLaw(second);
     await second
@@ -59,8 +59,8 @@ test('what the first tab has saved stays, whatever the second saves or forgets; 
         .getByRole('button', { name: /^(?!Cancel)/ })
         .first()
         .click();
-    await second.locator('status-strip .doing').filter({ hasText: 'The robot is starting' }).waitFor();
-    await second.locator('status-strip .doing').filter({ hasText: 'The robot stands and waits.' }).waitFor();
+    await second.locator('status-bar .doing').filter({ hasText: 'The robot is starting' }).waitFor();
+    await second.locator('status-bar .doing').filter({ hasText: 'The robot stands and waits.' }).waitFor();
     expect(await keptEeprom(second)).toBe(saved);
 
     await person.page.reload(); // it is still the first

@@ -141,14 +141,16 @@ async function untilBeyond(person: Visitor, servo: number, position: number): Pr
         ([id, beyond, limitMs]) =>
             new Promise<number>(resolve => {
                 type Frame = { servos: { id: number; position: number }[] };
-                const { desk } = document.querySelector('app-shell') as unknown as { desk: { onFrame(l: (s: Frame) => void): () => void } };
+                const { session } = document.querySelector('app-shell') as unknown as {
+                    session: { onFrame(l: (s: Frame) => void): () => void };
+                };
                 const startMs = performance.now();
                 let poses = 0;
                 const end = (result: number): void => {
                     stop();
                     resolve(result);
                 };
-                const stop = desk.onFrame(state => {
+                const stop = session.onFrame(state => {
                     poses++;
                     if ((state.servos.find(one => one.id === id)?.position ?? 0) > beyond)
                         end((1000 * poses) / (performance.now() - startMs));
@@ -159,7 +161,7 @@ async function untilBeyond(person: Visitor, servo: number, position: number): Pr
     );
     if (rate < 0)
         throw new Error(
-            `servo ${servo} never came beyond ${position}; the page says: ${await person.page.locator('status-strip').innerText()}`,
+            `servo ${servo} never came beyond ${position}; the page says: ${await person.page.locator('status-bar').innerText()}`,
         );
     console.log(`the picture got ${rate.toFixed(1)} poses a second over Web Serial`);
 }
@@ -363,7 +365,7 @@ async function atTheServos(
         person.page.setDefaultTimeout(PATIENT_WITH_SERVOS_MS);
         await person.button('My servos …').click();
         await deed({ person, servos, folder }).catch(async (error: unknown) => {
-            console.log(`the page says: ${await person.page.locator('status-strip').innerText()}`);
+            console.log(`the page says: ${await person.page.locator('status-bar').innerText()}`);
             await person.open('Terminal');
             console.log(await person.screen());
             if (wasHeldUp && (task.result?.retryCount ?? 0) >= HELD_UP.retry) skip('programs were held up');

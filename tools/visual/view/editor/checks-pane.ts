@@ -9,9 +9,9 @@ import { imageOf, pageOf } from '../../model/document.ts';
 import type { MotionDocument } from '../../model/document.ts';
 import type { Finding } from '../../model/file-formats.ts';
 import { NOMINAL_VOLTS } from '../../model/motion.ts';
-import type { Desk, Tab } from '../desk.ts';
+import type { Session, Tab } from '../session/session.ts';
 import { define, make } from '../element.ts';
-import type { PageTrial } from '../trial-desk.ts';
+import type { PageTrial } from '../session/trials.ts';
 import { PhysicsBar } from './physics-bar.ts';
 import { EDITOR_TEXTS, findingText, isFaulty, pageText } from '../texts/editor.ts';
 import { TRIAL_TEXTS, touchText, verdictText } from '../texts/trials.ts';
@@ -34,7 +34,7 @@ interface Shown {
 }
 
 export class ChecksPane extends HTMLElement {
-    desk!: Desk; // set before it is connected
+    session!: Session; // set before it is connected
     private readonly summary = make('p', { class: 'summary', role: 'status', 'aria-label': 'Result of the checks' });
     private readonly list = make('ul', { 'aria-label': 'Findings' });
     private readonly byPage = new WeakMap<Uint8Array, readonly PageFinding[]>();
@@ -48,9 +48,9 @@ export class ChecksPane extends HTMLElement {
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
-        const physics = Object.assign(new PhysicsBar(), { desk: this.desk });
+        const physics = Object.assign(new PhysicsBar(), { session: this.session });
         this.replaceChildren(make('p', { class: 'purpose' }, EDITOR_TEXTS.checks), physics, this.summary, this.list);
-        const { editor, state, trials } = this.desk;
+        const { editor, state, trials } = this.session;
         this.disposals.push(
             editor.state.watch(() => this.later()),
             state.watch(() => this.later()),
@@ -64,8 +64,8 @@ export class ChecksPane extends HTMLElement {
     }
 
     private later(): void {
-        const { document, gesture } = this.desk.editor.state.get();
-        if (this.desk.state.get().tab !== 'checks' || gesture) return;
+        const { document, gesture } = this.session.editor.state.get();
+        if (this.session.state.get().tab !== 'checks' || gesture) return;
         if (document === this.shown) this.render(); // another law makes trials old
         if (document === this.due) return; // a robot that talks does not put it off
         clearTimeout(this.timer);
@@ -78,7 +78,7 @@ export class ChecksPane extends HTMLElement {
         this.shown = document;
         const own = this.ownFindings(document).map(one => this.shownOf(one));
         this.show(document, own, EDITOR_TEXTS.checking);
-        const said = await this.desk.files.formats.check(imageOf(document)).catch(() => null);
+        const said = await this.session.files.formats.check(imageOf(document)).catch(() => null);
         if (this.shown !== document) return;
         const theirs = said?.map(one => this.shownOfM512(one)) ?? [];
         // What m512 says of damage it says in better words.
@@ -89,7 +89,7 @@ export class ChecksPane extends HTMLElement {
     }
 
     private ownFindings(document: MotionDocument): PageFinding[] {
-        const { editor, body } = this.desk;
+        const { editor, body } = this.session;
         const options = {
             format: editor.format,
             body,
@@ -106,7 +106,7 @@ export class ChecksPane extends HTMLElement {
     }
 
     private shownOf(one: PageFinding): Shown {
-        const joint = this.desk.body.joints.find(other => other.servo === one.joint);
+        const joint = this.session.body.joints.find(other => other.servo === one.joint);
         const isOfLinks = one.kind === 'exit-circle';
         const tab: Tab = isOfLinks ? 'links' : one.step === null ? 'pages' : 'steps';
         return {
@@ -132,7 +132,7 @@ export class ChecksPane extends HTMLElement {
 
     /** What physics says of the pages that it has tried. Of those that stand nothing is to be told. */
     private physicsFindings(): Shown[] {
-        const { editor, trials: physics } = this.desk;
+        const { editor, trials: physics } = this.session;
         const { document } = editor.state.get();
         const { trials } = physics.state.get();
         return [...trials]
@@ -174,16 +174,16 @@ export class ChecksPane extends HTMLElement {
     }
 
     private titleOf(page: number): string {
-        return pageText(page, this.desk.editor.page(page).name);
+        return pageText(page, this.session.editor.page(page).name);
     }
 
     private render(): void {
         if (!this.known) return;
         const { document, note } = this.known;
-        const tried = this.desk.trials;
+        const tried = this.session.trials;
         const guessed = this.known.all.filter(({ page, isGuess }) => !isGuess || !tried.isFresh(page));
         const all = [...guessed, ...this.physicsFindings()];
-        const { format } = this.desk.editor;
+        const { format } = this.session.editor;
         const used = document.pages.filter((bytes, page) => page > 0 && !format.isEmpty(bytes)).length;
         const faults = all.filter(one => one.isFault).length;
         const counted =
@@ -216,8 +216,8 @@ export class ChecksPane extends HTMLElement {
     }
 
     private goTo({ page, step, joint, tab }: Shown): void {
-        this.desk.editor.select({ page, step: step ?? 0, steps: new Set([step ?? 0]), joints: new Set(joint === null ? [] : [joint]) });
-        this.desk.show(tab);
+        this.session.editor.select({ page, step: step ?? 0, steps: new Set([step ?? 0]), joints: new Set(joint === null ? [] : [joint]) });
+        this.session.show(tab);
     }
 }
 

@@ -4,9 +4,9 @@
 
 import { documentFrom, imageOf, pageOf } from '../../model/document.ts';
 import { readPage } from '../../model/page.ts';
-import type { Desk } from '../desk.ts';
+import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
-import type { TransferState } from '../transfer-desk.ts';
+import type { TransferState } from '../session/transfer.ts';
 import { comparables, pagesOf } from './compared.ts';
 import { FILE_TEXTS } from '../texts/files.ts';
 import { ghosts } from './ghosts.ts';
@@ -17,7 +17,7 @@ import './compare-dialog.css';
 const LINES = 4;
 
 export class CompareDialog extends HTMLElement {
-    desk!: Desk; // set before it is connected
+    session!: Session; // set before it is connected
     private readonly which = make('select', { 'aria-label': 'Compare with', onchange: () => void this.choose() });
     private readonly chooser = make('input', {
         type: 'file',
@@ -37,7 +37,7 @@ export class CompareDialog extends HTMLElement {
     private readonly dialog = make('dialog', {
         class: 'compare',
         'aria-label': 'Compare and write',
-        onclose: () => this.reading !== null && this.desk.files.cancel(),
+        onclose: () => this.reading !== null && this.session.files.cancel(),
     });
     private file: { readonly title: string; readonly pages: readonly Uint8Array[] } | null = null;
     /** The file that is being read, and why the last one could not be; null: none. */
@@ -65,7 +65,7 @@ export class CompareDialog extends HTMLElement {
             make('footer', {}, this.status, this.bar, this.stop, this.again, this.go, this.shut),
         );
         this.replaceChildren(this.dialog);
-        this.disposals.push(this.desk.transfer.state.watch(state => this.dialog.open && this.renderTransfer(state)));
+        this.disposals.push(this.session.transfer.state.watch(state => this.dialog.open && this.renderTransfer(state)));
     }
 
     disconnectedCallback(): void {
@@ -85,7 +85,7 @@ export class CompareDialog extends HTMLElement {
     }
 
     private fillWhich(key: string): void {
-        const all = [...comparables(this.desk), ...(this.file ? [{ key: 'file', title: this.file.title }] : [])];
+        const all = [...comparables(this.session), ...(this.file ? [{ key: 'file', title: this.file.title }] : [])];
         this.which.replaceChildren(...all.map(one => make('option', { value: one.key }, one.title)));
         this.which.value = key;
     }
@@ -96,7 +96,7 @@ export class CompareDialog extends HTMLElement {
     }
 
     private async readRobot(): Promise<void> {
-        await this.desk.transfer.read();
+        await this.session.transfer.read();
         await this.look();
     }
 
@@ -107,7 +107,7 @@ export class CompareDialog extends HTMLElement {
 
     private async tryAgain(): Promise<void> {
         this.trouble = null;
-        await this.desk.transfer.tryAgain();
+        await this.session.transfer.tryAgain();
         await this.look();
     }
 
@@ -117,8 +117,8 @@ export class CompareDialog extends HTMLElement {
         if (!file) return;
         this.reading = FILE_TEXTS.reading(file.name);
         this.trouble = null;
-        this.renderTransfer(this.desk.transfer.state.get());
-        const found = await this.desk.files.look(file);
+        this.renderTransfer(this.session.transfer.state.get());
+        const found = await this.session.files.look(file);
         this.reading = null;
         if (found.kind === 'read') {
             this.file = { title: file.name, pages: documentFrom(found.image, file.name).pages };
@@ -126,36 +126,36 @@ export class CompareDialog extends HTMLElement {
             return this.choose();
         }
         this.trouble = found.kind === 'refused' ? found.text : FILE_TEXTS.notRead(file.name);
-        this.renderTransfer(this.desk.transfer.state.get());
+        this.renderTransfer(this.session.transfer.state.get());
     }
 
     private cancel(): void {
-        if (this.reading !== null) this.desk.files.cancel();
-        else this.desk.transfer.cancel();
+        if (this.reading !== null) this.session.files.cancel();
+        else this.session.transfer.cancel();
     }
 
     /** Shows what differs. */
     private async look(): Promise<void> {
         const mine = ++this.looked;
-        const { desk, key } = this;
-        const found = key === 'file' ? this.file?.pages : await pagesOf(desk, key);
+        const { session, key } = this;
+        const found = key === 'file' ? this.file?.pages : await pagesOf(session, key);
         if (mine !== this.looked) return;
         this.other = found ?? [];
         this.ticks.clear();
         this.marks.clear();
-        const { document } = desk.editor.state.get();
+        const { document } = session.editor.state.get();
         const pages = this.other.flatMap((bytes, page) =>
-            bytes && !desk.editor.format.isSame(bytes, pageOf(document, page)) ? [page] : [],
+            bytes && !session.editor.format.isSame(bytes, pageOf(document, page)) ? [page] : [],
         );
         this.rows.replaceChildren(...pages.map(page => this.row(page)));
         if (pages.length === 0 && found) this.rows.append(make('li', { class: 'same' }, EDITOR_TEXTS.same));
-        this.renderTransfer(desk.transfer.state.get());
+        this.renderTransfer(session.transfer.state.get());
         if (pages.length > 0) void this.addWords(mine);
     }
 
     private row(page: number): HTMLElement {
-        const { desk } = this;
-        const { format, state } = desk.editor;
+        const { session } = this;
+        const { format, state } = session.editor;
         const ours = pageOf(state.get().document, page);
         const theirs = this.other[page] ?? format.empty;
         const [mine, other] = [readPage(format, ours), readPage(format, theirs)];
@@ -167,12 +167,12 @@ export class CompareDialog extends HTMLElement {
             disabled: (isRobot && page === 0) || format.fault(source) !== null,
         });
         if (tick.disabled) tick.checked = false;
-        tick.addEventListener('change', () => this.renderTransfer(desk.transfer.state.get()));
+        tick.addEventListener('change', () => this.renderTransfer(session.transfer.state.get()));
         this.ticks.set(page, tick);
         const title = pageText(page, (isRobot ? mine.name : other.name) || mine.name || other.name);
         const mark = make('span', { class: 'account' });
         this.marks.set(page, mark);
-        const pictures = page === 0 ? null : isRobot ? ghosts(desk.body, other, mine) : ghosts(desk.body, mine, other);
+        const pictures = page === 0 ? null : isRobot ? ghosts(session.body, other, mine) : ghosts(session.body, mine, other);
         const words = isRobot ? "Take the robot's" : 'Take over';
         const take = make('button', { 'aria-label': `${words} ${title}`, onclick: () => void this.takeOver([page]) }, words);
         const note = page === 0 ? EDITOR_TEXTS.trimStays : format.fault(source) !== null ? EDITOR_TEXTS.damagedStays : '';
@@ -189,11 +189,11 @@ export class CompareDialog extends HTMLElement {
 
     /** m512 says the differences in its own words; it takes some seconds to come the first time. */
     private async addWords(mine: number): Promise<void> {
-        const { format, state } = this.desk.editor;
+        const { format, state } = this.session.editor;
         const { document } = state.get();
         const theirs = imageOf({ name: '', pages: this.other.map(bytes => bytes ?? format.empty) });
         const images = this.key === 'robot' ? ([theirs, imageOf(document)] as const) : ([imageOf(document), theirs] as const);
-        const said = await this.desk.files.formats.differences(...images).catch(() => null);
+        const said = await this.session.files.formats.differences(...images).catch(() => null);
         if (mine !== this.looked) return;
         for (const [page] of this.ticks) {
             const words = this.rows.querySelector(`[data-page="${page}"] .words`);
@@ -220,13 +220,13 @@ export class CompareDialog extends HTMLElement {
     private async deed(): Promise<void> {
         this.trouble = null;
         if (this.key !== 'robot') return this.takeOver(this.chosen);
-        await this.desk.transfer.write(this.chosen);
+        await this.session.transfer.write(this.chosen);
         this.fillWhich(this.key); // there is a backup more
-        if (this.desk.transfer.state.get().phase === 'written') await this.look();
+        if (this.session.transfer.state.get().phase === 'written') await this.look();
     }
 
     private async takeOver(pages: readonly number[]): Promise<void> {
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const taken = new Map(pages.map(page => [page, this.other[page] ?? editor.format.empty]));
         editor.dispatch(editor.edits.replacePages(editor.state.get().document, taken));
         await this.look();
@@ -237,7 +237,7 @@ export class CompareDialog extends HTMLElement {
         const { activeElement } = document;
         const isThere = activeElement !== null && this.dialog.contains(activeElement) && !activeElement.matches(':disabled, [hidden]');
         if (!this.dialog.open || isThere) return;
-        const isDone = this.desk.transfer.state.get().phase === 'written';
+        const isDone = this.session.transfer.state.get().phase === 'written';
         const row = isDone ? null : this.rows.querySelector<HTMLElement>('button');
         const next = [this.stop, this.again].find(button => !button.hidden) ?? row ?? this.shut;
         next.focus({ preventScroll: true });

@@ -2,7 +2,7 @@
 // What the document may be compared with: the robot, a backup of one, another document of this browser, a file.
 
 import { documentFrom } from '../../model/document.ts';
-import type { Desk } from '../desk.ts';
+import type { Session } from '../session/session.ts';
 import { EDITOR_TEXTS } from '../texts/editor.ts';
 
 export interface Compared {
@@ -12,29 +12,29 @@ export interface Compared {
 }
 
 /** Everything that could be chosen now; a file is chosen by its own button. */
-export function comparables(desk: Desk): Compared[] {
-    const { documents, backups, openId } = desk.documents.state.get();
+export function comparables(session: Session): Compared[] {
+    const { documents, backups, openId } = session.documents.state.get();
     const when = (ms: number): string => new Date(ms).toLocaleString();
     return [
-        { key: 'robot', title: robotTitle(desk) },
+        { key: 'robot', title: robotTitle(session) },
         ...backups.map(({ id, robot, takenMs }) => ({ key: `b:${id}`, title: EDITOR_TEXTS.backupOf(robot, when(takenMs)) })),
         ...documents.filter(({ id }) => id !== openId).map(({ id, name }) => ({ key: `d:${id}`, title: `${name} (document)` })),
     ];
 }
 
-export function robotTitle(desk: Desk): string {
-    const { source, portName } = desk.state.get();
+export function robotTitle(session: Session): string {
+    const { source, portName } = session.state.get();
     return source === 'simulated' ? 'The robot in this page' : source === 'servos' ? 'My servos' : `Your robot (${portName})`;
 }
 
 /** Its 128 pages; null: gone, or (the robot) not read. */
-export async function pagesOf(desk: Desk, key: string): Promise<readonly (Uint8Array | null)[] | null> {
+export async function pagesOf(session: Session, key: string): Promise<readonly (Uint8Array | null)[] | null> {
     const id = key.slice(2);
     if (key === 'robot') {
-        const { robot } = desk.editor.state.get();
+        const { robot } = session.editor.state.get();
         return robot.length > 0 ? robot : null;
     }
-    if (key.startsWith('d:')) return (await desk.documents.read(id))?.pages ?? null;
-    const backup = desk.documents.state.get().backups.find(one => one.id === id);
+    if (key.startsWith('d:')) return (await session.documents.read(id))?.pages ?? null;
+    const backup = session.documents.state.get().backups.find(one => one.id === id);
     return backup ? documentFrom(backup.image, backup.robot).pages : null;
 }

@@ -6,7 +6,7 @@ import { jointAngle, jointTitle } from '../../model/body.ts';
 import type { Body, Joint } from '../../model/body.ts';
 import { AS_STORED, NOMINAL_VOLTS } from '../../model/motion.ts';
 import type { Shape } from '../../model/motion.ts';
-import type { Desk } from '../desk.ts';
+import type { Session } from '../session/session.ts';
 import { define, make, setText } from '../element.ts';
 import { LINE_TEXTS } from '../texts/robot.ts';
 import { CurveHand, jointAt, nearestPoint } from './curve-hand.ts';
@@ -32,22 +32,22 @@ export interface Drawn {
 }
 
 export class CurveCanvas extends HTMLElement {
-    desk!: Desk; // set before it is connected
+    session!: Session; // set before it is connected
     /** After each drawing. */
     onDrawn: (drawn: Drawn) => void = () => undefined;
     private shape = AS_STORED;
     private readonly canvas = make('canvas', { tabindex: 0, role: 'img', 'aria-label': 'Curves of the joints' });
     private readonly label = make('p', { class: 'point', 'aria-hidden': true });
     private drawing: CurveDrawing | null = null;
-    private hand!: CurveHand; // made when it is connected, as the next one: they want the desk
+    private hand!: CurveHand; // made when it is connected, as the next one: they want the session
     private follow!: ServoFollow;
     private request = 0;
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.replaceChildren(this.canvas, this.label);
-        this.hand = new CurveHand(this.desk);
-        this.follow = new ServoFollow(this.desk, () => this.later());
+        this.hand = new CurveHand(this.session);
+        this.follow = new ServoFollow(this.session, () => this.later());
         const { canvas } = this;
         canvas.addEventListener('pointerdown', event => this.down(event));
         canvas.addEventListener('pointermove', event => this.move(event));
@@ -68,7 +68,7 @@ export class CurveCanvas extends HTMLElement {
             () => sizes.disconnect(),
             () => themes.disconnect(),
             () => cancelAnimationFrame(this.request),
-            this.desk.editor.state.watch(() => this.later()),
+            this.session.editor.state.watch(() => this.later()),
         );
     }
 
@@ -130,12 +130,12 @@ export class CurveCanvas extends HTMLElement {
         const {
             shape,
             hand,
-            desk: { editor, state },
+            session: { editor, state },
         } = this;
         const scene = curveScene(editor, { shape, volts: state.get().where?.batteryVolts || NOMINAL_VOLTS, edges: hand.dragged });
         if (!scene) return null;
         this.follow.look(scene.curve.ticks, shape);
-        return { ...scene, followed: this.follow.positions, degrees: degreesFor(this.desk.body, scene.chosen) };
+        return { ...scene, followed: this.follow.positions, degrees: degreesFor(this.session.body, scene.chosen) };
     }
 
     private colours(): CurveColours {
@@ -169,7 +169,7 @@ export class CurveCanvas extends HTMLElement {
         const point = drawing && nearestPoint(drawing, event);
         this.canvas.classList.toggle('over-point', !!point);
         const joint = point?.joint ?? (drawing && jointAt(drawing, event));
-        const servo = this.desk.body.joints.find(one => one.servo === joint);
+        const servo = this.session.body.joints.find(one => one.servo === joint);
         setText(this.label, servo ? lineText(servo, point ?? null) : '');
     }
 

@@ -4,8 +4,8 @@
 
 import { JOINTS, POSITION_MAX, TICKS_PER_SECOND } from '../../model/motion.ts';
 import { BYTE_MAX } from '../../model/page.ts';
-import type { Desk } from '../desk.ts';
-import type { Gesture } from '../editor-desk.ts';
+import type { Session } from '../session/session.ts';
+import type { Gesture } from '../session/editor.ts';
 import type { CurveFrame, CurveScene, WayPoint } from './curve-picture.ts';
 import { JointTurn } from './joint-turn.ts';
 import { nearestSetting } from './step-times.ts';
@@ -36,13 +36,13 @@ interface Drag extends CurveDrawing {
 }
 
 export class CurveHand {
-    private readonly desk: Desk;
+    private readonly session: Session;
     private readonly arrows: JointTurn;
     private drag: Drag | null = null;
 
-    constructor(desk: Desk) {
-        this.desk = desk;
-        const { editor, body } = desk;
+    constructor(session: Session) {
+        this.session = session;
+        const { editor, body } = session;
         this.arrows = new JointTurn(editor, body, (start, positions) =>
             editor.edits.setJoints(start, editor.state.get().page, [editor.state.get().step], positions),
         );
@@ -55,7 +55,7 @@ export class CurveHand {
 
     /** true: a way-point is taken hold of, and the pointer belongs to it. */
     down(drawing: CurveDrawing, spot: Spot, add: boolean): boolean {
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const point = nearestPoint(drawing, spot);
         if (!point) {
             const joint = jointAt(drawing, spot);
@@ -78,7 +78,7 @@ export class CurveHand {
         if (!drag) return;
         const [dx, dy] = [spot.offsetX - drag.start.offsetX, spot.offsetY - drag.start.offsetY];
         drag.axis ??= Math.hypot(dx, dy) < CLEAR_PX ? null : Math.abs(dx) > Math.abs(dy) ? 'time' : 'position';
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const { page } = editor.state.get();
         const { point, gesture, frame } = drag;
         if (drag.axis === 'position') {
@@ -124,20 +124,20 @@ export class CurveHand {
     }
 
     private turn(units: number): void {
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const { page, step, joints } = editor.state.get();
         if (joints.size > 0) this.arrows.turn(units, () => editor.poseAfter(page, step));
     }
 
     private chooseStep(by: number): void {
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const { page, step } = editor.state.get();
         const to = Math.min(Math.max(step + by, 0), editor.page(page).steps.length - 1);
         editor.select({ step: to, steps: new Set([to]) });
     }
 
     private changeTime(by: number): void {
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const { page, step, document } = editor.state.get();
         const time = Math.min(Math.max((editor.page(page).steps[step]?.time ?? 0) + by, 0), BYTE_MAX);
         editor.dispatch(editor.edits.setTime(document, page, [step], time));

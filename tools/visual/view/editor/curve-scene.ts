@@ -5,7 +5,7 @@ import { tooFast } from '../../model/curve-speed.ts';
 import { AS_STORED, JOINTS, POSITION_MAX, TICKS_PER_SECOND } from '../../model/motion.ts';
 import type { Curve, Shape } from '../../model/motion.ts';
 import { pageOf } from '../../model/document.ts';
-import type { Editor } from '../editor-desk.ts';
+import type { Editor } from '../session/editor.ts';
 import type { CurveScene, WayPoint } from './curve-picture.ts';
 import { stepTimes } from './step-times.ts';
 

@@ -4,7 +4,7 @@
 import { degreesOf, jointTitle } from '../../model/body.ts';
 import type { TickSpan } from '../../model/curve-speed.ts';
 import type { Shape } from '../../model/motion.ts';
-import type { Desk, Tab } from '../desk.ts';
+import type { Session, Tab } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
 import { LINE_TEXTS } from '../texts/robot.ts';
@@ -18,7 +18,7 @@ import { limbGroups } from './teach-bar.ts';
 import './curves-pane.css';
 
 export class CurvesPane extends HTMLElement {
-    desk!: Desk; // these are set before it is connected
+    session!: Session; // these are set before it is connected
     shape!: Store<Shape>;
     private readonly chips = new Map<number, HTMLButtonElement>();
     private readonly legend = make('ul', { class: 'legend', 'aria-label': LINE_TEXTS.name });
@@ -29,7 +29,7 @@ export class CurvesPane extends HTMLElement {
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
-        const give = <T extends HTMLElement & { desk: Desk }>(element: T): T => Object.assign(element, { desk: this.desk });
+        const give = <T extends HTMLElement & { session: Session }>(element: T): T => Object.assign(element, { session: this.session });
         const canvas = give(new CurveCanvas());
         canvas.onDrawn = drawn => {
             this.sayFast(drawn.fast);
@@ -49,10 +49,10 @@ export class CurvesPane extends HTMLElement {
             this.jointRow(),
         );
         this.disposals.push(
-            this.desk.editor.state.watch(({ joints }) => {
+            this.session.editor.state.watch(({ joints }) => {
                 for (const [servo, chip] of this.chips) chip.setAttribute('aria-pressed', String(joints.has(servo)));
             }),
-            this.desk.state.watch(({ tab }) => {
+            this.session.state.watch(({ tab }) => {
                 if (tab === 'curves' && this.shownTab !== tab) this.beginWithLimb();
                 this.shownTab = tab;
             }),
@@ -66,7 +66,7 @@ export class CurvesPane extends HTMLElement {
 
     /** Eighteen lines at once tell nothing: who comes sees the limb that the motion moves most. */
     private beginWithLimb(): void {
-        const { editor, body } = this.desk;
+        const { editor, body } = this.session;
         const { page, joints } = editor.state.get();
         if (joints.size > 0) return;
         const servos = busiestLimb(limbGroups(body), editor.page(page).steps);
@@ -78,7 +78,7 @@ export class CurvesPane extends HTMLElement {
         const key = chosen.join();
         if (key === this.legend.dataset.joints) return;
         this.legend.dataset.joints = key;
-        const { joints } = this.desk.body;
+        const { joints } = this.session.body;
         const items = chosen.map((servo, i) => {
             const joint = joints.find(one => one.servo === servo);
             return make(
@@ -92,7 +92,7 @@ export class CurvesPane extends HTMLElement {
 
     /** What the other lines are. */
     private sayLines(drawn: Drawn): void {
-        const { joints } = this.desk.editor.state.get();
+        const { joints } = this.session.editor.state.get();
         const text = [
             drawn.isShaped && joints.size > 0 ? CURVE_TEXTS.stored : '',
             this.follow.checked ? this.lagText(drawn, joints.size > 0) : '',
@@ -108,7 +108,7 @@ export class CurvesPane extends HTMLElement {
         return lags.size === 0
             ? CURVE_TEXTS.lagsComing
             : CURVE_TEXTS.lags(
-                  this.desk.body.joints.flatMap(joint => {
+                  this.session.body.joints.flatMap(joint => {
                       const units = lags.get(joint.servo);
                       return units === undefined ? [] : [[joint.servo, degreesOf(joint, units)] as const];
                   }),
@@ -117,10 +117,10 @@ export class CurvesPane extends HTMLElement {
 
     private jointRow(): HTMLElement {
         const row = make('div', { class: 'joint-chips', role: 'group', 'aria-label': 'Joints to edit' });
-        for (const { title, servos } of limbGroups(this.desk.body)) {
-            row.append(make('button', { class: 'limb', onclick: () => this.desk.editor.select({ joints: new Set(servos) }) }, title));
+        for (const { title, servos } of limbGroups(this.session.body)) {
+            row.append(make('button', { class: 'limb', onclick: () => this.session.editor.select({ joints: new Set(servos) }) }, title));
         }
-        for (const joint of [...this.desk.body.joints].sort((a, b) => a.servo - b.servo)) {
+        for (const joint of [...this.session.body.joints].sort((a, b) => a.servo - b.servo)) {
             const chip = make(
                 'button',
                 { title: jointTitle(joint), 'aria-label': `${joint.servo} ${jointTitle(joint)}`, onclick: () => this.toggle(joint.servo) },
@@ -133,9 +133,9 @@ export class CurvesPane extends HTMLElement {
     }
 
     private toggle(servo: number): void {
-        const joints = new Set(this.desk.editor.state.get().joints);
+        const joints = new Set(this.session.editor.state.get().joints);
         if (!joints.delete(servo)) joints.add(servo);
-        this.desk.editor.select({ joints });
+        this.session.editor.select({ joints });
     }
 
     private sayFast(fast: ReadonlyMap<number, readonly TickSpan[]>): void {

@@ -5,8 +5,8 @@ import { copyName } from '../../model/document.ts';
 import { dirtyPages } from '../../model/editor-state.ts';
 import type { MotionDocument } from '../../model/document.ts';
 import type { EditorState } from '../../model/editor-state.ts';
-import type { Desk } from '../desk.ts';
-import type { DocumentsState } from '../documents-desk.ts';
+import type { Session } from '../session/session.ts';
+import type { DocumentsState } from '../session/documents.ts';
 import { onChoice } from '../choice.ts';
 import { define, isTyping, make } from '../element.ts';
 import { ask, askText } from './ask-dialog.ts';
@@ -20,13 +20,13 @@ const RENAME = 'rename';
 const REMOVE = 'remove';
 
 export class EditBar extends HTMLElement {
-    desk!: Desk; // set before it is connected
+    session!: Session; // set before it is connected
     /** Opens the way to the robot. */
     onTransfer: () => void = () => undefined;
     private readonly documents = make('select', { 'aria-label': 'Document' });
     private readonly kept = make('span', { class: 'kept', role: 'status', 'aria-label': 'Autosave' });
-    private readonly undo = make('button', { onclick: () => this.desk.editor.undo() }, '↶');
-    private readonly redo = make('button', { onclick: () => this.desk.editor.redo() }, '↷');
+    private readonly undo = make('button', { onclick: () => this.session.editor.undo() }, '↶');
+    private readonly redo = make('button', { onclick: () => this.session.editor.redo() }, '↷');
     private readonly transfer = make('button', { onclick: () => this.onTransfer() }, 'To the robot …');
     private readonly disposals: (() => void)[] = [];
 
@@ -38,9 +38,9 @@ export class EditBar extends HTMLElement {
         const keys = (event: KeyboardEvent): void => this.key(event);
         document.addEventListener('keydown', keys);
         this.disposals.push(
-            this.desk.documents.state.watch(state => this.renderDocuments(state)),
-            this.desk.editor.state.watch(state => this.renderEdits(state)),
-            this.desk.documents.state.watch(() => this.renderEdits(this.desk.editor.state.get())),
+            this.session.documents.state.watch(state => this.renderDocuments(state)),
+            this.session.editor.state.watch(state => this.renderEdits(state)),
+            this.session.documents.state.watch(() => this.renderEdits(this.session.editor.state.get())),
             () => document.removeEventListener('keydown', keys),
         );
     }
@@ -73,15 +73,15 @@ export class EditBar extends HTMLElement {
             button.setAttribute('aria-label', button.title);
         };
         show(this.undo, 'Undo', done.at(-1));
-        const { forgotten } = this.desk.documents.state.get();
+        const { forgotten } = this.session.documents.state.get();
         if (done.length === 0 && forgotten > 0) this.undo.title = EDITOR_TEXTS.forgotten(forgotten);
         show(this.redo, 'Redo', undone.at(-1));
-        const count = dirtyPages(state, this.desk.editor.format).size;
+        const count = dirtyPages(state, this.session.editor.format).size;
         this.transfer.textContent = count > 0 ? `To the robot (${count}) …` : 'To the robot …';
     }
 
     private async chooseDocument(value: string): Promise<void> {
-        const { documents, editor } = this.desk;
+        const { documents, editor } = this.session;
         const { name } = editor.state.get().document;
         this.documents.value = documents.state.get().openId;
         switch (value) {
@@ -114,11 +114,11 @@ export class EditBar extends HTMLElement {
     /** from: asked when the name is given, for the document may have changed meanwhile. */
     private async create(title: string, proposal: string, from?: () => MotionDocument): Promise<void> {
         const name = await askText(title, 'Name', proposal);
-        if (name) await this.desk.documents.create(name, from?.());
+        if (name) await this.session.documents.create(name, from?.());
     }
 
     private async createFromRobot(): Promise<void> {
-        const { transfer, editor } = this.desk;
+        const { transfer, editor } = this.session;
         if (!(await transfer.read()).isDone) return this.onTransfer(); // which says why, and offers to try again
         const pages = editor.state.get().robot.map(bytes => bytes ?? editor.format.empty);
         await this.create('What the robot has, as a document', 'My robot', () => ({ name: '', pages }));
@@ -131,8 +131,8 @@ export class EditBar extends HTMLElement {
         const key = event.key.toLowerCase();
         if (key !== 'z' && key !== 'y') return;
         event.preventDefault();
-        if (key === 'y' || event.shiftKey) this.desk.editor.redo();
-        else this.desk.editor.undo();
+        if (key === 'y' || event.shiftKey) this.session.editor.redo();
+        else this.session.editor.undo();
     }
 }
 

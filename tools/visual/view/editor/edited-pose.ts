@@ -9,7 +9,7 @@ import { JOINTS, POSITION_MIDDLE } from '../../model/motion.ts';
 import type { Stance } from '../../model/pose-drag.ts';
 import type { Place } from '../../model/space.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
-import type { Editor } from '../editor-desk.ts';
+import type { Editor } from '../session/editor.ts';
 import type { Store } from '../store.ts';
 import { robotAngles, robotPositions, stanceOf, stepAngles } from './editing.ts';
 import type { Editing } from './editing.ts';

@@ -10,8 +10,8 @@ import { BYTE_MAX } from '../../model/page.ts';
 import type { Step } from '../../model/page.ts';
 import type { Stance } from '../../model/pose-drag.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
-import type { Tab } from '../desk.ts';
-import type { Editor } from '../editor-desk.ts';
+import type { Tab } from '../session/session.ts';
+import type { Editor } from '../session/editor.ts';
 
 /** pose: a drag in the picture changes the chosen step; hand: it pulls the robot. */
 export type PictureMode = 'pose' | 'hand';
@@ -84,8 +84,8 @@ const LEAST_TIME = 48;
 
 /** Time of a step (ticks at nominal speed) in which no joint has to hurry on its way from the pose before. */
 export function easyTime(from: readonly (number | null)[], to: readonly (number | null)[]): number {
-    const ways = to.map((position, id) => Math.abs((position ?? 0) - (from[id] ?? position ?? 0)));
-    return Math.min(BYTE_MAX, Math.max(LEAST_TIME, Math.ceil(Math.max(...ways) / SAFE_UNITS_PER_TICK)));
+    const distances = to.map((position, id) => Math.abs((position ?? 0) - (from[id] ?? position ?? 0)));
+    return Math.min(BYTE_MAX, Math.max(LEAST_TIME, Math.ceil(Math.max(...distances) / SAFE_UNITS_PER_TICK)));
 }
 
 /** A step of these positions that the robot reaches without haste. */

@@ -4,10 +4,10 @@
 
 import { SUFFIXES } from '../../model/file-formats.ts';
 import type { Suffix } from '../../model/file-formats.ts';
-import type { Desk } from '../desk.ts';
+import type { Session } from '../session/session.ts';
 import { onChoice } from '../choice.ts';
 import { define, make } from '../element.ts';
-import type { FilesState } from '../files-desk.ts';
+import type { FilesState } from '../session/files.ts';
 import { FILE_TEXTS } from '../texts/files.ts';
 import './files-menu.css';
 
@@ -15,7 +15,7 @@ const ACCEPTED = '.m512,.bin,.img,.hex,.ihex,.mtn';
 const FORGET_MS = 60_000; // a download has begun by then
 
 export class FilesMenu extends HTMLElement {
-    desk!: Desk; // set before it is connected
+    session!: Session; // set before it is connected
     private readonly chooser = make('input', {
         type: 'file',
         accept: ACCEPTED,
@@ -23,9 +23,9 @@ export class FilesMenu extends HTMLElement {
         'aria-label': 'Motion file',
         onchange: () => this.chosen(),
     });
-    private readonly dialog = make('dialog', { 'aria-labelledby': 'files-title', oncancel: () => this.desk.files.dismiss() });
+    private readonly dialog = make('dialog', { 'aria-labelledby': 'files-title', oncancel: () => this.session.files.dismiss() });
     private readonly busy = make('span', { class: 'busy', role: 'status' });
-    private readonly stop = make('button', { hidden: true, onclick: () => this.desk.files.cancel() }, 'Cancel');
+    private readonly stop = make('button', { hidden: true, onclick: () => this.session.files.cancel() }, 'Cancel');
     private shown: Pick<FilesState, 'opened' | 'tooLarge' | 'trouble'> | null = null;
     private readonly ends: (() => void)[] = [];
 
@@ -55,7 +55,7 @@ export class FilesMenu extends HTMLElement {
         );
         this.listen('dragover', event => this.isFile(event) && event.preventDefault());
         this.listen('drop', event => void this.dropped(event));
-        this.ends.push(this.desk.files.state.watch(state => this.render(state)));
+        this.ends.push(this.session.files.state.watch(state => this.render(state)));
     }
 
     disconnectedCallback(): void {
@@ -85,11 +85,11 @@ export class FilesMenu extends HTMLElement {
     }
 
     private async read(file: File): Promise<void> {
-        await this.desk.files.choose(file);
+        await this.session.files.choose(file);
     }
 
     private async save(suffix: Suffix): Promise<void> {
-        const saved = await this.desk.files.save(suffix);
+        const saved = await this.session.files.save(suffix);
         if (!saved) return;
         const address = URL.createObjectURL(new Blob([saved.bytes as Uint8Array<ArrayBuffer>]));
         make('a', { href: address, download: saved.name }).click();
@@ -100,7 +100,7 @@ export class FilesMenu extends HTMLElement {
 
     /** The selected page as a link, in the clipboard and to be copied. */
     async send(): Promise<void> {
-        const hash = await this.desk.files.link();
+        const hash = await this.session.files.link();
         if (hash === null) return;
         const address = new URL(hash, window.location.href).href;
         const isCopied = await navigator.clipboard.writeText(address).then(
@@ -129,15 +129,15 @@ export class FilesMenu extends HTMLElement {
             this.show(
                 tooLarge.name,
                 [make('p', {}, FILE_TEXTS.tooLarge(tooLarge.pages))],
-                [make('button', { onclick: () => void this.desk.files.openWithoutRest() }, 'Open without them'), this.closing('Cancel')],
+                [make('button', { onclick: () => void this.session.files.openWithoutRest() }, 'Open without them'), this.closing('Cancel')],
             );
         else this.dialog.close();
     }
 
     private showOpened({ name, notes, losses, count, damaged, hasTrim }: NonNullable<FilesState['opened']>): void {
         const trim = make('input', { type: 'checkbox' });
-        const { files } = this.desk;
-        const ways = [
+        const { files } = this.session;
+        const choices = [
             make('button', { class: 'primary', title: FILE_TEXTS.addHint, onclick: () => files.addOpened() }, 'Add to free pages'),
             make('button', { title: FILE_TEXTS.documentHint, onclick: () => void files.createFromOpened() }, 'As a new document'),
             make('button', { title: FILE_TEXTS.replaceHint, onclick: () => files.replaceAll(trim.checked) }, 'Replace all pages'),
@@ -149,7 +149,7 @@ export class FilesMenu extends HTMLElement {
                 lines([...notes, ...losses]),
                 hasTrim ? make('label', {}, trim, ` ${FILE_TEXTS.trim}`) : null,
             ],
-            [...ways.slice(count === 0 ? 1 : 0), this.closing('Cancel')],
+            [...choices.slice(count === 0 ? 1 : 0), this.closing('Cancel')],
         );
     }
 
@@ -159,7 +159,7 @@ export class FilesMenu extends HTMLElement {
             {
                 onclick: () => {
                     this.dialog.close();
-                    this.desk.files.dismiss();
+                    this.session.files.dismiss();
                 },
             },
             title,

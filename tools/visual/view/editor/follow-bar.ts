@@ -2,7 +2,7 @@
 // Live follow: the robot goes, slowly, where the chosen step is. Off until somebody wants it, and off again when a limb is let
 // go.
 
-import type { Desk } from '../desk.ts';
+import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
 import { isEditing } from './editing.ts';
@@ -10,36 +10,36 @@ import type { Editing } from './editing.ts';
 import { FOLLOW_TEXTS } from '../texts/steps.ts';
 
 export class FollowBar extends HTMLElement {
-    desk!: Desk; // these are set before it is connected
+    session!: Session; // these are set before it is connected
     editing!: Store<Editing>;
     private readonly box = make('input', { type: 'checkbox', onchange: () => this.editing.set({ follow: this.box.checked }) });
     private readonly disposals: (() => void)[] = [];
-    private told = false;
+    private isFollowing = false;
 
     connectedCallback(): void {
         this.replaceChildren(make('label', {}, this.box, FOLLOW_TEXTS.offer));
         this.disposals.push(
             this.editing.watch(() => this.render()),
-            this.desk.editor.state.watch(() => this.render()),
-            this.desk.state.watch(() => this.render()),
+            this.session.editor.state.watch(() => this.render()),
+            this.session.state.watch(() => this.render()),
         );
     }
 
     disconnectedCallback(): void {
         for (const dispose of this.disposals.splice(0)) dispose();
-        if (this.told) this.desk.follow(null);
+        if (this.isFollowing) this.session.follow(null);
     }
 
     private render(): void {
         const { follow } = this.editing.get();
         this.box.checked = follow;
-        const { tab, connection } = this.desk.state.get();
-        const { editor } = this.desk;
+        const { tab, connection } = this.session.state.get();
+        const { editor } = this.session;
         const { page, step } = editor.state.get();
         const shall = follow && isEditing(tab) && connection === 'ready' && editor.page(page).steps.length > 0;
-        if (!shall && !this.told) return;
-        this.told = shall;
-        this.desk.follow(shall ? editor.poseAfter(page, step) : null);
+        if (!shall && !this.isFollowing) return;
+        this.isFollowing = shall;
+        this.session.follow(shall ? editor.poseAfter(page, step) : null);
     }
 }
 

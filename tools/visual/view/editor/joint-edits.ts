@@ -11,7 +11,7 @@ import type { Part } from '../../model/pose-drag.ts';
 import type { Result } from '../../model/result.ts';
 import type { Transaction } from '../../model/transaction.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
-import type { Editor } from '../editor-desk.ts';
+import type { Editor } from '../session/editor.ts';
 import { easyStep, robotPositions } from './editing.ts';
 
 /** Joints that a drag of this part moves. */

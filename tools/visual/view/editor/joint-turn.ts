@@ -5,7 +5,7 @@ import type { Body } from '../../model/body.ts';
 import type { MotionDocument } from '../../model/document.ts';
 import type { Result } from '../../model/result.ts';
 import type { Transaction } from '../../model/transaction.ts';
-import type { Editor, Gesture } from '../editor-desk.ts';
+import type { Editor, Gesture } from '../session/editor.ts';
 import { changedBy } from './editing.ts';
 
 /** The edit that gives the chosen step these positions (servo units by ID). */

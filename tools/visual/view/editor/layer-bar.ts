@@ -5,7 +5,7 @@ import { jointAngle, jointTitle, nearestPosition } from '../../model/body.ts';
 import type { Joint } from '../../model/body.ts';
 import { pageOf } from '../../model/document.ts';
 import { POSITION_MAX, POSITION_MIDDLE } from '../../model/motion.ts';
-import type { Desk } from '../desk.ts';
+import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import { LAYER_TEXTS } from '../texts/steps.ts';
 import { pageText } from '../texts/editor.ts';
@@ -14,7 +14,7 @@ import './layer-bar.css';
 const AIM_DEGREES_S = 90;
 
 export class LayerBar extends HTMLElement {
-    desk!: Desk; // set before it is connected
+    session!: Session; // set before it is connected
     private readonly page = make('select', { 'aria-label': 'Page to lay over the play' });
     private readonly joints = make(
         'select',
@@ -40,18 +40,18 @@ export class LayerBar extends HTMLElement {
     });
     private readonly byCode = make('div', { class: 'by-code' });
     private readonly jointName = make('span', { class: 'joint' });
-    private readonly said = make('p', { class: 'hint', role: 'status', 'aria-label': 'Beside the play' });
-    private readonly startPlay = make('button', { onclick: () => this.desk.runImage('play') }, 'Start Play');
+    private readonly status = make('p', { class: 'hint', role: 'status', 'aria-label': 'Beside the play' });
+    private readonly startPlay = make('button', { onclick: () => this.session.runImage('play') }, 'Start Play');
     private readonly deeds: readonly HTMLButtonElement[] = [
         make('button', { onclick: () => this.lay() }, 'Lay over'),
-        make('button', { onclick: () => void this.desk.beside({ kind: 'layer', page: null, joints: [] }) }, 'Layer off'),
+        make('button', { onclick: () => void this.session.overlay({ kind: 'layer', page: null, joints: [] }) }, 'Layer off'),
         make('button', { title: 'Goes there and holds it there', onclick: () => this.aim() }, 'Aim'),
         make('button', { title: 'To and fro about the position', onclick: () => this.swing() }, 'Swing'),
         make(
             'button',
             {
                 title: 'Back to the play',
-                onclick: () => void this.desk.beside({ kind: 'free', joints: this.chosen.map(({ servo }) => servo) }),
+                onclick: () => void this.session.overlay({ kind: 'free', joints: this.chosen.map(({ servo }) => servo) }),
             },
             'Free',
         ),
@@ -72,11 +72,11 @@ export class LayerBar extends HTMLElement {
             make('p', { class: 'hint' }, LAYER_TEXTS.purpose),
             make('div', { class: 'row' }, this.page, this.joints, lay ?? '', off ?? ''),
             this.byCode,
-            make('div', { class: 'row' }, this.startPlay, this.said),
+            make('div', { class: 'row' }, this.startPlay, this.status),
         );
         this.disposals.push(
-            this.desk.editor.state.watch(() => this.render()),
-            this.desk.state.watch(() => this.render()),
+            this.session.editor.state.watch(() => this.render()),
+            this.session.state.watch(() => this.render()),
         );
     }
 
@@ -85,26 +85,26 @@ export class LayerBar extends HTMLElement {
     }
 
     private get chosen(): Joint[] {
-        const { joints } = this.desk.editor.state.get();
-        return this.desk.body.joints.filter(({ servo }) => joints.has(servo));
+        const { joints } = this.session.editor.state.get();
+        return this.session.body.joints.filter(({ servo }) => joints.has(servo));
     }
 
     private render(): void {
-        const { version, tab, source } = this.desk.state.get();
+        const { version, tab, source } = this.session.state.get();
         if (tab !== 'remote') return;
-        const { document, gesture } = this.desk.editor.state.get();
+        const { document, gesture } = this.session.editor.state.get();
         if (this.shown !== document.pages && !gesture) this.list(document.pages); // not at every frame of a drag
         const isPlay = version?.image === 'play';
         for (const button of this.deeds) button.disabled = !isPlay;
         this.startPlay.hidden = isPlay || version === null || source === 'yours';
         this.showJoint();
         const text = isPlay || version === null ? this.inForce() : source !== 'yours' ? LAYER_TEXTS.needsPlay : LAYER_TEXTS.needsPlayYours;
-        if (this.said.textContent !== text) this.said.textContent = text;
+        if (this.status.textContent !== text) this.status.textContent = text;
     }
 
     private list(pages: readonly Uint8Array[]): void {
         this.shown = pages;
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const kept = this.page.value;
         this.page.replaceChildren(
             ...pages.flatMap((_, page) =>
@@ -128,15 +128,15 @@ export class LayerBar extends HTMLElement {
 
     /** What the robot says is in force. */
     private inForce(): string {
-        const fields = this.desk.state.get().where?.fields;
+        const fields = this.session.state.get().where?.fields;
         const page = Number(fields?.get('layer') ?? 0);
         const aimed = Number.parseInt(fields?.get('aim') ?? '0', 16);
-        const ids = this.desk.body.joints
+        const ids = this.session.body.joints
             .map(({ servo }) => servo)
             .filter(servo => (aimed >>> servo) & 1)
             .sort((a, b) => a - b);
         const parts = [
-            page > 0 ? LAYER_TEXTS.page(pageText(page, this.desk.editor.page(page).name)) : '',
+            page > 0 ? LAYER_TEXTS.page(pageText(page, this.session.editor.page(page).name)) : '',
             ids.length > 0 ? LAYER_TEXTS.joints(ids) : '',
         ];
         return parts.filter(Boolean).join(' ') || LAYER_TEXTS.none;
@@ -144,20 +144,20 @@ export class LayerBar extends HTMLElement {
 
     private lay(): void {
         const joints = this.joints.value === 'chosen' ? this.chosen.map(({ servo }) => servo) : [];
-        void this.desk.beside({ kind: 'layer', page: Number(this.page.value), joints });
+        void this.session.overlay({ kind: 'layer', page: Number(this.page.value), joints });
     }
 
     private aim(): void {
         const { joint } = this;
         if (joint)
-            void this.desk.beside({ kind: 'aim', joint: joint.servo, position: this.within(joint), degreesPerSecond: AIM_DEGREES_S });
+            void this.session.overlay({ kind: 'aim', joint: joint.servo, position: this.within(joint), degreesPerSecond: AIM_DEGREES_S });
     }
 
     private swing(): void {
         const { joint } = this;
         const [amplitude, periodMs] = [Math.round(this.amplitude.valueAsNumber), Math.round(this.seconds.valueAsNumber * 1000)];
         if (!joint || !Number.isFinite(amplitude + periodMs)) return;
-        void this.desk.beside({ kind: 'swing', joint: joint.servo, centre: this.within(joint), amplitude, periodMs });
+        void this.session.overlay({ kind: 'swing', joint: joint.servo, centre: this.within(joint), amplitude, periodMs });
     }
 
     /** The position in the field, as far as the body lets the joint. */

@@ -7,7 +7,7 @@ import type { LinkField } from '../../model/page.ts';
 import type { LinkGraph } from '../../model/links.ts';
 import { REMOTE_BUTTONS, wordOf } from '../../robot/remote.ts';
 import type { RemoteButton } from '../../robot/remote.ts';
-import type { Editor } from '../editor-desk.ts';
+import type { Editor } from '../session/editor.ts';
 import { onChoice } from '../choice.ts';
 import { make } from '../element.ts';
 import { LINK_TEXTS, codeText, pageText } from '../texts/editor.ts';

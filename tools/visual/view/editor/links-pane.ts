@@ -5,7 +5,7 @@
 import { linkGraph } from '../../model/links.ts';
 import type { LinkGraph } from '../../model/links.ts';
 import type { MotionDocument } from '../../model/document.ts';
-import type { Desk } from '../desk.ts';
+import type { Session } from '../session/session.ts';
 import { define, keepFocus, make } from '../element.ts';
 import { LINK_FIELDS, PARTNER_FIELDS } from '../../model/page.ts';
 import type { LinkField } from '../../model/page.ts';
@@ -16,7 +16,7 @@ import { EDITOR_TEXTS, LEGEND_TEXTS, LINK_TEXTS, pageText } from '../texts/edito
 import './links-pane.css';
 
 export class LinksPane extends HTMLElement {
-    desk!: Desk; // set before it is connected
+    session!: Session; // set before it is connected
     private readonly chart = make('div', { class: 'chart' });
     private readonly list = make('div', { class: 'list' });
     private graph: LinkGraph = { nodes: [], links: [] };
@@ -44,8 +44,8 @@ export class LinksPane extends HTMLElement {
         this.chart.addEventListener('pointermove', event => this.pull(event));
         this.chart.addEventListener('pointerup', event => void this.drop(event));
         this.disposals.push(
-            this.desk.editor.state.watch(() => this.render()),
-            this.desk.state.watch(() => queueMicrotask(() => this.render())),
+            this.session.editor.state.watch(() => this.render()),
+            this.session.state.watch(() => queueMicrotask(() => this.render())),
         ); // by then the area is shown, and has a width
     }
 
@@ -54,7 +54,7 @@ export class LinksPane extends HTMLElement {
     }
 
     private render(): void {
-        const { editor, state } = this.desk;
+        const { editor, state } = this.session;
         const { document, page, gesture } = editor.state.get();
         const { tab, where } = state.get();
         if (tab !== 'links') return;
@@ -81,11 +81,11 @@ export class LinksPane extends HTMLElement {
         this.drawn = document;
         this.listed = '';
         const hadFocus = this.chart.contains(window.document.activeElement);
-        this.graph = linkGraph(this.desk.editor.format, document);
+        this.graph = linkGraph(this.session.editor.format, document);
         this.chart.replaceChildren(
             this.graph.nodes.length > 0 ? linkChart(this.graph, this.chart.clientWidth) : make('p', {}, EDITOR_TEXTS.noLinks),
         );
-        if (hadFocus) this.focusPage(this.desk.editor.state.get().page);
+        if (hadFocus) this.focusPage(this.session.editor.state.get().page);
     }
 
     private focusPage(page: number): void {
@@ -93,7 +93,7 @@ export class LinksPane extends HTMLElement {
     }
 
     private choose(page: number): void {
-        this.desk.editor.select({ page });
+        this.session.editor.select({ page });
         this.focusPage(page);
     }
 
@@ -111,7 +111,7 @@ export class LinksPane extends HTMLElement {
         this.chart.classList.remove('pulling');
         if (from === 0 || to === 0) return;
         if (from === to) return this.choose(from);
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const title = (page: number): string => pageText(page, editor.page(page).name);
         const kinds: readonly LinkField[] = [...LINK_FIELDS, ...PARTNER_FIELDS];
         const answer = await ask(

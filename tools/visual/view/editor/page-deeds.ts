@@ -3,7 +3,7 @@
 
 import { pageOf } from '../../model/document.ts';
 import { freePage } from '../../model/page-edits.ts';
-import type { Editor } from '../editor-desk.ts';
+import type { Editor } from '../session/editor.ts';
 import { make } from '../element.ts';
 import { ask, askText } from './ask-dialog.ts';
 import { EDITOR_TEXTS, pageText } from '../texts/editor.ts';

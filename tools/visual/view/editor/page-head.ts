@@ -2,16 +2,16 @@
 // Which page is edited: its number and name, a new one, and playing it.
 
 import { PAGE_COUNT } from '../../model/motion.ts';
-import type { Desk } from '../desk.ts';
+import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import { EDITOR_TEXTS } from '../texts/editor.ts';
 import { STEP_TEXTS } from '../texts/steps.ts';
 
 export class PageHead extends HTMLElement {
-    desk!: Desk; // set before it is connected
+    session!: Session; // set before it is connected
     private readonly choice = make('select', {
         'aria-label': 'Page',
-        onchange: () => this.desk.editor.select({ page: Number(this.choice.value) }),
+        onchange: () => this.session.editor.select({ page: Number(this.choice.value) }),
     });
     private readonly name = make('input', {
         type: 'text',
@@ -36,7 +36,7 @@ export class PageHead extends HTMLElement {
             make('button', { title: 'The first empty page', onclick: () => this.newPage() }, 'New page'),
             make('span', { class: 'space' }),
             this.play,
-            make('button', { class: 'stop', onclick: () => void this.desk.command('stop') }, 'Stop'),
+            make('button', { class: 'stop', onclick: () => void this.session.command('stop') }, 'Stop'),
             this.library,
         );
         this.library.append(
@@ -45,8 +45,8 @@ export class PageHead extends HTMLElement {
             make('button', { onclick: () => this.agree() }, EDITOR_TEXTS.editsItself),
         );
         this.disposals.push(
-            this.desk.editor.state.watch(() => this.render()),
-            this.desk.state.watch(() => this.render()),
+            this.session.editor.state.watch(() => this.render()),
+            this.session.state.watch(() => this.render()),
         );
     }
 
@@ -55,7 +55,7 @@ export class PageHead extends HTMLElement {
     }
 
     private render(): void {
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const {
             page,
             document: { pages },
@@ -70,7 +70,7 @@ export class PageHead extends HTMLElement {
 
     private list(pages: readonly Uint8Array[]): void {
         const options = pages.map((_, page) => {
-            const { name, steps } = this.desk.editor.page(page);
+            const { name, steps } = this.session.editor.page(page);
             return page === 0 ? null : make('option', { value: page }, `${page} ${name || (steps.length > 0 ? '(no name)' : '–')}`);
         });
         const same = this.shown !== null && this.choice.length === options.length - 1;
@@ -86,17 +86,17 @@ export class PageHead extends HTMLElement {
     /** The second click of a double click would ask a robot that has just begun, and be refused as busy. */
     private playPressed(event: Event): void {
         const isSecondClick = event instanceof UIEvent && event.detail > 1;
-        if (!isSecondClick) void this.desk.playEdited(this.desk.editor.state.get().page);
+        if (!isSecondClick) void this.session.playEdited(this.session.editor.state.get().page);
     }
 
     private agree(): void {
-        this.agreed.add(this.desk.editor.state.get().page);
+        this.agreed.add(this.session.editor.state.get().page);
         this.render();
         this.choice.focus();
     }
 
     private editCopy(): void {
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const { page, document } = editor.state.get();
         const copy = editor.edits.copyForEditing(document, page);
         if (!copy.ok) return void editor.dispatch(copy);
@@ -105,16 +105,16 @@ export class PageHead extends HTMLElement {
     }
 
     private rename(): void {
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const { page, document } = editor.state.get();
         if (!editor.dispatch(editor.edits.rename(document, page, this.name.value.trim()))) this.name.value = editor.page(page).name;
     }
 
     private newPage(): void {
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const { pages } = editor.state.get().document;
         const free = pages.findIndex((bytes, page) => page > 0 && page < PAGE_COUNT && editor.format.isEmpty(bytes));
-        if (free < 0) return this.desk.say({ text: STEP_TEXTS.allUsed, tone: 'bad' });
+        if (free < 0) return this.session.say({ text: STEP_TEXTS.allUsed, tone: 'bad' });
         editor.select({ page: free, step: 0, steps: new Set([0]), joints: new Set() });
         this.name.focus();
     }

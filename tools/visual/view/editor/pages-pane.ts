@@ -5,7 +5,7 @@ import { pageOf } from '../../model/document.ts';
 import { dirtyPages } from '../../model/editor-state.ts';
 import type { EditorState } from '../../model/editor-state.ts';
 import { PAGE_COUNT } from '../../model/motion.ts';
-import type { Desk } from '../desk.ts';
+import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import { PageCard } from './page-card.ts';
 import { PageDeeds } from './page-deeds.ts';
@@ -15,7 +15,7 @@ import './pages-pane.css';
 type Filter = 'all' | 'used' | 'changed';
 
 export class PagesPane extends HTMLElement {
-    desk!: Desk; // set before it is connected
+    session!: Session; // set before it is connected
     /** Opens the comparison with a robot, a backup or another document. */
     onCompare: () => void = () => undefined;
     private readonly cards: PageCard[] = [];
@@ -34,24 +34,24 @@ export class PagesPane extends HTMLElement {
     );
     private readonly list = make('div', { class: 'cards', role: 'listbox', 'aria-label': 'Pages' });
     private readonly nothing = make('p', { class: 'nothing', hidden: true }, EDITOR_TEXTS.nothingFound);
-    private deeds!: PageDeeds; // made with the desk
+    private deeds!: PageDeeds; // made with the session
     private dragged = 0;
     private playing = 0;
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
-        this.deeds = new PageDeeds(this.desk.editor);
+        this.deeds = new PageDeeds(this.session.editor);
         this.makeCards();
         this.replaceChildren(make('p', { class: 'purpose' }, EDITOR_TEXTS.pages), this.tools(), this.list, this.nothing);
         this.listen();
         this.disposals.push(
             this.watchSight(),
-            this.desk.editor.state.watch(state => this.render(state)),
-            this.desk.state.watch(({ where }) => {
+            this.session.editor.state.watch(state => this.render(state)),
+            this.session.state.watch(({ where }) => {
                 const playing = where?.state === 'playing' ? where.page : 0;
                 if (playing === this.playing) return;
                 this.playing = playing;
-                this.render(this.desk.editor.state.get());
+                this.render(this.session.editor.state.get());
             }),
         );
     }
@@ -61,7 +61,7 @@ export class PagesPane extends HTMLElement {
     }
 
     private get current(): number {
-        return this.desk.editor.state.get().page;
+        return this.session.editor.state.get().page;
     }
 
     private tools(): HTMLElement {
@@ -82,7 +82,7 @@ export class PagesPane extends HTMLElement {
         if (this.cards.length > 0) return;
         for (let page = 0; page < PAGE_COUNT; page++) {
             const card = new PageCard();
-            Object.assign(card, { body: this.desk.body, format: this.desk.editor.format, page });
+            Object.assign(card, { body: this.session.body, format: this.session.editor.format, page });
             this.cards.push(card);
         }
         this.list.append(...this.cards.slice(1), ...this.cards.slice(0, 1)); // the trim stands last: no motion
@@ -100,7 +100,7 @@ export class PagesPane extends HTMLElement {
     }
 
     private render(state: EditorState): void {
-        const dirty = dirtyPages(state, this.desk.editor.format);
+        const dirty = dirtyPages(state, this.session.editor.format);
         for (const card of this.cards) {
             const { page } = card;
             card.show(pageOf(state.document, page), {
@@ -131,7 +131,7 @@ export class PagesPane extends HTMLElement {
         this.list.addEventListener('focusin', event => {
             // however a page got the focus, keys mean that page
             const page = cardOf(event)?.page ?? this.current;
-            if (page !== this.current) this.desk.editor.select({ page });
+            if (page !== this.current) this.session.editor.select({ page });
         });
         this.list.addEventListener('dblclick', event => cardOf(event) && this.openSteps());
         this.list.addEventListener('keydown', event => this.key(event));
@@ -163,7 +163,7 @@ export class PagesPane extends HTMLElement {
 
     private choose(card: PageCard | null): void {
         if (!card) return;
-        this.desk.editor.select({ page: card.page });
+        this.session.editor.select({ page: card.page });
         card.focus();
     }
 

@@ -2,32 +2,32 @@
 // In Checks: lets physics try motions, says how far it is and what came of it, in short.
 
 import { pageOf } from '../../model/document.ts';
-import type { Desk } from '../desk.ts';
+import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
-import type { TrialsState } from '../trial-desk.ts';
+import type { TrialsState } from '../session/trials.ts';
 import { pageText } from '../texts/editor.ts';
 import { TRIAL_TEXTS, countedText } from '../texts/trials.ts';
 
 export class PhysicsBar extends HTMLElement {
-    desk!: Desk; // set before it is connected
-    private readonly one = make('button', { onclick: () => void this.desk.trials.run([this.desk.editor.state.get().page]) });
+    session!: Session; // set before it is connected
+    private readonly one = make('button', { onclick: () => void this.session.trials.run([this.session.editor.state.get().page]) });
     private readonly all = make(
         'button',
-        { class: 'primary', onclick: () => void this.desk.trials.run(this.playable()) },
+        { class: 'primary', onclick: () => void this.session.trials.run(this.playable()) },
         'Try all motions',
     );
-    private readonly stop = make('button', { onclick: () => this.desk.trials.cancel() }, 'Stop trying');
+    private readonly stop = make('button', { onclick: () => this.session.trials.cancel() }, 'Stop trying');
     private readonly progress = make('progress', { 'aria-label': 'Motions tried' });
-    private readonly said = make('p', { class: 'said', role: 'status', 'aria-label': 'What physics says' });
+    private readonly status = make('p', { class: 'result', role: 'status', 'aria-label': 'What physics says' });
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.replaceChildren(
             make('p', { class: 'purpose' }, TRIAL_TEXTS.purpose),
             make('div', { class: 'row' }, this.one, this.all, this.stop, this.progress),
-            this.said,
+            this.status,
         );
-        const { trials, editor, state } = this.desk;
+        const { trials, editor, state } = this.session;
         this.disposals.push(
             trials.state.watch(() => this.render()),
             editor.state.watch(() => this.render()),
@@ -40,13 +40,13 @@ export class PhysicsBar extends HTMLElement {
     }
 
     private playable(): number[] {
-        const { format, state } = this.desk.editor;
+        const { format, state } = this.session.editor;
         const { document } = state.get();
         return document.pages.flatMap((_, page) => (page > 0 && format.isPlayable(pageOf(document, page)) ? [page] : []));
     }
 
     private render(): void {
-        const { editor, trials, state } = this.desk;
+        const { editor, trials, state } = this.session;
         if (state.get().tab !== 'checks' || editor.state.get().gesture) return;
         const { page } = editor.state.get();
         const trial = trials.state.get();
@@ -67,7 +67,7 @@ export class PhysicsBar extends HTMLElement {
         if (trial.phase === 'failed') return TRIAL_TEXTS.failed(trial.trouble ?? '');
         if (trial.phase === 'trying' && trial.page !== null) return TRIAL_TEXTS.trying(trial, this.titleOf(trial.page));
         const known = playable.flatMap(page => trial.trials.get(page) ?? []);
-        const changed = playable.filter(page => trial.trials.has(page) && !this.desk.trials.isFresh(page)).length;
+        const changed = playable.filter(page => trial.trials.has(page) && !this.session.trials.isFresh(page)).length;
         return countedText(
             known.map(({ verdict }) => verdict.kind),
             playable.length - known.length,
@@ -76,11 +76,11 @@ export class PhysicsBar extends HTMLElement {
     }
 
     private titleOf(page: number): string {
-        return pageText(page, this.desk.editor.page(page).name);
+        return pageText(page, this.session.editor.page(page).name);
     }
 
     private say(text: string): void {
-        if (this.said.textContent !== text) this.said.textContent = text;
+        if (this.status.textContent !== text) this.status.textContent = text;
     }
 }
 

@@ -2,12 +2,12 @@
 // The motion in the picture only: shown, stopped, looked at moment by moment, over and over. The robot hears nothing of it.
 
 import { TICKS_PER_SECOND } from '../../model/motion.ts';
-import type { Desk } from '../desk.ts';
+import type { Session } from '../session/session.ts';
 import { define, make, setText } from '../element.ts';
 import { SHOW_TEXTS } from '../texts/steps.ts';
 
 export class PlayBar extends HTMLElement {
-    desk!: Desk; // set before it is connected
+    session!: Session; // set before it is connected
     private readonly show = make('button', { class: 'show', title: SHOW_TEXTS.hint, onclick: () => this.toggle() }, SHOW_TEXTS.show);
     private readonly fromStep = make('button', { title: SHOW_TEXTS.fromStepHint, onclick: () => this.startAtStep() }, SHOW_TEXTS.fromStep);
     private readonly moment = make('input', {
@@ -20,7 +20,7 @@ export class PlayBar extends HTMLElement {
         oninput: () => this.seek(),
     });
     private readonly clock = make('output', { 'aria-live': 'off' });
-    private readonly loop = make('input', { type: 'checkbox', onchange: () => this.desk.preview.setLooping(this.loop.checked) });
+    private readonly loop = make('input', { type: 'checkbox', onchange: () => this.session.preview.setLooping(this.loop.checked) });
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
@@ -34,8 +34,8 @@ export class PlayBar extends HTMLElement {
             make('label', { title: SHOW_TEXTS.loopHint }, this.loop, SHOW_TEXTS.loop),
         );
         this.disposals.push(
-            this.desk.preview.state.watch(() => this.render()),
-            this.desk.editor.state.watch(() => this.render()),
+            this.session.preview.state.watch(() => this.render()),
+            this.session.editor.state.watch(() => this.render()),
         );
     }
 
@@ -44,7 +44,7 @@ export class PlayBar extends HTMLElement {
     }
 
     private render(): void {
-        const { editor, preview } = this.desk;
+        const { editor, preview } = this.session;
         const { page } = editor.state.get();
         const { isRunning, isLooping, tick, ticks } = preview.state.get();
         const isEmpty = editor.page(page).steps.length === 0;
@@ -59,7 +59,7 @@ export class PlayBar extends HTMLElement {
     }
 
     private toggle(): void {
-        const { preview, editor } = this.desk;
+        const { preview, editor } = this.session;
         const { isRunning, ticks } = preview.state.get();
         if (isRunning) preview.pause();
         else if (ticks > 0) preview.resume();
@@ -67,12 +67,12 @@ export class PlayBar extends HTMLElement {
     }
 
     private startAtStep(): void {
-        const { page, step } = this.desk.editor.state.get();
-        this.desk.preview.start(page, step);
+        const { page, step } = this.session.editor.state.get();
+        this.session.preview.start(page, step);
     }
 
     private seek(): void {
-        const { preview, editor } = this.desk;
+        const { preview, editor } = this.session;
         const share = Number(this.moment.value) / Number(this.moment.max);
         const { page } = editor.state.get();
         if (preview.state.get().ticks === 0) preview.seek(page, 0); // how long it is shows only now

@@ -5,7 +5,7 @@ import { jointAngle, jointTitle, nearestPosition } from '../../model/body.ts';
 import type { Joint } from '../../model/body.ts';
 import type { Touch } from '../../model/trial.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
-import type { Desk } from '../desk.ts';
+import type { Session } from '../session/session.ts';
 import { closesByItself, define, make } from '../element.ts';
 import type { Store } from '../store.ts';
 import { isEditing } from './editing.ts';
@@ -31,7 +31,7 @@ const KEEPS = [
 ] as const;
 
 export class PoseBar extends HTMLElement {
-    desk!: Desk; // these are set before it is connected
+    session!: Session; // these are set before it is connected
     editing!: Store<Editing>;
     /** Metres inside the ground of the soles; null: not looked at. */
     margin: () => number | null = () => null;
@@ -57,9 +57,9 @@ export class PoseBar extends HTMLElement {
         this.replaceChildren(make('div', { class: 'row' }, group, this.options()), this.hint, this.joints, this.balance, this.touch);
         this.disposals.push(
             this.editing.watch(() => this.render()),
-            this.desk.state.watch(() => this.render()),
-            this.desk.editor.state.watch(() => this.render()),
-            this.desk.onFrame(robot => {
+            this.session.state.watch(() => this.render()),
+            this.session.editor.state.watch(() => this.render()),
+            this.session.onFrame(robot => {
                 this.robot = robot;
                 this.showBalance();
                 this.showTouches();
@@ -97,22 +97,22 @@ export class PoseBar extends HTMLElement {
 
     private render(): void {
         const { mode } = this.editing.get();
-        this.hidden = !isEditing(this.desk.state.get().tab);
+        this.hidden = !isEditing(this.session.state.get().tab);
         if (this.hidden) return;
         for (const [name, button] of this.modes) button.setAttribute('aria-pressed', String(name === mode));
-        const { joints } = this.desk.editor.state.get();
+        const { joints } = this.session.editor.state.get();
         this.hint.textContent = mode === 'hand' ? POSE_TEXTS.handMode : joints.size === 0 ? POSE_TEXTS.poseMode : '';
         this.joints.hidden = mode === 'hand' || joints.size === 0;
         if (!this.joints.hidden) this.showJoints(joints);
     }
 
     private showJoints(chosen: ReadonlySet<number>): void {
-        const joints = this.desk.body.joints.filter(joint => chosen.has(joint.servo));
+        const joints = this.session.body.joints.filter(joint => chosen.has(joint.servo));
         if (joints.map(joint => joint.servo).join() !== [...this.fields.keys()].join()) {
             this.fields.clear();
             this.joints.replaceChildren(...joints.map(joint => this.field(joint)));
         }
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const { page, step } = editor.state.get();
         const pose = editor.poseAfter(page, step);
         for (const joint of joints) {
@@ -137,7 +137,7 @@ export class PoseBar extends HTMLElement {
         const field = this.fields.get(joint.servo);
         if (field) field.shown = NaN; // what comes of it is shown anew
         if (!Number.isFinite(input.valueAsNumber)) return this.render();
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const position = nearestPosition(joint, jointAngle(joint, input.valueAsNumber));
         editor.dispatch(changeStep(editor, editor.state.get().document, new Map([[joint.servo, position]]), this.robot));
         this.render(); // a position that is the same changes nothing in the document

@@ -9,8 +9,8 @@ import type { Grab } from '../../model/pose-drag.ts';
 import type { Place } from '../../model/space.ts';
 import type { Touch } from '../../model/trial.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
-import type { Desk } from '../desk.ts';
-import type { Gesture } from '../editor-desk.ts';
+import type { Session } from '../session/session.ts';
+import type { Gesture } from '../session/editor.ts';
 import type { Picked, RobotScene } from '../robot-scene.ts';
 import type { Store } from '../store.ts';
 import { EditedPose, robotPose } from './edited-pose.ts';
@@ -35,7 +35,7 @@ interface Drag {
 export class PoseTool {
     readonly layer: PoseLayer;
     private readonly scene: RobotScene;
-    private readonly desk: Desk;
+    private readonly session: Session;
     private readonly editing: Store<Editing>;
     private readonly body: Body;
     private readonly edited: EditedPose;
@@ -47,23 +47,23 @@ export class PoseTool {
     private balance: Balance | null = null;
     private readonly touchWatch: TouchWatch;
 
-    constructor(scene: RobotScene, desk: Desk, editing: Store<Editing>) {
+    constructor(scene: RobotScene, session: Session, editing: Store<Editing>) {
         this.scene = scene;
-        this.desk = desk;
+        this.session = session;
         this.editing = editing;
-        this.body = desk.body;
-        this.layer = new PoseLayer(desk.body);
-        this.edited = new EditedPose(desk.editor, desk.body, editing);
-        this.arrows = new JointTurn(desk.editor, desk.body, (start, positions) =>
-            changeStep(desk.editor, start, positions, this.edited.robot),
+        this.body = session.body;
+        this.layer = new PoseLayer(session.body);
+        this.edited = new EditedPose(session.editor, session.body, editing);
+        this.arrows = new JointTurn(session.editor, session.body, (start, positions) =>
+            changeStep(session.editor, start, positions, this.edited.robot),
         );
-        this.touchWatch = new TouchWatch(desk.trials);
+        this.touchWatch = new TouchWatch(session.trials);
         scene.add(this.layer.root);
     }
 
     /** Drags in the picture change the step. */
     get isPosing(): boolean {
-        return isEditing(this.desk.state.get().tab) && this.editing.get().mode === 'pose';
+        return isEditing(this.session.state.get().tab) && this.editing.get().mode === 'pose';
     }
 
     get isDragging(): boolean {
@@ -89,9 +89,9 @@ export class PoseTool {
     show(robot: RobotState, isInHand: boolean): boolean {
         this.edited.robot = robot;
         const real: Posed = { trunk: robot.trunk, angles: robotAngles(this.body, robot) };
-        const { preview } = this.desk;
+        const { preview } = this.session;
         const shown = preview.pose();
-        const edited = isEditing(this.desk.state.get().tab) && preview.state.get().figure === 'step' ? this.shown() : null;
+        const edited = isEditing(this.session.state.get().tab) && preview.state.get().figure === 'step' ? this.shown() : null;
         const isPosing = edited !== null && this.isPosing;
         const alarms = new Set(robot.servos.filter(servo => servo.alarms !== 0).map(servo => servo.id));
         const figure = shown
@@ -115,8 +115,8 @@ export class PoseTool {
 
     /** The figure is the edited step from now on: what is pulled is a step, not a motion or the robot. */
     showStep(robot: RobotState): void {
-        if (!this.isPosing || this.desk.preview.state.get().figure === 'step') return;
-        this.desk.preview.showStep();
+        if (!this.isPosing || this.session.preview.state.get().figure === 'step') return;
+        this.session.preview.showStep();
         this.show(robot, false);
     }
 
@@ -125,8 +125,8 @@ export class PoseTool {
         const { angles } = this.edited;
         const held = grab(this.body, picked.shape, picked.link, picked.point, angles, this.edited.stance(angles));
         const joints = jointsOfPart(this.body, held.part);
-        const { joints: chosen } = this.desk.editor.state.get();
-        this.desk.editor.select({ joints: new Set(add ? [...chosen, ...joints] : joints) });
+        const { joints: chosen } = this.session.editor.state.get();
+        this.session.editor.select({ joints: new Set(add ? [...chosen, ...joints] : joints) });
         this.drag = { held, picked, gesture: null };
     }
 
@@ -139,8 +139,8 @@ export class PoseTool {
                 ? this.scene.dragInPlane(x, y, held.world, jointAxis(held, held.part.joint).axis)
                 : this.scene.drag(x, y, held.world);
         const positions = changedPositions(this.body, held.angles, dragged(this.body, held, target, this.editing.get().soleFlat));
-        drag.gesture ??= this.desk.editor.gesture('set-joints');
-        drag.gesture.change(changeStep(this.desk.editor, drag.gesture.start, positions, this.edited.robot));
+        drag.gesture ??= this.session.editor.gesture('set-joints');
+        drag.gesture.change(changeStep(this.session.editor, drag.gesture.start, positions, this.edited.robot));
     }
 
     /** The end of a drag. keep: false takes it back. */
@@ -177,21 +177,21 @@ export class PoseTool {
         const isOpen = this.drag !== null || this.arrows.isHeld;
         this.up(false);
         this.arrows.end(false);
-        if (!isOpen) this.desk.editor.select({ joints: new Set() });
+        if (!isOpen) this.session.editor.select({ joints: new Set() });
         return true;
     }
 
     private turn(units: number): void {
-        if (this.desk.editor.state.get().joints.size === 0) this.chooseNext(1);
+        if (this.session.editor.state.get().joints.size === 0) this.chooseNext(1);
         this.arrows.turn(units, () => this.shownPose);
     }
 
     private chooseNext(by: number): void {
         const ids = this.body.joints.map(joint => joint.servo).sort((a, b) => a - b);
-        const [first] = [...this.desk.editor.state.get().joints].sort((a, b) => a - b);
+        const [first] = [...this.session.editor.state.get().joints].sort((a, b) => a - b);
         const at = first === undefined ? (by > 0 ? -1 : 0) : ids.indexOf(first);
         const id = ids[(at + by + ids.length) % ids.length];
-        if (id !== undefined) this.desk.editor.select({ joints: new Set([id]) });
+        if (id !== undefined) this.session.editor.select({ joints: new Set([id]) });
     }
 
     /** The edited step; while the mouse drags, on the foot on which it stood before. */
@@ -201,14 +201,14 @@ export class PoseTool {
     }
 
     private showOnion(edited: Posed | null, figure: Posed): void {
-        const { step } = this.desk.editor.state.get();
+        const { step } = this.session.editor.state.get();
         const skin = (at: number): Posed | null => (edited && this.editing.get().onionSkin ? this.edited.atStep(at) : null);
         this.layer.show('before', skin(step - 1), figure);
         this.layer.show('after', skin(step + 1), figure);
     }
 
     private chosenLinks(): Set<string> {
-        const { joints } = this.desk.editor.state.get();
+        const { joints } = this.session.editor.state.get();
         return new Set(this.body.joints.filter(joint => joints.has(joint.servo)).map(joint => joint.body));
     }
 }

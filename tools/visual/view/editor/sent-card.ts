@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // A motion that came in the address of the page: it is taken into the document and runs. The card says what it is, and what next.
 
-import type { Desk } from '../desk.ts';
+import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
-import type { SentMotion } from '../files-desk.ts';
+import type { SentMotion } from '../session/files.ts';
 import { SENT_TEXTS } from '../texts/robot.ts';
 import './sent-card.css';
 
 export class SentCard extends HTMLElement {
-    desk!: Desk; // these are set before it is connected
+    session!: Session; // these are set before it is connected
     /** A motion has come. */
     onSent: () => void = () => undefined;
     /** Somebody wants to teach one. */
@@ -19,7 +19,7 @@ export class SentCard extends HTMLElement {
         this.hidden = true;
         this.setAttribute('role', 'region');
         this.setAttribute('aria-label', SENT_TEXTS.region);
-        this.unwatch = this.desk.files.state.watch(({ sent }) => sent && this.take(sent));
+        this.unwatch = this.session.files.state.watch(({ sent }) => sent && this.take(sent));
     }
 
     disconnectedCallback(): void {
@@ -28,11 +28,11 @@ export class SentCard extends HTMLElement {
 
     private take({ name }: SentMotion): void {
         this.onSent();
-        const page = this.desk.files.addSent();
-        if (page === 0) return this.desk.files.dismiss(); // there is no room, and that has been said
+        const page = this.session.files.addSent();
+        if (page === 0) return this.session.files.dismiss(); // there is no room, and that has been said
         window.history.replaceState(null, '', window.location.pathname + window.location.search);
         this.show(name, page);
-        void this.desk.run(page);
+        void this.session.run(page);
     }
 
     private show(name: string, page: number): void {
@@ -47,8 +47,8 @@ export class SentCard extends HTMLElement {
             make(
                 'div',
                 { class: 'row' },
-                button(SENT_TEXTS.again, () => void this.desk.run(page), 'primary'),
-                button(SENT_TEXTS.edit, () => leave(() => this.desk.show('steps'))),
+                button(SENT_TEXTS.again, () => void this.session.run(page), 'primary'),
+                button(SENT_TEXTS.edit, () => leave(() => this.session.show('steps'))),
                 button(SENT_TEXTS.teach, () => leave(this.onTeach)),
                 button(SENT_TEXTS.close, () => leave(() => undefined)),
             ),

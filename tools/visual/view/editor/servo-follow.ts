@@ -4,12 +4,12 @@
 
 import { JOINTS } from '../../model/motion.ts';
 import type { Curve, Shape } from '../../model/motion.ts';
-import type { Desk } from '../desk.ts';
+import type { Session } from '../session/session.ts';
 
 const REST_MS = 250;
 
 export class ServoFollow {
-    private readonly desk: Desk;
+    private readonly session: Session;
     /** Something else is to be drawn. */
     private readonly changed: () => void;
     private isOn = false;
@@ -21,8 +21,8 @@ export class ServoFollow {
     /** Physics was asked and cannot tell. */
     isUnknown = false;
 
-    constructor(desk: Desk, changed: () => void) {
-        this.desk = desk;
+    constructor(session: Session, changed: () => void) {
+        this.session = session;
         this.changed = changed;
     }
 
@@ -34,7 +34,7 @@ export class ServoFollow {
 
     /** What is drawn now: asks again when it is another motion. */
     look(ticks: number, shape: Shape): void {
-        const { document, page, law, gesture } = this.desk.editor.state.get();
+        const { document, page, law, gesture } = this.session.editor.state.get();
         const wanted = [document, page, law, shape, ticks];
         if (!this.isOn || wanted.every((value, i) => value === this.asked[i])) return;
         this.forget();
@@ -68,7 +68,7 @@ export class ServoFollow {
 
     private async ask(page: number, ticks: number, shape: Shape): Promise<void> {
         const { signal } = this.stop;
-        const positions = await this.desk.trials.follow(page, ticks, shape, signal).catch(() => null);
+        const positions = await this.session.trials.follow(page, ticks, shape, signal).catch(() => null);
         if (signal.aborted) return;
         this.positions = positions;
         this.isUnknown = positions === null;

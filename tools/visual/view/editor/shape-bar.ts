@@ -3,7 +3,7 @@
 
 import { AS_STORED, SHAPE_RANGES } from '../../model/motion.ts';
 import type { Shape } from '../../model/motion.ts';
-import type { Desk } from '../desk.ts';
+import type { Session } from '../session/session.ts';
 import { define, make, setText } from '../element.ts';
 import type { Store } from '../store.ts';
 import { SHAPE_TEXTS } from '../texts/robot.ts';
@@ -13,7 +13,7 @@ const SLIDERS: readonly (keyof Shape)[] = ['rate', 'amplitude', 'blend'];
 const PERCENT_STEP = 5;
 
 export class ShapeBar extends HTMLElement {
-    desk!: Desk; // these are set before it is connected
+    session!: Session; // these are set before it is connected
     shape!: Store<Shape>;
     private readonly hint = make('p', { class: 'hint' });
     private readonly disposals: (() => void)[] = [];
@@ -25,7 +25,7 @@ export class ShapeBar extends HTMLElement {
             make('div', { class: 'row' }, make('button', { onclick: () => this.set(AS_STORED, true) }, SHAPE_TEXTS.asStored), this.hint),
         );
         this.disposals.push(
-            this.desk.state.watch(({ version }) =>
+            this.session.state.watch(({ version }) =>
                 setText(this.hint, version === null || version.image === 'play' ? SHAPE_TEXTS.shapes : SHAPE_TEXTS.needsPlay),
             ),
         );
@@ -53,7 +53,7 @@ export class ShapeBar extends HTMLElement {
     /** tell: also to the robot, if Play runs there. */
     private set(change: Partial<Shape>, tell: boolean): void {
         this.shape.set(change);
-        if (tell && this.desk.state.get().version?.image === 'play') void this.desk.shape(this.shape.get());
+        if (tell && this.session.state.get().version?.image === 'play') void this.session.shape(this.shape.get());
     }
 }
 

@@ -4,7 +4,7 @@
 import { stepsFromText, stepsToText } from '../../model/step-text.ts';
 import { easyStep, robotPositions } from './editing.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
-import type { Desk } from '../desk.ts';
+import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import { STEP_TEXTS } from '../texts/steps.ts';
 
@@ -18,7 +18,7 @@ interface Action {
 }
 
 export class StepActions extends HTMLElement {
-    desk!: Desk; // set before it is connected
+    session!: Session; // set before it is connected
     private robot: RobotState | null = null;
     private readonly buttons = new Map<Action, HTMLButtonElement>();
     private readonly disposals: (() => void)[] = [];
@@ -66,8 +66,8 @@ export class StepActions extends HTMLElement {
             }),
         );
         this.disposals.push(
-            this.desk.editor.state.watch(() => this.render()),
-            this.desk.onFrame(robot => (this.robot = robot)),
+            this.session.editor.state.watch(() => this.render()),
+            this.session.onFrame(robot => (this.robot = robot)),
         );
     }
 
@@ -104,7 +104,7 @@ export class StepActions extends HTMLElement {
     /** A step that is the robot as it stands, behind the chosen one. */
     addFromRobot(): void {
         if (!this.robot) return;
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const { page, step, document } = editor.state.get();
         const count = editor.page(page).steps.length;
         const positions = robotPositions(this.robot);
@@ -114,7 +114,7 @@ export class StepActions extends HTMLElement {
     }
 
     private render(): void {
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const { page, step } = editor.state.get();
         const count = editor.page(page).steps.length;
         for (const [{ needs }, button] of this.buttons)
@@ -122,11 +122,11 @@ export class StepActions extends HTMLElement {
     }
 
     private choose(from: number, count: number): void {
-        this.desk.editor.select({ step: from, steps: new Set(Array.from({ length: count }, (_, i) => from + i)) });
+        this.session.editor.select({ step: from, steps: new Set(Array.from({ length: count }, (_, i) => from + i)) });
     }
 
     private insert(): void {
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const { page, step, document } = editor.state.get();
         const { steps } = editor.page(page);
         const next = steps[step];
@@ -139,32 +139,32 @@ export class StepActions extends HTMLElement {
     }
 
     private duplicate(): void {
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const { page, steps, document } = editor.state.get();
         const last = Math.max(...steps);
         if (editor.dispatch(editor.edits.duplicateSteps(document, page, steps))) this.choose(last + 1, steps.size);
     }
 
     private between(): void {
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const { page, step, document } = editor.state.get();
         if (editor.dispatch(editor.edits.interpolate(document, page, step))) this.choose(step + 1, 1);
     }
 
     private mirror(from: 'right' | 'left'): void {
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const { page, steps, document } = editor.state.get();
         editor.dispatch(editor.edits.mirrorSteps(document, page, steps, editor.pairs, from));
     }
 
     private exchange(): void {
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const { page, steps, document } = editor.state.get();
         editor.dispatch(editor.edits.exchangeSteps(document, page, steps, editor.pairs));
     }
 
     private deleteSteps(): void {
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const { page, steps, document } = editor.state.get();
         const first = Math.min(...steps);
         if (editor.dispatch(editor.edits.deleteSteps(document, page, steps)))
@@ -172,7 +172,7 @@ export class StepActions extends HTMLElement {
     }
 
     private text(): string {
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const { page, steps } = editor.state.get();
         return stepsToText(editor.page(page).steps.filter((_, index) => steps.has(index)));
     }
@@ -180,9 +180,9 @@ export class StepActions extends HTMLElement {
     private async copy(): Promise<void> {
         try {
             await navigator.clipboard.writeText(this.text());
-            this.desk.say({ text: STEP_TEXTS.copied, tone: 'good' });
+            this.session.say({ text: STEP_TEXTS.copied, tone: 'good' });
         } catch {
-            this.desk.say({ text: STEP_TEXTS.noClipboard, tone: 'bad' }); // the browser forbids it here
+            this.session.say({ text: STEP_TEXTS.noClipboard, tone: 'bad' }); // the browser forbids it here
         }
     }
 
@@ -190,14 +190,14 @@ export class StepActions extends HTMLElement {
         try {
             this.take(await navigator.clipboard.readText());
         } catch {
-            this.desk.say({ text: STEP_TEXTS.noClipboard, tone: 'bad' });
+            this.session.say({ text: STEP_TEXTS.noClipboard, tone: 'bad' });
         }
     }
 
     private take(text: string): void {
         const steps = stepsFromText(text);
-        if (!steps) return this.desk.say({ text: STEP_TEXTS.noSteps, tone: 'bad' });
-        const { editor } = this.desk;
+        if (!steps) return this.session.say({ text: STEP_TEXTS.noSteps, tone: 'bad' });
+        const { editor } = this.session;
         const { page, document, steps: chosen } = editor.state.get();
         const at = editor.page(page).steps.length === 0 ? 0 : Math.max(...chosen) + 1;
         if (editor.dispatch(editor.edits.insertSteps(document, page, at, steps, 'paste-steps'))) this.choose(at, steps.length);

@@ -4,7 +4,7 @@
 
 import { anglesOf } from '../../model/body.ts';
 import type { Step } from '../../model/page.ts';
-import type { Desk } from '../desk.ts';
+import type { Session } from '../session/session.ts';
 import { define, isTyping, make } from '../element.ts';
 import { showPose } from './pose-picture.ts';
 import { STEP_TEXTS } from '../texts/steps.ts';
@@ -24,7 +24,7 @@ interface Card {
 }
 
 export class StepRow extends HTMLElement {
-    desk!: Desk; // set before it is connected
+    session!: Session; // set before it is connected
     private readonly list = make('ol', { 'aria-label': 'Steps of the page' });
     private readonly cards: Card[] = [];
     private readonly empty = make('p', { class: 'empty', tabindex: -1 }, STEP_TEXTS.empty);
@@ -37,12 +37,12 @@ export class StepRow extends HTMLElement {
         const titles = make('p', { class: 'titles', 'aria-hidden': true }, make('span', {}, 'time'), make('span', {}, 'pause'));
         this.replaceChildren(titles, this.list, this.empty);
         this.disposals.push(
-            this.desk.editor.state.watch(() => this.render()),
-            this.desk.state.watch(({ tab }) => {
+            this.session.editor.state.watch(() => this.render()),
+            this.session.state.watch(({ tab }) => {
                 if (tab === 'steps' && this.isBehind) this.render();
                 this.markPlaying();
             }),
-            this.desk.preview.state.watch(() => this.markPlaying()),
+            this.session.preview.state.watch(() => this.markPlaying()),
         );
     }
 
@@ -57,12 +57,12 @@ export class StepRow extends HTMLElement {
                 event.key.toLowerCase() !== 'a' ||
                 !(event.ctrlKey || event.metaKey) ||
                 event.altKey ||
-                this.desk.state.get().tab !== 'steps'
+                this.session.state.get().tab !== 'steps'
             )
                 return;
             if (isTyping(event) || (event.target instanceof Element && event.target.closest('dialog'))) return;
             event.preventDefault();
-            this.desk.editor.select({ steps: new Set(this.cards.keys()) });
+            this.session.editor.select({ steps: new Set(this.cards.keys()) });
         };
         document.addEventListener('keydown', all);
         this.disposals.push(() => document.removeEventListener('keydown', all));
@@ -70,9 +70,9 @@ export class StepRow extends HTMLElement {
 
     /** The step that the robot plays, or that the picture shows. */
     private markPlaying(): void {
-        const { where } = this.desk.state.get();
-        const { figure, at } = this.desk.preview.state.get();
-        const { page } = this.desk.editor.state.get();
+        const { where } = this.session.state.get();
+        const { figure, at } = this.session.preview.state.get();
+        const { page } = this.session.editor.state.get();
         const now = figure === 'shown' ? at : where?.state === 'playing' ? where : null;
         const playing = now !== null && now.page === page ? now.step - 1 : -1;
         if (playing === this.playing) return;
@@ -82,15 +82,15 @@ export class StepRow extends HTMLElement {
 
     /** The cursor's card gets the keyboard; without a step, what is said instead of them. */
     focusCursor(): void {
-        const { page, step } = this.desk.editor.state.get();
-        const isEmpty = this.desk.editor.page(page).steps.length === 0;
+        const { page, step } = this.session.editor.state.get();
+        const isEmpty = this.session.editor.page(page).steps.length === 0;
         ((isEmpty ? null : this.cards[step]?.pick) ?? this.empty).focus();
     }
 
     private render(): void {
-        this.isBehind = this.desk.state.get().tab !== 'steps'; // nobody looks: drawn when somebody does
+        this.isBehind = this.session.state.get().tab !== 'steps'; // nobody looks: drawn when somebody does
         if (this.isBehind) return;
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const state = editor.state.get();
         const { steps, schedule } = editor.page(state.page);
         const count = Math.max(1, steps.length); // one that is not seen keeps the room of the first step: nothing jumps when that comes
@@ -127,7 +127,7 @@ export class StepRow extends HTMLElement {
     }
 
     private picture(card: Card, index: number): void {
-        const { editor, body } = this.desk;
+        const { editor, body } = this.session;
         const pose = editor.poseAfter(editor.state.get().page, index);
         const key = pose.join();
         if (key === card.pose) return;
@@ -164,7 +164,7 @@ export class StepRow extends HTMLElement {
 
     /** What is typed is seconds (or speed); all chosen steps get it when this is one of them. */
     private setField(index: number, field: TimedField, typed: number): void {
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const { page, steps, document } = editor.state.get();
         if (!Number.isFinite(typed)) return this.render();
         const chosen = steps.has(index) ? steps : new Set([index]);
@@ -176,7 +176,7 @@ export class StepRow extends HTMLElement {
     }
 
     private choose(index: number, event: { readonly shiftKey: boolean; readonly ctrlKey: boolean; readonly metaKey: boolean }): void {
-        const { step, steps } = this.desk.editor.state.get();
+        const { step, steps } = this.session.editor.state.get();
         let chosen = new Set([index]);
         if (event.shiftKey)
             chosen = new Set([...steps, ...Array.from({ length: Math.abs(index - step) + 1 }, (_, i) => Math.min(index, step) + i)]);
@@ -185,7 +185,7 @@ export class StepRow extends HTMLElement {
             if (!chosen.delete(index)) chosen.add(index);
             if (chosen.size === 0) chosen.add(index);
         }
-        this.desk.editor.select({ step: index, steps: chosen });
+        this.session.editor.select({ step: index, steps: chosen });
     }
 
     private key(event: KeyboardEvent, index: number): void {
@@ -203,7 +203,7 @@ export class StepRow extends HTMLElement {
 
     /** By keyboard: one place on. */
     private moveChosen(by: 1 | -1): void {
-        const { steps } = this.desk.editor.state.get();
+        const { steps } = this.session.editor.state.get();
         const sorted = [...steps].sort((a, b) => a - b);
         const to = by < 0 ? (sorted[0] ?? 0) - 1 : (sorted.at(-1) ?? 0) + 2;
         if (to >= 0 && to <= this.cards.length) this.moveTo(to);
@@ -211,7 +211,7 @@ export class StepRow extends HTMLElement {
 
     /** The chosen steps go before the step that is at `to` now; the cursor goes with them. */
     private moveTo(to: number): void {
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const { page, step, steps, document } = editor.state.get();
         if (!editor.dispatch(editor.edits.moveSteps(document, page, steps, to))) return;
         const sorted = [...steps].sort((a, b) => a - b);
@@ -221,7 +221,8 @@ export class StepRow extends HTMLElement {
 
     private down(event: PointerEvent, index: number, pick: HTMLButtonElement): void {
         if (event.button !== 0) return;
-        if (!this.desk.editor.state.get().steps.has(index) || event.shiftKey || event.ctrlKey || event.metaKey) this.choose(index, event);
+        if (!this.session.editor.state.get().steps.has(index) || event.shiftKey || event.ctrlKey || event.metaKey)
+            this.choose(index, event);
         pick.setPointerCapture(event.pointerId);
         this.drag = { from: index, startX: event.clientX, to: null };
     }

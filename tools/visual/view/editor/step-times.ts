@@ -4,7 +4,7 @@
 import type { PageView } from '../../model/page.ts';
 import { BYTE_MAX, stepSeconds, writePage } from '../../model/page.ts';
 import { pageOf } from '../../model/document.ts';
-import type { Editor } from '../editor-desk.ts';
+import type { Editor } from '../session/editor.ts';
 
 export type TimedField = 'time' | 'pause';
 

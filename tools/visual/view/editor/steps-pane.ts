@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Steps: the page as pictures, its times, and what can be done with them.
 
-import type { Desk } from '../desk.ts';
+import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
 import type { Editing } from './editing.ts';
@@ -16,11 +16,11 @@ import { TimeLine } from './time-line.ts';
 import './steps-pane.css';
 
 export class StepsPane extends HTMLElement {
-    desk!: Desk; // these are set before it is connected
+    session!: Session; // these are set before it is connected
     editing!: Store<Editing>;
 
     connectedCallback(): void {
-        const give = <T extends HTMLElement & { desk: Desk }>(element: T): T => Object.assign(element, { desk: this.desk });
+        const give = <T extends HTMLElement & { session: Session }>(element: T): T => Object.assign(element, { session: this.session });
         const actions = give(new StepActions());
         const row = give(new StepRow());
         const teach = Object.assign(give(new TeachBar()), { editing: this.editing, add: () => actions.addFromRobot() });

@@ -4,7 +4,7 @@
 
 import { handLimb, footLimb } from '../../model/ik.ts';
 import type { Body } from '../../model/body.ts';
-import type { Desk } from '../desk.ts';
+import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
 import type { Editing } from './editing.ts';
@@ -26,7 +26,7 @@ export function limbGroups(body: Body): LimbGroup[] {
 }
 
 export class TeachBar extends HTMLElement {
-    desk!: Desk; // these are set before it is connected
+    session!: Session; // these are set before it is connected
     editing!: Store<Editing>;
     /** Takes the robot's pose as a step. */
     add: () => void = () => undefined;
@@ -43,7 +43,7 @@ export class TeachBar extends HTMLElement {
 
     connectedCallback(): void {
         const row = make('div', { class: 'row' });
-        for (const group of limbGroups(this.desk.body)) {
+        for (const group of limbGroups(this.session.body)) {
             const button = make('button', { onclick: () => void this.toggle(group) }, group.title);
             this.limbs.set(group, button);
             row.append(button);
@@ -56,9 +56,9 @@ export class TeachBar extends HTMLElement {
         );
         this.disposals.push(
             this.editing.watch(() => this.render()),
-            this.desk.state.watch(() => this.render()),
-            this.desk.editor.state.watch(() => this.render()),
-            this.desk.onFrame(({ servos }) => {
+            this.session.state.watch(() => this.render()),
+            this.session.editor.state.watch(() => this.render()),
+            this.session.onFrame(({ servos }) => {
                 const limp = servos.filter(servo => !servo.torque).map(servo => servo.id);
                 if (limp.join() === this.limp.join()) return;
                 this.limp = limp;
@@ -73,12 +73,12 @@ export class TeachBar extends HTMLElement {
 
     private render(): void {
         const { taught } = this.editing.get();
-        const { editor } = this.desk;
+        const { editor } = this.session;
         this.adds.classList.toggle('primary', editor.page(editor.state.get().page).steps.length === 0); // then there is nothing to play
         for (const [group, button] of this.limbs)
             button.setAttribute('aria-pressed', String(group.servos.every(servo => taught.has(servo))));
         this.hold.disabled = taught.size === 0 && this.limp.length === 0;
-        const isSimulated = this.desk.state.get().source === 'simulated';
+        const isSimulated = this.session.state.get().source === 'simulated';
         this.hint.textContent = this.hold.disabled ? TEACH_TEXTS.stiff : isSimulated ? TEACH_TEXTS.limpSimulated : TEACH_TEXTS.limpYours;
     }
 
@@ -89,20 +89,20 @@ export class TeachBar extends HTMLElement {
         const isTaught = group.servos.every(servo => taught.has(servo));
         const next = new Set(isTaught ? [...taught].filter(servo => !group.servos.includes(servo)) : [...taught, ...group.servos]);
         this.editing.set({ taught: next, mode: 'hand', follow: false });
-        if (!isTaught && this.desk.state.get().source === 'simulated') this.carry(group);
-        await this.desk.setTorque(isTaught, group.servos);
+        if (!isTaught && this.session.state.get().source === 'simulated') this.carry(group);
+        await this.session.setTorque(isTaught, group.servos);
         if (isTaught) this.letStand(next);
     }
 
     private carry(group: LimbGroup): void {
         this.isCarrying = true;
-        this.desk.lab.hold(true);
+        this.session.sim.hold(true);
         if (/leg$/.test(group.title)) this.mustCarry = true;
     }
 
     private async holdAll(): Promise<void> {
         this.editing.set({ taught: new Set() });
-        await this.desk.setTorque(true, this.limp);
+        await this.session.setTorque(true, this.limp);
         this.letStand(new Set());
     }
 
@@ -112,9 +112,9 @@ export class TeachBar extends HTMLElement {
         this.isCarrying = false;
         if (this.mustCarry) {
             this.mustCarry = false;
-            return this.desk.say({ text: TEACH_TEXTS.handStays, tone: 'calm' });
+            return this.session.say({ text: TEACH_TEXTS.handStays, tone: 'calm' });
         }
-        this.desk.lab.hold(false);
+        this.session.sim.hold(false);
     }
 }
 

@@ -3,8 +3,8 @@
 
 import { TICKS_PER_SECOND } from '../../model/motion.ts';
 import { BYTE_MAX } from '../../model/page.ts';
-import type { Desk } from '../desk.ts';
-import type { Gesture } from '../editor-desk.ts';
+import type { Session } from '../session/session.ts';
+import type { Gesture } from '../session/editor.ts';
 import { define, make } from '../element.ts';
 import { nearestSetting, stepTimes } from './step-times.ts';
 import type { TimedField } from './step-times.ts';
@@ -25,7 +25,7 @@ interface Drag {
 }
 
 export class TimeLine extends HTMLElement {
-    desk!: Desk; // set before it is connected
+    session!: Session; // set before it is connected
     private readonly bar = make('div', { class: 'bar', role: 'img' });
     private readonly head = make('i', { class: 'head', hidden: true });
     private readonly frame = make('div', { class: 'frame' });
@@ -55,12 +55,12 @@ export class TimeLine extends HTMLElement {
         this.bar.addEventListener('pointerup', () => this.end(true));
         this.bar.addEventListener('pointercancel', () => this.end(false));
         window.addEventListener('keydown', this.escape);
-        const unwatchDesk = this.desk.state.watch(({ tab }) => tab === 'steps' && this.isBehind && this.render());
-        const unwatchEditor = this.desk.editor.state.watch(() => this.render());
-        const unwatchPreview = this.desk.preview.state.watch(() => this.renderHead());
+        const unwatchSession = this.session.state.watch(({ tab }) => tab === 'steps' && this.isBehind && this.render());
+        const unwatchEditor = this.session.editor.state.watch(() => this.render());
+        const unwatchPreview = this.session.preview.state.watch(() => this.renderHead());
         this.unwatch = () => {
             unwatchPreview();
-            unwatchDesk();
+            unwatchSession();
             unwatchEditor();
         };
     }
@@ -71,9 +71,9 @@ export class TimeLine extends HTMLElement {
     }
 
     private render(): void {
-        this.isBehind = this.desk.state.get().tab !== 'steps'; // nobody looks: drawn when somebody does
+        this.isBehind = this.session.state.get().tab !== 'steps'; // nobody looks: drawn when somebody does
         if (this.isBehind) return;
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const { page, steps: chosen } = editor.state.get();
         const times = stepTimes(editor, page);
         const isTimed = editor.page(page).schedule === 'time';
@@ -102,7 +102,7 @@ export class TimeLine extends HTMLElement {
 
     /** How often the steps are played one after another, before the motion ends or goes on. */
     private setTimes(): void {
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const { page, document: motions } = editor.state.get();
         const wanted = Math.round(this.times.valueAsNumber);
         const isGood = wanted >= 1 && wanted <= BYTE_MAX;
@@ -120,7 +120,7 @@ export class TimeLine extends HTMLElement {
     }
 
     private seekTo({ clientX }: PointerEvent): void {
-        const { editor, preview } = this.desk;
+        const { editor, preview } = this.session;
         const { page } = editor.state.get();
         const boxes = [...this.bar.children].map(part => part.getBoundingClientRect());
         const part = Math.max(
@@ -137,7 +137,7 @@ export class TimeLine extends HTMLElement {
 
     /** The moment that the picture shows, while it is one of this page. */
     private renderHead(): void {
-        const { editor, preview } = this.desk;
+        const { editor, preview } = this.session;
         const { page } = editor.state.get();
         const { figure, ticks, at } = preview.state.get();
         const [way, rest] = [...this.bar.children].slice(2 * (at.step - 1), 2 * at.step) as HTMLElement[];
@@ -164,7 +164,7 @@ export class TimeLine extends HTMLElement {
         event.preventDefault();
         this.bar.setPointerCapture(event.pointerId);
         const { index, field } = end;
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const times = stepTimes(editor, editor.state.get().page)[index];
         const gesture = editor.gesture(field === 'time' ? 'set-time' : 'set-pause');
         const startSeconds = (field === 'time' ? times?.move : times?.pause) ?? 0;
@@ -180,7 +180,7 @@ export class TimeLine extends HTMLElement {
 
     /** The nearest end; a step without pause is drawn a little wide, so that both of its ends can be taken hold of. */
     private endAt({ clientX, pointerType }: PointerEvent): { readonly index: number; readonly field: TimedField } | null {
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const isTimed = editor.page(editor.state.get().page).schedule === 'time';
         const ends = [...this.bar.children].map((part, i) => {
             const field: TimedField = i % 2 === 0 ? 'time' : 'pause'; // as render() draws them
@@ -194,7 +194,7 @@ export class TimeLine extends HTMLElement {
         if (this.isScrubbing) this.seekTo(event);
         if (!this.drag) return;
         const { index, field, startX, startSeconds, secondsPerPixel, gesture } = this.drag;
-        const { editor } = this.desk;
+        const { editor } = this.session;
         const { page } = editor.state.get();
         const seconds = Math.max(0, startSeconds + (event.clientX - startX) * secondsPerPixel);
         const value = nearestSetting(editor, page, index, field, seconds);

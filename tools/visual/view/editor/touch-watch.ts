@@ -3,7 +3,7 @@
 // newest pose, so that a drag never waits.
 
 import type { Touch } from '../../model/trial.ts';
-import type { Trials } from '../trial-desk.ts';
+import type { Trials } from '../session/trials.ts';
 
 const NONE: readonly Touch[] = [];
 

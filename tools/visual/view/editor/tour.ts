@@ -3,7 +3,7 @@
 // done, and by its button whenever somebody wants. It does nothing by itself.
 
 import type { RobotState } from '../../robot/robot-state.ts';
-import type { Desk } from '../desk.ts';
+import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
 import type { Editing } from './editing.ts';
@@ -16,7 +16,7 @@ const MOVED_UNITS = 25;
 const RING_PX = 46;
 
 export class TourCard extends HTMLElement {
-    desk!: Desk; // these are set before it is connected
+    session!: Session; // these are set before it is connected
     editing!: Store<Editing>;
     /** Where a shape of the robot is on the screen. */
     placeOf: (shape: string) => { readonly x: number; readonly y: number } | null = () => null;
@@ -54,12 +54,12 @@ export class TourCard extends HTMLElement {
         this.ring.hidden = true;
         document.body.append(this.ring);
         this.disposals.push(
-            this.desk.onFrame(robot => {
+            this.session.onFrame(robot => {
                 this.robot = robot;
                 this.look();
             }),
-            this.desk.state.watch(() => this.look()),
-            this.desk.editor.state.watch(() => this.look()),
+            this.session.state.watch(() => this.look()),
+            this.session.editor.state.watch(() => this.look()),
             this.editing.watch(() => this.look()),
         );
     }
@@ -78,7 +78,7 @@ export class TourCard extends HTMLElement {
     /** For who has said already what they want: in Steps, with a motion of their own. */
     teach(): void {
         this.hidden = false;
-        this.desk.show('steps');
+        this.session.show('steps');
         this.go(TOUR.findIndex(({ goal }) => goal === 'new-page'));
         this.look();
     }
@@ -123,8 +123,8 @@ export class TourCard extends HTMLElement {
     }
 
     private isReached({ goal, steps }: TourStop): boolean {
-        const { tab, where } = this.desk.state.get();
-        const { editor } = this.desk;
+        const { tab, where } = this.session.state.get();
+        const { editor } = this.session;
         const { page } = editor.state.get();
         const view = editor.page(page);
         switch (goal) {

@@ -9,7 +9,7 @@ import type { LinkField } from '../../model/page.ts';
 import type { EditName, Transaction } from '../../model/transaction.ts';
 import type { PageAccount } from '../../robot/page-write.ts';
 import { buttonsOf } from '../../robot/remote.ts';
-import type { TransferState } from '../transfer-desk.ts';
+import type { TransferState } from '../session/transfer.ts';
 
 const EDITS: Record<EditName, string> = {
     'set-joints': 'pose',

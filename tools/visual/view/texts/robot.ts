@@ -5,7 +5,7 @@ import type { Shape } from '../../model/motion.ts';
 import type { ConnectionState } from '../../robot/connection-table.ts';
 import type { Where } from '../../robot/protocol.ts';
 import type { RobotError, RobotErrorCode } from '../../robot/robot-error.ts';
-import type { DeskState, Tab } from '../desk.ts';
+import type { SessionState, Tab } from '../session/session.ts';
 
 const ERRORS: Record<RobotErrorCode, string> = {
     'no-answer': 'The robot did not answer. Is it switched on? If its screen shows a "-", type GO in the terminal.',
@@ -58,19 +58,19 @@ export function connectionText(state: ConnectionState): string {
     return CONNECTIONS[state];
 }
 
-function pageTitle(state: DeskState, page: number): string {
+function pageTitle(state: SessionState, page: number): string {
     const name = page === state.shownPage && state.shownName ? state.shownName : state.pages.find(entry => entry.page === page)?.name;
     return name ? `page ${page} (${name})` : `page ${page}`;
 }
 
 /** What the robot does, in one sentence. */
-export function doingText(state: DeskState, where: Where | null): string {
+export function doingText(state: SessionState, where: Where | null): string {
     if (state.stopped !== null) return state.stopped;
     const shown = state.shownPage === null ? '' : TEXTS.shownOnly(pageTitle(state, state.shownPage));
     return [shown, robotText(state, where)].filter(Boolean).join(' ');
 }
 
-function robotText(state: DeskState, where: Where | null): string {
+function robotText(state: SessionState, where: Where | null): string {
     if (state.source === 'simulated' && !state.isPowered) return TEXTS.isOff;
     if (state.adapter) return state.adapter === 'out' ? TEXTS.adapterOut : TEXTS.adapterBack;
     if (state.connection !== 'ready') {
@@ -96,7 +96,7 @@ function robotText(state: DeskState, where: Where | null): string {
 }
 
 /** That the robot begins to move, or has ended: without its steps. */
-export function startText(state: DeskState): string {
+export function startText(state: SessionState): string {
     const { where } = state;
     if (where === null || where.state === 'idle' || where.state === 'ready') return robotText(state, where);
     return where.state === 'paused' ? `Paused in ${pageTitle(state, where.page)}.` : `Plays ${pageTitle(state, where.page)}.`;
@@ -141,7 +141,7 @@ export const TEXTS = {
         'This browser could not save your work (private window, or the disk is full). Save it as a file before you close the page.',
     newVersion: 'A new version of this page is there. What you have made is saved.',
     factoryFresh: 'The robot in the page forgets its motions and settings, as if it were new. Your documents here stay.',
-    labForYours: 'This is about the robot in the page. Choose it at the top.',
+    onlyInPage: 'This is about the robot in the page. Choose it at the top.',
 } as const;
 
 export const FAULT_TITLES: Readonly<Record<string, string>> = {
@@ -162,7 +162,7 @@ export const FAULT_TITLES: Readonly<Record<string, string>> = {
 };
 
 /** The remote's list of keys. */
-export const WAY_TEXTS = {
+export const KEY_TEXTS = {
     keys: 'What the keys start',
     atItsEnd: 'then',
     plays: (page: number, name: string) => `${name === '' ? `Page ${page}` : name} plays; at its end the keys lead on to`,
@@ -176,7 +176,7 @@ const TITLES: Record<Tab, string> = {
     links: 'Links',
     checks: 'Checks',
     terminal: 'Terminal',
-    lab: 'Robot',
+    robot: 'Robot',
 };
 
 export const AREA_TEXTS = {

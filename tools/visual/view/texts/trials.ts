@@ -4,7 +4,7 @@
 import { TICKS_PER_SECOND } from '../../model/motion.ts';
 import { BRUSH_M } from '../../model/trial.ts';
 import type { Touch, Verdict, VerdictKind } from '../../model/trial.ts';
-import type { TrialsState } from '../trial-desk.ts';
+import type { TrialsState } from '../session/trials.ts';
 
 export const TRIAL_TEXTS = {
     purpose: 'Physics: plays motions on a body of their own, as fast as it can; the robot in the picture stays as it is.',

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The robot on the desk: joins the simulated robot or a port with the protocol and the views. The only place that knows
+// The session: joins the simulated robot or a port with the protocol and the views. The only place that knows
 // them all.
 
 import type { FormatsWorker } from '../model/file-formats.ts';
@@ -12,7 +12,7 @@ import type { Command } from '../robot/protocol.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { RobotState } from '../robot/robot-state.ts';
-import type { Beside, Desk, DeskState, ImageName, Notice, Tab, TerminalSize } from '../view/desk.ts';
+import type { Overlay, Session, SessionState, ImageName, Notice, Tab, TerminalSize } from '../view/session/session.ts';
 import { EDITOR_TEXTS, refusalText } from '../view/texts/editor.ts';
 import { Store } from '../view/store.ts';
 import { DocumentEditor } from './editor.ts';
@@ -21,12 +21,12 @@ import { TEXTS } from '../view/texts/robot.ts';
 import { Arrival } from './arrival.ts';
 import { watchCauses } from './causes.ts';
 import { makeDocuments, makeTransfer } from './document-parts.ts';
-import type { DeskStorage } from './document-parts.ts';
+import type { ChosenStorage } from './document-parts.ts';
 import type { KeptDocuments } from './documents.ts';
 import { Driving } from './driving.ts';
 import { DocumentFiles } from './files.ts';
 import { Follow } from './follow.ts';
-import { RobotLab } from './lab.ts';
+import { SimulatorControls } from './simulator-controls.ts';
 import { Listeners } from './listeners.ts';
 import { Status } from './status.ts';
 import type { Stick } from './stick.ts';
@@ -39,13 +39,13 @@ import { RobotImages } from './robot-images.ts';
 import { RobotPlays } from './robot-plays.ts';
 import type { SourceEvents } from './simulated-source.ts';
 import { RobotSources } from './sources.ts';
-import { Strip } from './strip.ts';
+import { StatusMessages } from './status-messages.ts';
 
 /** A robot that has the motion already plays it before this, and nothing has to be shown in its place. */
 const SHOWN_MS = 160;
 const ROBOT_IN_PAGE = 'robot in the page';
 
-const START: DeskState = {
+const START: SessionState = {
     source: 'simulated',
     connection: 'closed',
     portName: '',
@@ -57,7 +57,7 @@ const START: DeskState = {
     speed: 1,
     stopped: null,
     doing: { text: 'Starting …', tone: 'calm' },
-    said: null,
+    message: null,
     faultNames: [],
     tab: 'remote',
     hasNewVersion: false,
@@ -66,21 +66,21 @@ const START: DeskState = {
     isLate: false,
 };
 
-export class RobotDesk implements Desk {
+export class RobotSession implements Session {
     readonly body: Body;
-    readonly state = new Store<DeskState>(START);
+    readonly state = new Store<SessionState>(START);
     readonly editor: DocumentEditor;
     readonly files: DocumentFiles;
     readonly documents: KeptDocuments;
     readonly transfer: RobotTransfer;
     readonly trials: MotionTrials;
     readonly preview: MotionPreview;
-    readonly lab: RobotLab;
+    readonly sim: SimulatorControls;
     readonly version = new PageVersion(this.state);
     private readonly frames = new Listeners<RobotState>();
     private readonly texts = new Listeners<Uint8Array>();
     private lastFrame: RobotState | null = null;
-    private readonly strip = new Strip(this.state);
+    private readonly messages = new StatusMessages(this.state);
     private readonly sources: RobotSources;
     private readonly arrival: Arrival;
     private readonly driving: Driving;
@@ -91,14 +91,14 @@ export class RobotDesk implements Desk {
         connection: () => this.connection,
         isWriting: () => this.transfer.isWriting,
     });
-    private readonly follower = new Follow(() => this.connection, this.strip.fail);
+    private readonly follower = new Follow(() => this.connection, this.messages.fail);
 
-    constructor(body: Body, parts: EditorParts, formats: FormatsWorker, storage: DeskStorage) {
+    constructor(body: Body, parts: EditorParts, formats: FormatsWorker, storage: ChosenStorage) {
         this.body = body;
         this.editor = new DocumentEditor(body, parts, {
             changed: () => this.documents.keep(),
             opened: () => this.trials.forget(),
-            refused: refusal => this.strip.complain(refusalText(refusal), 'edit'),
+            refused: refusal => this.messages.complain(refusalText(refusal), 'edit'),
         });
         this.files = new DocumentFiles(this.editor, formats, {
             cancel: () => formats.cancel(),
@@ -111,12 +111,12 @@ export class RobotDesk implements Desk {
             trunk: () => this.lastFrame?.trunk ?? null,
             isFollowing: () => this.follower.isOn,
             isStoodUp: () => this.isSimulated && this.sources.simulated.isHeld,
-            told: () => this.status.tell(),
+            pageChanged: () => this.status.tell(),
             nextFrame: call => void requestAnimationFrame(call),
         });
         this.trials = new MotionTrials(this.editor, () => trialClient(body));
         this.documents = makeDocuments(this.editor, storage, {
-            failed: () => this.strip.complain(TEXTS.workNotKept, 'storage'),
+            failed: () => this.messages.complain(TEXTS.workNotKept, 'storage'),
             copied: name => this.say({ text: EDITOR_TEXTS.secondTab(name), tone: 'calm' }),
         });
         this.transfer = makeTransfer(this.editor, this.documents, {
@@ -129,18 +129,18 @@ export class RobotDesk implements Desk {
             editor: this.editor,
             events: this.events(),
             mayAsk: () => this.status.mayAsk(),
-            fail: this.strip.fail,
+            fail: this.messages.fail,
         });
         const { simulated } = this.sources;
         this.arrival = new Arrival({
             state: this.state,
-            strip: this.strip,
+            messages: this.messages,
             status: this.status,
             sources: this.sources,
             editor: this.editor,
             transfer: this.transfer,
         });
-        this.lab = new RobotLab(this.state, simulated);
+        this.sim = new SimulatorControls(this.state, simulated);
         this.plays = new RobotPlays({
             state: this.state,
             editor: this.editor,
@@ -152,17 +152,17 @@ export class RobotDesk implements Desk {
             state: this.state,
             format: parts.format,
             robot: () => this.sources.withImages,
-            say: said => this.say(said),
-            fail: this.strip.fail,
+            say: message => this.say(message),
+            fail: this.messages.fail,
         });
         this.driving = new Driving({
             state: this.state,
-            strip: this.strip,
+            messages: this.messages,
             simulated,
             connection: () => this.connection,
             becomeDriven: () => this.images.becomeDriven(),
         });
-        watchCauses({ strip: this.strip, robot: this.state, editor: this.editor.state, documents: this.documents.state });
+        watchCauses({ messages: this.messages, robot: this.state, editor: this.editor.state, documents: this.documents.state });
     }
 
     private events(): Omit<SourceEvents, 'motions'> {
@@ -178,7 +178,7 @@ export class RobotDesk implements Desk {
             },
             text: bytes => {
                 this.texts.tell(bytes);
-                this.strip.hear(bytes);
+                this.messages.hear(bytes);
             },
             connection: state => this.arrival.connectionChanged(state),
             change: change => {
@@ -253,8 +253,8 @@ export class RobotDesk implements Desk {
         return this.act(() => this.plays.shape(shape));
     }
 
-    beside(what: Beside): Promise<void> {
-        return this.act(() => this.plays.beside(what));
+    overlay(what: Overlay): Promise<void> {
+        return this.act(() => this.plays.overlay(what));
     }
 
     command(what: Command): Promise<void> {
@@ -273,9 +273,9 @@ export class RobotDesk implements Desk {
         this.follower.set(positions);
     }
 
-    say(said: Notice): void {
-        if (said.tone === 'bad') this.strip.complain(said.text, 'edit');
-        else this.strip.say(said);
+    say(message: Notice): void {
+        if (message.tone === 'bad') this.messages.complain(message.text, 'edit');
+        else this.messages.say(message);
     }
 
     remote(held: ReadonlySet<RemoteButton>): void {
@@ -287,7 +287,7 @@ export class RobotDesk implements Desk {
     }
 
     type(bytes: Uint8Array): void {
-        void this.connection.write(bytes).catch(this.strip.fail);
+        void this.connection.write(bytes).catch(this.messages.fail);
     }
 
     takeNewVersion(): void {
@@ -325,10 +325,10 @@ export class RobotDesk implements Desk {
     private async act(action: () => Promise<void>): Promise<void> {
         try {
             await action();
-            this.strip.say(null);
+            this.messages.say(null);
             void this.status.ask();
         } catch (error) {
-            this.strip.fail(error);
+            this.messages.fail(error);
         }
     }
 }

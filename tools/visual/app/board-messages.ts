@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The last whole line that the board said by itself, for the strip. Prompts, echoes, bare OKs, answers that came too late and the
-// escape sequences of a full screen are no messages. Nor is the step that plays: the strip says it beside, and Edit counts from 0.
+// The last whole line that the board said by itself, for the status bar. Prompts, echoes, bare OKs, answers that came too late and the
+// escape sequences of a full screen are no messages. Nor is the step that plays: the status bar says it beside, and Edit counts from 0.
 
 const LINE_MAX = 200;
 const TELLS_TROUBLE = /damaged|does not answer|no servo|overload|hot|voltage|fault|lost|cannot|bad|not /i;
@@ -10,19 +10,19 @@ const ENDED_BY_SERVO = /^Ended for the fault of a servo/;
 
 const TELLS_STEP = /^(Page|Playing page) \d+( \(.*\))? step \d+ repetition \d+$/;
 
-export interface Said {
+export interface BoardMessage {
     readonly text: string;
     readonly isTrouble: boolean;
 }
 
-export class LastSaid {
+export class BoardMessages {
     private line = '';
     private isScreen = false;
     private trouble = '';
 
     /** The newest message among these bytes, or null. */
-    take(bytes: Uint8Array): Said | null {
-        let newest: Said | null = null;
+    take(bytes: Uint8Array): BoardMessage | null {
+        let newest: BoardMessage | null = null;
         for (const byte of bytes) {
             if (byte === 0x1b) this.isScreen = true; // a screen is being drawn until the next line begins
             if (byte === 0x0a || byte === 0x0d) {
@@ -34,7 +34,7 @@ export class LastSaid {
         return newest;
     }
 
-    private end(): Said | null {
+    private end(): BoardMessage | null {
         const text = this.line.trim();
         const isMessage =
             !this.isScreen &&
@@ -45,13 +45,13 @@ export class LastSaid {
             /^[\x20-\x7e]+$/.test(text);
         this.line = '';
         this.isScreen = false;
-        return isMessage ? this.told(text) : null;
+        return isMessage ? this.messageOf(text) : null;
     }
 
-    private told(text: string): Said {
+    private messageOf(text: string): BoardMessage {
         const isTrouble = TELLS_TROUBLE.test(text);
-        const said = ENDED_BY_SERVO.test(text) && this.trouble !== '' ? `${this.trouble}. ${text}` : text;
+        const whole = ENDED_BY_SERVO.test(text) && this.trouble !== '' ? `${this.trouble}. ${text}` : text;
         this.trouble = isTrouble && !ENDED_BY_SERVO.test(text) ? text : '';
-        return { text: said, isTrouble };
+        return { text: whole, isTrouble };
     }
 }

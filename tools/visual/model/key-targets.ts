@@ -5,7 +5,7 @@ import type { PageFormat } from './page-format.ts';
 import { readPage } from './page.ts';
 import type { PageView } from './page.ts';
 
-export interface Way {
+export interface KeyTarget {
     /** call: from rest; linked: at the end of the page that plays; stop: its exit; then: its next page, without a key. */
     readonly kind: 'call' | 'linked' | 'stop' | 'then';
     /** The remote's code; 0 for `stop` and `then`. */
@@ -25,8 +25,8 @@ function view(format: PageFormat, pages: RobotPages, page: number): PageView | n
 }
 
 /** What each key, or keys together, start from rest: of pages with the same code the lowest. In order of the codes. */
-export function callsOf(format: PageFormat, pages: RobotPages): Way[] {
-    const calls = new Map<number, Way>();
+export function targetsFromRest(format: PageFormat, pages: RobotPages): KeyTarget[] {
+    const calls = new Map<number, KeyTarget>();
     for (let page = pages.length - 1; page > 0; page--) {
         const read = view(format, pages, page);
         if (read && read.code !== 0) calls.set(read.code, { kind: 'call', code: read.code, page, name: read.name });
@@ -35,13 +35,13 @@ export function callsOf(format: PageFormat, pages: RobotPages): Way[] {
 }
 
 /** Where the page leads at its end: keys first, then what it does without one, then a stop. */
-export function waysFrom(format: PageFormat, pages: RobotPages, page: number): Way[] {
+export function targetsFrom(format: PageFormat, pages: RobotPages, page: number): KeyTarget[] {
     const bytes = pages[page];
     if (page === 0 || !bytes) return [];
     const order = ['linked', 'then', 'stop'];
-    const ways = format.leads(bytes).flatMap(({ to, kind, code }) => {
+    const targets = format.leads(bytes).flatMap(({ to, kind, code }) => {
         const name = view(format, pages, to)?.name;
         return name === undefined || kind === 'blendRight' || kind === 'blendLeft' ? [] : [{ kind: KINDS[kind], code, page: to, name }];
     });
-    return ways.sort((a, b) => order.indexOf(a.kind) - order.indexOf(b.kind));
+    return targets.sort((a, b) => order.indexOf(a.kind) - order.indexOf(b.kind));
 }

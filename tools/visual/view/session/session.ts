@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: MIT
-// The robot on the desk as the views see it: what they may know, and what they may ask for. main.ts puts the simulated
+// The robot in use as the views see it: what they may know, and what they may ask for. main.ts puts the simulated
 // robot or a port behind it; no view ever touches a stream or a worker.
 
-import type { Body } from '../model/body.ts';
-import type { Shape } from '../model/motion.ts';
-import type { Vector } from '../model/space.ts';
-import type { ConnectionState } from '../robot/connection-table.ts';
-import type { Command, PageEntry, Version, Where } from '../robot/protocol.ts';
-import type { RemoteButton } from '../robot/remote.ts';
-import type { RobotState } from '../robot/robot-state.ts';
-import type { Documents } from './documents-desk.ts';
-import type { Editor } from './editor-desk.ts';
-import type { Files } from './files-desk.ts';
-import type { Preview } from './preview-desk.ts';
-import type { Store } from './store.ts';
-import type { Transfer } from './transfer-desk.ts';
-import type { Trials } from './trial-desk.ts';
+import type { Body } from '../../model/body.ts';
+import type { Shape } from '../../model/motion.ts';
+import type { Vector } from '../../model/space.ts';
+import type { ConnectionState } from '../../robot/connection-table.ts';
+import type { Command, PageEntry, Version, Where } from '../../robot/protocol.ts';
+import type { RemoteButton } from '../../robot/remote.ts';
+import type { RobotState } from '../../robot/robot-state.ts';
+import type { Documents } from './documents.ts';
+import type { Editor } from './editor.ts';
+import type { Files } from './files.ts';
+import type { Preview } from './preview.ts';
+import type { Store } from '../store.ts';
+import type { Transfer } from './transfer.ts';
+import type { Trials } from './trials.ts';
 
 export type Source = 'simulated' | 'yours' | 'servos';
 export type ImageName = 'play' | 'edit';
 export type PanelButton = 'up' | 'down' | 'left' | 'right' | 'start' | 'mode';
-export type Tab = 'remote' | 'steps' | 'curves' | 'pages' | 'links' | 'checks' | 'terminal' | 'lab';
+export type Tab = 'remote' | 'steps' | 'curves' | 'pages' | 'links' | 'checks' | 'terminal' | 'robot';
 
-/** What is said in the strip. `board`: in the words that the board used. */
+/** What is said in the messages. `board`: in the words that the board used. */
 export interface Notice {
     readonly text: string;
     readonly tone: 'calm' | 'good' | 'bad';
@@ -34,7 +34,7 @@ export interface TerminalSize {
     readonly columns: number;
 }
 
-export interface DeskState {
+export interface SessionState {
     readonly source: Source;
     readonly connection: ConnectionState;
     readonly portName: string;
@@ -50,7 +50,7 @@ export interface DeskState {
     /** What the robot does. */
     readonly doing: Notice;
     /** What went wrong last, or was said last; null: nothing. */
-    readonly said: Notice | null;
+    readonly message: Notice | null;
     readonly faultNames: readonly string[];
     readonly tab: Tab;
     /** A newer version of this page waits for takeNewVersion(). */
@@ -75,7 +75,7 @@ export interface Hand {
 
 /** What goes on beside a play: a second page on joints of its own (null: no more; no joints: those that its first step uses), or
  *  joints that code moves. Servo units. */
-export type Beside =
+export type Overlay =
     | { readonly kind: 'layer'; readonly page: number | null; readonly joints: readonly number[] }
     | { readonly kind: 'aim'; readonly joint: number; readonly position: number; readonly degreesPerSecond: number }
     | { readonly kind: 'swing'; readonly joint: number; readonly centre: number; readonly amplitude: number; readonly periodMs: number }
@@ -89,7 +89,7 @@ export interface Floor {
 }
 
 /** What a person can do to the robot in the page besides talking to it. To yours it does nothing. */
-export interface Lab {
+export interface SimControls {
     /** Times the robot's own; 0: it waits. */
     setSpeed(speed: number): void;
     oneTick(): void;
@@ -103,16 +103,16 @@ export interface Lab {
     setFloor(floor: Floor): void;
 }
 
-export interface Desk {
+export interface Session {
     readonly body: Body;
-    readonly state: Store<DeskState>;
+    readonly state: Store<SessionState>;
     readonly editor: Editor;
     readonly files: Files;
     readonly documents: Documents;
     readonly transfer: Transfer;
     readonly trials: Trials;
     readonly preview: Preview;
-    readonly lab: Lab;
+    readonly sim: SimControls;
     /** Up to 60 times a second. */
     onFrame(listener: (state: RobotState) => void): () => void;
     /** What the board says to a terminal. */
@@ -132,10 +132,10 @@ export interface Desk {
     /** How what plays is shaped, from its next step on. Only Play can. */
     shape(shape: Shape): Promise<void>;
     /** What goes on beside a play. Only Play can. */
-    beside(what: Beside): Promise<void>;
+    overlay(what: Overlay): Promise<void>;
     /** From now on the robot goes slowly to this pose (servo units by ID; null: this joint stays); null: no more. */
     follow(positions: readonly (number | null)[] | null): void;
-    /** Says something in the strip. */
+    /** Says something in the messages. */
     say(notice: Notice): void;
     remote(held: ReadonlySet<RemoteButton>): void;
     /** A stick: x to the right, y ahead, -1..1; null: let go. It walks, the farther the stick the larger the steps. */

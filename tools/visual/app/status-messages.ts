@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What is said in the strip: by the page, by the board, and what went wrong. That goes when its cause has gone.
+// What is said in the status bar: by the page, by the board, and what went wrong. That goes when its cause has gone.
 
 import { RobotError } from '../robot/robot-error.ts';
-import type { DeskState, Notice } from '../view/desk.ts';
+import type { SessionState, Notice } from '../view/session/session.ts';
 import type { Store } from '../view/store.ts';
 import { errorText } from '../view/texts/robot.ts';
-import { LastSaid } from './said.ts';
+import { BoardMessages } from './board-messages.ts';
 
 /** What went wrong is to be read before the board's next line takes its place. */
 const TROUBLE_STAYS_MS = 6000;
@@ -13,25 +13,25 @@ const TROUBLE_STAYS_MS = 6000;
 /** What a trouble comes from: an edit that was refused, the robot, or a browser that keeps nothing. */
 export type Cause = 'edit' | 'robot' | 'storage';
 
-export class Strip {
-    private readonly state: Store<DeskState>;
-    private readonly lastSaid = new LastSaid();
-    private trouble: { readonly said: Notice; readonly cause: Cause; readonly untilMs: number } | null = null;
+export class StatusMessages {
+    private readonly state: Store<SessionState>;
+    private readonly boardMessages = new BoardMessages();
+    private trouble: { readonly message: Notice; readonly cause: Cause; readonly untilMs: number } | null = null;
 
-    constructor(state: Store<DeskState>) {
+    constructor(state: Store<SessionState>) {
         this.state = state;
     }
 
     /** null: nothing stands there. */
-    say(said: Notice | null): void {
-        this.state.set({ said });
+    say(message: Notice | null): void {
+        this.state.set({ message });
     }
 
     /** Says what went wrong, until over() with that cause. */
     complain(text: string, cause: Cause): void {
-        const said: Notice = { text, tone: 'bad' };
-        this.trouble = { said, cause, untilMs: performance.now() + TROUBLE_STAYS_MS };
-        this.say(said);
+        const message: Notice = { text, tone: 'bad' };
+        this.trouble = { message, cause, untilMs: performance.now() + TROUBLE_STAYS_MS };
+        this.say(message);
     }
 
     /** Says why a robot did not do what it was asked. Any other error is our own mistake, and is thrown. */
@@ -45,19 +45,19 @@ export class Strip {
         const { trouble } = this;
         if (trouble?.cause !== cause) return;
         const restMs = cause === 'robot' ? trouble.untilMs - performance.now() : 0;
-        if (restMs > 0) setTimeout(() => this.takeAway(trouble.said), restMs);
-        else this.takeAway(trouble.said);
+        if (restMs > 0) setTimeout(() => this.takeAway(trouble.message), restMs);
+        else this.takeAway(trouble.message);
     }
 
     /** Says what the board says by itself, but not over a trouble that has just come. */
     hear(bytes: Uint8Array): void {
-        const said = this.lastSaid.take(bytes);
-        if (said && (said.isTrouble || performance.now() > (this.trouble?.untilMs ?? 0)))
-            this.say({ text: said.text, tone: said.isTrouble ? 'bad' : 'calm' });
+        const message = this.boardMessages.take(bytes);
+        if (message && (message.isTrouble || performance.now() > (this.trouble?.untilMs ?? 0)))
+            this.say({ text: message.text, tone: message.isTrouble ? 'bad' : 'calm' });
     }
 
     /** Unless something else was said since. */
-    private takeAway(said: Notice): void {
-        if (this.state.get().said === said) this.say(null);
+    private takeAway(message: Notice): void {
+        if (this.state.get().message === message) this.say(null);
     }
 }

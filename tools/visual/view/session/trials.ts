@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Motions tried in physics, as the views see it. app/trials.ts is behind it.
 
-import type { Shape } from '../model/motion.ts';
-import type { StepTouch, Touch, Verdict } from '../model/trial.ts';
-import type { Store } from './store.ts';
+import type { Shape } from '../../model/motion.ts';
+import type { StepTouch, Touch, Verdict } from '../../model/trial.ts';
+import type { Store } from '../store.ts';
 
 /** What came of one page. */
 export interface PageTrial {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The strip at the bottom: what the robot does, and what was said last, in the words that the board used.
+// The status bar at the bottom: what the robot does, and what was said last, in the words that the board used.
 
 import { Announcer } from './announcer.ts';
-import type { Desk, DeskState, Notice } from './desk.ts';
+import type { Session, SessionState, Notice } from './session/session.ts';
 import { define, make, setText } from './element.ts';
 import { TEXTS } from './texts/robot.ts';
-import './status-strip.css';
+import './status-bar.css';
 
-export class StatusStrip extends HTMLElement {
-    desk!: Desk; // set before it is connected
+export class StatusBar extends HTMLElement {
+    session!: Session; // set before it is connected
     private readonly doing = make('p', { class: 'doing', role: 'status', 'aria-live': 'off', 'aria-label': 'What the robot does' });
-    private readonly said = make('p', { class: 'said', role: 'log', 'aria-live': 'off', 'aria-label': 'Last message' });
+    private readonly message = make('p', { class: 'message', role: 'log', 'aria-live': 'off', 'aria-label': 'Last message' });
     /** The only part that is read aloud. */
     private readonly spoken = make('p', { class: 'visually-hidden', 'aria-live': 'polite', 'aria-label': 'Announcements' });
     private readonly announcer = new Announcer({
@@ -22,14 +22,14 @@ export class StatusStrip extends HTMLElement {
     private fallen = '';
 
     connectedCallback(): void {
-        this.replaceChildren(this.doing, this.said, this.facts, this.spoken);
+        this.replaceChildren(this.doing, this.message, this.facts, this.spoken);
         this.disposals.push(
-            this.desk.state.watch(state => this.render(state)),
-            this.desk.onFrame(state => {
+            this.session.state.watch(state => this.render(state)),
+            this.session.onFrame(state => {
                 const fallen = state.hasFallen ? TEXTS.fallen : state.isHeld ? TEXTS.held : '';
                 if (fallen === this.fallen) return;
                 this.fallen = fallen;
-                this.render(this.desk.state.get());
+                this.render(this.session.state.get());
             }),
         );
     }
@@ -38,14 +38,14 @@ export class StatusStrip extends HTMLElement {
         for (const dispose of this.disposals.splice(0)) dispose();
     }
 
-    private render(state: DeskState): void {
+    private render(state: SessionState): void {
         const liesIdle = this.fallen === TEXTS.fallen && (state.doing.text === TEXTS.waits || state.doing.text === TEXTS.editRuns);
         this.write(this.doing, {
             ...state.doing,
             text: liesIdle ? TEXTS.getUp : [state.doing.text, this.fallen].filter(Boolean).join(' '),
         });
         this.announcer.look(state, this.fallen);
-        this.write(this.said, state.said);
+        this.write(this.message, state.message);
         const where = state.where;
         const version = state.version;
         setText(
@@ -68,4 +68,4 @@ export class StatusStrip extends HTMLElement {
     }
 }
 
-define('status-strip', StatusStrip);
+define('status-bar', StatusBar);

@@ -2,8 +2,8 @@
 // Where the keys lead in the motion library, against the table of pages in tools/motions/README.md.
 import { readFile } from 'node:fs/promises';
 import { beforeAll, expect, test } from 'vitest';
-import { callsOf, waysFrom } from '../model/ways.ts';
-import type { RobotPages, Way } from '../model/ways.ts';
+import { targetsFromRest, targetsFrom } from '../model/key-targets.ts';
+import type { RobotPages, KeyTarget } from '../model/key-targets.ts';
 import type { PageFormat } from '../model/page-format.ts';
 import { libraryDocument, makeFormat } from './motion-bench.ts';
 
@@ -21,17 +21,17 @@ const code = (keys: string): number =>
         .split(' ')
         .filter(Boolean)
         .reduce((sum, key) => sum + (KEYS[key] ?? NaN), 0);
-const words = (ways: readonly Way[]): string[] => ways.map(({ kind, name, code: by }) => `${kind} ${by} ${name}`).sort();
+const words = (targets: readonly KeyTarget[]): string[] => targets.map(({ kind, name, code: by }) => `${kind} ${by} ${name}`).sort();
 
-test('every row of the table: its keys, and its ways on', async () => {
+test('every row of the table: its keys, and its targets on', async () => {
     const text = await readFile(new URL('../../motions/README.md', import.meta.url), 'utf8');
     const rows = [...text.matchAll(/^\| (\d+) \| `(\w+)` \| ([UDLR1-4 ]*?) *\|[^|]*\|([^|]*)\|$/gm)];
     expect(rows.length).toBeGreaterThan(30);
-    const calls = callsOf(format, pages);
+    const calls = targetsFromRest(format, pages);
     for (const [, number, name, keys = '', onward = ''] of rows) {
         const page = Number(number);
         expect(
-            calls.filter(way => way.page === page).map(way => way.code),
+            calls.filter(target => target.page === page).map(target => target.code),
             name,
         ).toEqual(keys.trim() ? [code(keys.trim())] : []);
         const wanted = [...onward.matchAll(/(next|exit|[UDLR1-4 ]+:) `(\w+)`/g)].map(([, by = '', to = '']) => {
@@ -42,18 +42,18 @@ test('every row of the table: its keys, and its ways on', async () => {
                   ? `stop 0 ${target}`
                   : `linked ${code(by.slice(0, -1).trim())} ${target}`;
         });
-        expect(words(waysFrom(format, pages, page)), name).toEqual(wanted.sort());
+        expect(words(targetsFrom(format, pages, page)), name).toEqual(wanted.sort());
     }
 });
 
 test('of two pages with one code the lowest is called, as the firmware does; erased and damaged pages lead nowhere', () => {
     const walk = pages[20] ?? null;
     const twice = pages.map((bytes, page) => (page === 90 ? walk : bytes));
-    expect(callsOf(format, twice).find(way => way.code === 1)?.page).toBe(20);
+    expect(targetsFromRest(format, twice).find(target => target.code === 1)?.page).toBe(20);
     const damaged = pages.map((bytes, page) =>
         page === 20 && bytes ? Uint8Array.from(bytes, (byte, at) => (at === 100 ? byte ^ 1 : byte)) : bytes,
     );
-    expect(callsOf(format, damaged).some(way => way.code === 1)).toBe(false);
-    expect(waysFrom(format, damaged, 20)).toEqual([]);
-    expect(waysFrom(format, [], 20)).toEqual([]);
+    expect(targetsFromRest(format, damaged).some(target => target.code === 1)).toBe(false);
+    expect(targetsFrom(format, damaged, 20)).toEqual([]);
+    expect(targetsFrom(format, [], 20)).toEqual([]);
 });

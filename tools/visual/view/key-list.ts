@@ -2,16 +2,16 @@
 // What the remote's keys call now: from rest the pages that have a code, while a page plays where it leads. What is held and
 // what plays light up; a click plays a page as its key would.
 
-import { callsOf, waysFrom } from '../model/ways.ts';
-import type { Way } from '../model/ways.ts';
-import type { Desk } from './desk.ts';
+import { targetsFromRest, targetsFrom } from '../model/key-targets.ts';
+import type { KeyTarget } from '../model/key-targets.ts';
+import type { Session } from './session/session.ts';
 import { codeText } from './texts/editor.ts';
 import { define, make } from './element.ts';
-import { WAY_TEXTS } from './texts/robot.ts';
-import './way-list.css';
+import { KEY_TEXTS } from './texts/robot.ts';
+import './key-list.css';
 
-export class WayList extends HTMLElement {
-    desk!: Desk; // set before it is connected
+export class KeyList extends HTMLElement {
+    session!: Session; // set before it is connected
     private readonly disposals: (() => void)[] = [];
     private readonly heading = make('h2');
     private readonly list = make('ul');
@@ -21,7 +21,7 @@ export class WayList extends HTMLElement {
     connectedCallback(): void {
         this.replaceChildren(this.heading, this.list);
         const render = (): void => this.render();
-        this.disposals.push(this.desk.state.watch(render), this.desk.editor.state.watch(render));
+        this.disposals.push(this.session.state.watch(render), this.session.editor.state.watch(render));
     }
 
     disconnectedCallback(): void {
@@ -34,31 +34,31 @@ export class WayList extends HTMLElement {
     }
 
     private render(): void {
-        const { where, version, connection } = this.desk.state.get();
-        const { robot } = this.desk.editor.state.get();
+        const { where, version, connection } = this.session.state.get();
+        const { robot } = this.session.editor.state.get();
         const page = connection === 'ready' && where && where.state !== 'idle' && where.state !== 'ready' ? where.page : 0;
         const hears = version?.image === 'play'; // Edit takes no remote
         const key = `${page} ${hears}`;
         if (key === this.shown && robot === this.pages) return;
         this.shown = key;
         this.pages = robot;
-        const { format } = this.desk.editor;
-        const ways = !hears ? [] : page > 0 ? waysFrom(format, robot, page) : callsOf(format, robot);
-        const name = this.desk.state.get().pages.find(entry => entry.page === page)?.name ?? '';
-        this.heading.textContent = page > 0 ? WAY_TEXTS.plays(page, name) : ways.length > 0 ? WAY_TEXTS.keys : '';
+        const { format } = this.session.editor;
+        const targets = !hears ? [] : page > 0 ? targetsFrom(format, robot, page) : targetsFromRest(format, robot);
+        const name = this.session.state.get().pages.find(entry => entry.page === page)?.name ?? '';
+        this.heading.textContent = page > 0 ? KEY_TEXTS.plays(page, name) : targets.length > 0 ? KEY_TEXTS.keys : '';
         this.classList.toggle('playing', page > 0);
-        this.list.replaceChildren(...ways.map(way => this.item(way)));
+        this.list.replaceChildren(...targets.map(target => this.item(target)));
     }
 
-    private item({ kind, code, page, name }: Way): HTMLLIElement {
-        const keys = kind === 'stop' ? '6' : kind === 'then' ? WAY_TEXTS.atItsEnd : codeText(code).replaceAll(/B(\d)/g, '$1');
+    private item({ kind, code, page, name }: KeyTarget): HTMLLIElement {
+        const keys = kind === 'stop' ? '6' : kind === 'then' ? KEY_TEXTS.atItsEnd : codeText(code).replaceAll(/B(\d)/g, '$1');
         const content = [make('kbd', {}, keys), make('span', {}, name === '' ? String(page) : name)];
         return make(
             'li',
             { 'data-code': code },
-            ...(kind === 'call' ? [make('button', { onclick: () => void this.desk.play(page) }, ...content)] : content),
+            ...(kind === 'call' ? [make('button', { onclick: () => void this.session.play(page) }, ...content)] : content),
         );
     }
 }
 
-define('way-list', WayList);
+define('key-list', KeyList);

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The editor as the views see it: the document and its edits, and what may be done with them. app/editor.ts is behind it.
 
-import type { JointPair } from '../model/step-edits.ts';
-import type { MotionDocument } from '../model/document.ts';
-import type { Edits } from '../model/edit.ts';
-import type { EditorState, Selection } from '../model/editor-state.ts';
-import type { Curve, Law, Shape } from '../model/motion.ts';
-import type { PageFormat } from '../model/page-format.ts';
-import type { PageView } from '../model/page.ts';
-import type { Result } from '../model/result.ts';
-import type { EditName, Transaction } from '../model/transaction.ts';
-import type { Store } from './store.ts';
+import type { JointPair } from '../../model/step-edits.ts';
+import type { MotionDocument } from '../../model/document.ts';
+import type { Edits } from '../../model/edit.ts';
+import type { EditorState, Selection } from '../../model/editor-state.ts';
+import type { Curve, Law, Shape } from '../../model/motion.ts';
+import type { PageFormat } from '../../model/page-format.ts';
+import type { PageView } from '../../model/page.ts';
+import type { Result } from '../../model/result.ts';
+import type { EditName, Transaction } from '../../model/transaction.ts';
+import type { Store } from '../store.ts';
 
 /** One drag or one key held: one undo step. It ends by finish() or cancel(), or by any edit outside it. */
 export interface Gesture {
@@ -46,7 +46,7 @@ export interface Editor {
     page(page: number): PageView;
     /** The page is as the robot came with it. */
     isOfLibrary(page: number): boolean;
-    /** Does an edit that was made against `state.get().document`. false: refused; the strip says why, and nothing has changed. */
+    /** Does an edit that was made against `state.get().document`. false: refused; the status bar says why, and nothing has changed. */
     dispatch(edit: Result<Transaction>): boolean;
     gesture(label: EditName): Gesture;
     undo(): void;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The documents that this browser keeps, as the views see them. app/documents.ts is behind it.
 
-import type { Backup } from './document-storage.ts';
-import type { MotionDocument } from '../model/document.ts';
-import type { Store } from './store.ts';
+import type { Backup } from '../document-storage.ts';
+import type { MotionDocument } from '../../model/document.ts';
+import type { Store } from '../store.ts';
 
 export interface DocumentEntry {
     readonly id: string;

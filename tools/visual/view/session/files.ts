@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Files and links as the views see them. app/files.ts is behind it.
 
-import type { FileFormats, Refused, Suffix } from '../model/file-formats.ts';
-import type { Store } from './store.ts';
+import type { FileFormats, Refused, Suffix } from '../../model/file-formats.ts';
+import type { Store } from '../store.ts';
 
 /** A motion file that was read, before anything of it is taken over. */
 export interface OpenedFile {

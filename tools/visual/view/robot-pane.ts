@@ -2,13 +2,13 @@
 // The laboratory of the simulated robot: time, power, floor, battery, servos and their faults.
 
 import { NOMINAL_VOLTS, TICKS_PER_SECOND } from '../model/motion.ts';
-import type { Desk, DeskState, ImageName, PanelButton } from './desk.ts';
+import type { Session, SessionState, ImageName, PanelButton } from './session/session.ts';
 import { ask } from './editor/ask-dialog.ts';
 import { define, make, setText } from './element.ts';
 import { pushRobot } from './push.ts';
 import { ServoTable } from './servo-table.ts';
 import { LAW_TEXTS, TEXTS } from './texts/robot.ts';
-import './lab-pane.css';
+import './robot-pane.css';
 
 const SPEEDS: readonly (readonly [number, string])[] = [
     [0.1, '0.1×'],
@@ -29,8 +29,8 @@ const PANEL: readonly (readonly [PanelButton, string])[] = [
 const LEDS = ['Power', 'TxD', 'RxD', 'Aux', 'Manage', 'Program', 'Play'];
 const RADIANS = Math.PI / 180;
 
-export class LabPane extends HTMLElement {
-    desk!: Desk; // set before it is connected
+export class RobotPane extends HTMLElement {
+    session!: Session; // set before it is connected
     /** Tells the picture to lean. */
     onTilt: (front: number, left: number) => void = () => undefined;
     private readonly speeds = new Map<number, HTMLButtonElement>();
@@ -41,9 +41,9 @@ export class LabPane extends HTMLElement {
 
     connectedCallback(): void {
         const servos = new ServoTable();
-        servos.desk = this.desk;
+        servos.session = this.session;
         this.replaceChildren(
-            make('p', { class: 'only-simulated' }, TEXTS.labForYours),
+            make('p', { class: 'only-simulated' }, TEXTS.onlyInPage),
             make(
                 'div',
                 { class: 'sections' },
@@ -56,8 +56,8 @@ export class LabPane extends HTMLElement {
             ),
         );
         this.disposals.push(
-            this.desk.state.watch(state => this.render(state)),
-            this.desk.onFrame(state => {
+            this.session.state.watch(state => this.render(state)),
+            this.session.onFrame(state => {
                 setText(
                     this.clock,
                     `${(state.ticks / TICKS_PER_SECOND).toFixed(1)} s${state.lateMs > 50 ? `, ${Math.round(state.lateMs)} ms late` : ''}`,
@@ -71,7 +71,7 @@ export class LabPane extends HTMLElement {
         for (const dispose of this.disposals.splice(0)) dispose();
     }
 
-    private render(state: DeskState): void {
+    private render(state: SessionState): void {
         this.classList.toggle('off', state.source !== 'simulated');
         for (const [speed, button] of this.speeds) button.setAttribute('aria-pressed', String(speed === state.speed));
     }
@@ -90,11 +90,11 @@ export class LabPane extends HTMLElement {
 
     private timeSection(): HTMLElement {
         const row = make('div', { class: 'row' });
-        const pause = make('button', { onclick: () => this.desk.lab.setSpeed(0) }, 'Pause');
+        const pause = make('button', { onclick: () => this.session.sim.setSpeed(0) }, 'Pause');
         this.speeds.set(0, pause);
-        row.append(pause, make('button', { onclick: () => this.desk.lab.oneTick() }, 'One tick'));
+        row.append(pause, make('button', { onclick: () => this.session.sim.oneTick() }, 'One tick'));
         for (const [speed, title] of SPEEDS) {
-            const button = make('button', { onclick: () => this.desk.lab.setSpeed(speed) }, title);
+            const button = make('button', { onclick: () => this.session.sim.setSpeed(speed) }, title);
             this.speeds.set(speed, button);
             row.append(button);
         }
@@ -107,34 +107,34 @@ export class LabPane extends HTMLElement {
         const row = make(
             'div',
             { class: 'row' },
-            make('button', { onclick: () => this.desk.lab.setPower(true) }, 'Power on'),
-            make('button', { onclick: () => this.desk.lab.setPower(false) }, 'Power off'),
-            make('button', { onclick: () => void this.desk.setTorque(false) }, 'Torque off'),
+            make('button', { onclick: () => this.session.sim.setPower(true) }, 'Power on'),
+            make('button', { onclick: () => this.session.sim.setPower(false) }, 'Power off'),
+            make('button', { onclick: () => void this.session.setTorque(false) }, 'Torque off'),
         );
         for (const [name, sign] of PANEL) row.append(this.panelButton(name, sign));
         return this.section(
             'Power and panel',
             row,
             this.leds,
-            this.slider('Battery', 6, 12.6, 0.1, NOMINAL_VOLTS, ' V', volts => this.desk.lab.setBattery(volts)),
+            this.slider('Battery', 6, 12.6, 0.1, NOMINAL_VOLTS, ' V', volts => this.session.sim.setBattery(volts)),
         );
     }
 
     private panelButton(name: PanelButton, sign: string): HTMLButtonElement {
         const button = make('button', { 'aria-label': `panel button ${name}` }, sign);
-        button.addEventListener('pointerdown', () => this.desk.lab.press(name, true));
-        for (const end of ['pointerup', 'pointerleave'] as const) button.addEventListener(end, () => this.desk.lab.press(name, false));
+        button.addEventListener('pointerdown', () => this.session.sim.press(name, true));
+        for (const end of ['pointerup', 'pointerleave'] as const) button.addEventListener(end, () => this.session.sim.press(name, false));
         const isPress = ({ key }: KeyboardEvent): boolean => key === 'Enter' || key === ' ';
-        button.addEventListener('keydown', event => isPress(event) && !event.repeat && this.desk.lab.press(name, true));
-        button.addEventListener('keyup', event => isPress(event) && this.desk.lab.press(name, false));
-        button.addEventListener('blur', () => this.desk.lab.press(name, false));
+        button.addEventListener('keydown', event => isPress(event) && !event.repeat && this.session.sim.press(name, true));
+        button.addEventListener('keyup', event => isPress(event) && this.session.sim.press(name, false));
+        button.addEventListener('blur', () => this.session.sim.press(name, false));
         return button;
     }
 
     private roomSection(): HTMLElement {
         const set = (change: Partial<typeof this.floor>): void => {
             Object.assign(this.floor, change);
-            this.desk.lab.setFloor({ ...this.floor });
+            this.session.sim.setFloor({ ...this.floor });
             this.onTilt(this.floor.tiltFront, this.floor.tiltLeft);
         };
         return this.section(
@@ -142,9 +142,9 @@ export class LabPane extends HTMLElement {
             make(
                 'div',
                 { class: 'row' },
-                make('button', { onclick: () => this.desk.lab.hold(true) }, 'Put on its feet'),
-                make('button', { onclick: () => pushRobot(this.desk, 1) }, 'Push ahead'),
-                make('button', { onclick: () => pushRobot(this.desk, -1) }, 'Push back'),
+                make('button', { onclick: () => this.session.sim.hold(true) }, 'Put on its feet'),
+                make('button', { onclick: () => pushRobot(this.session, 1) }, 'Push ahead'),
+                make('button', { onclick: () => pushRobot(this.session, -1) }, 'Push back'),
             ),
             this.slider('Slope to the front', -15, 15, 1, 0, '°', angle => set({ tiltFront: angle * RADIANS })),
             this.slider('Slope to the left', -15, 15, 1, 0, '°', angle => set({ tiltLeft: angle * RADIANS })),
@@ -154,7 +154,7 @@ export class LabPane extends HTMLElement {
 
     private imageSection(): HTMLElement {
         const image = (name: ImageName, title: string): HTMLButtonElement =>
-            make('button', { onclick: () => this.desk.runImage(name) }, title);
+            make('button', { onclick: () => this.session.runImage(name) }, title);
         return this.section(
             'Firmware',
             make(
@@ -173,15 +173,15 @@ export class LabPane extends HTMLElement {
             ['exact', LAW_TEXTS.exact, LAW_TEXTS.exactHint],
             ['classic', LAW_TEXTS.classic, LAW_TEXTS.classicHint],
         ] as const) {
-            const button = make('button', { title: hint, onclick: () => this.desk.editor.select({ law }) }, title);
-            this.disposals.push(this.desk.editor.state.watch(state => button.setAttribute('aria-pressed', String(state.law === law))));
+            const button = make('button', { title: hint, onclick: () => this.session.editor.select({ law }) }, title);
+            this.disposals.push(this.session.editor.state.watch(state => button.setAttribute('aria-pressed', String(state.law === law))));
             row.append(button);
         }
         return this.section(LAW_TEXTS.title, row, make('p', { class: 'hint' }, LAW_TEXTS.hint));
     }
 
     private async askForget(): Promise<void> {
-        if ((await ask('Factory fresh?', TEXTS.factoryFresh, [['Forget everything', 'forget']])) !== null) await this.desk.forget();
+        if ((await ask('Factory fresh?', TEXTS.factoryFresh, [['Forget everything', 'forget']])) !== null) await this.session.forget();
     }
 
     private slider(
@@ -203,4 +203,4 @@ export class LabPane extends HTMLElement {
     }
 }
 
-define('lab-pane', LabPane);
+define('robot-pane', RobotPane);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Pages between the document and a robot, as the views see it. app/transfer.ts is behind it.
 
-import type { PageAccount } from '../robot/page-write.ts';
-import type { RobotError } from '../robot/robot-error.ts';
-import type { Store } from './store.ts';
+import type { PageAccount } from '../../robot/page-write.ts';
+import type { RobotError } from '../../robot/robot-error.ts';
+import type { Store } from '../store.ts';
 
 export interface TransferState {
     /** stopped: something went wrong in mid-way; `trouble` says what, and tryAgain() goes on. */

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A motion of the document as the firmware's own player makes it, in the picture only: nothing is written and no robot moves.
 
-import type { Place } from '../model/space.ts';
-import type { Store } from './store.ts';
+import type { Place } from '../../model/space.ts';
+import type { Store } from '../store.ts';
 
 /** What the figure in the picture is: the step that is edited, a motion that is only shown, or the robot. */
 export type Figure = 'step' | 'shown' | 'robot';

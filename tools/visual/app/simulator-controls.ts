@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 // What a person can do to the robot in the page besides talking to it: its time, its power, its buttons, its servos, its floor.
 
-import type { DeskState, Floor, Hand, Lab, PanelButton } from '../view/desk.ts';
+import type { SessionState, Floor, Hand, SimControls, PanelButton } from '../view/session/session.ts';
 import type { Store } from '../view/store.ts';
 import type { SimulatedSource } from './simulated-source.ts';
 
 /** Behind this the image has started and answers. */
 const STARTED_MS = 1500;
 
-export class RobotLab implements Lab {
-    private readonly state: Store<DeskState>;
+export class SimulatorControls implements SimControls {
+    private readonly state: Store<SessionState>;
     private readonly robot: Pick<SimulatedSource, 'post' | 'connection'>;
 
-    constructor(state: Store<DeskState>, robot: Pick<SimulatedSource, 'post' | 'connection'>) {
+    constructor(state: Store<SessionState>, robot: Pick<SimulatedSource, 'post' | 'connection'>) {
         this.state = state;
         this.robot = robot;
     }

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// A trouble in the status bar goes when its cause has gone, and not before somebody could read it.
+import { afterEach, beforeEach, expect, test, vi } from 'vitest';
+import { watchCauses } from '../app/causes.ts';
+import { StatusMessages } from '../app/status-messages.ts';
+import type { EditorState } from '../model/editor-state.ts';
+import { RobotError } from '../robot/robot-error.ts';
+import type { SessionState } from '../view/session/session.ts';
+import type { DocumentsState } from '../view/session/documents.ts';
+import { Store } from '../view/store.ts';
+
+beforeEach(() => void vi.useFakeTimers());
+afterEach(() => void vi.useRealTimers());
+
+function session() {
+    const robot = new Store({ connection: 'ready', where: null, message: null } as unknown as SessionState);
+    const editor = new Store({ document: {}, page: 0, step: 0 } as unknown as EditorState);
+    const documents = new Store({ saving: 'saved' } as unknown as DocumentsState);
+    const messages = new StatusMessages(robot);
+    watchCauses({ messages, robot, editor, documents });
+    const where = (state: string): void => robot.set({ where: { state } as unknown as SessionState['where'] });
+    return { robot, editor, documents, messages, where, message: () => robot.get().message?.text ?? null };
+}
+
+test('a refused edit: until the next edit, or another page; the cursor alone changes nothing', () => {
+    const { editor, messages, message } = session();
+    messages.complain('Page 0 holds the trim.', 'edit');
+    editor.set({ step: 1 });
+    expect(message()).toBe('Page 0 holds the trim.');
+    editor.set({ page: 5 });
+    expect(message()).toBeNull();
+    messages.complain('The page is full.', 'edit');
+    editor.set({ document: {} as EditorState['document'] });
+    expect(message()).toBeNull();
+});
+
+test('a robot that was busy: until what it played has ended, and six seconds at least', () => {
+    const { messages, where, message } = session();
+    where('playing');
+    messages.fail(new RobotError('refused', 'Busy: stop what is playing first'));
+    const busy = message();
+    expect(busy).toContain('Busy');
+    vi.advanceTimersByTime(1000);
+    where('idle');
+    expect(message()).toBe(busy);
+    vi.advanceTimersByTime(5000);
+    expect(message()).toBeNull();
+});
+
+test('a pulled cable: until the robot answers again', () => {
+    const { robot, messages, message } = session();
+    robot.set({ connection: 'waiting' });
+    messages.fail(new RobotError('port-lost'));
+    vi.advanceTimersByTime(60_000);
+    expect(message()).toContain('The cable was pulled');
+    robot.set({ connection: 'ready' });
+    expect(message()).toBeNull();
+});
+
+test('what could not be kept: until it is kept; and what was said since stays', () => {
+    const { documents, editor, messages, message } = session();
+    documents.set({ saving: 'off' });
+    messages.complain('not kept', 'storage');
+    editor.set({ page: 5 });
+    documents.set({ saving: 'saving' });
+    expect(message()).toBe('not kept');
+    messages.say({ text: 'Battery 9.6 V', tone: 'calm' });
+    documents.set({ saving: 'saved' });
+    expect(message()).toBe('Battery 9.6 V');
+    documents.set({ saving: 'off' });
+    messages.complain('not kept', 'storage');
+    documents.set({ saving: 'saved' });
+    expect(message()).toBeNull();
+});
+
+test('a step that plays is told beside, counted from 1: what the board says of it is no message', () => {
+    const { messages, message } = session();
+    const hear = (text: string): void => messages.hear(new TextEncoder().encode(text));
+    vi.advanceTimersByTime(1);
+    hear('\r\nNext link to page 22 (walk_l)\r\n] ');
+    for (const line of ['Playing page 22 (walk_l) step 1 repetition 1', 'Page 22 step 2 repetition 1', 'Page 5 step 0 repetition 12']) {
+        hear(`\r${line}\r\n] `);
+        expect(message()).toBe('Next link to page 22 (walk_l)');
+    }
+    hear('\rPage 22 is damaged\r\n] ');
+    expect(message()).toBe('Page 22 is damaged');
+});
