@@ -44,9 +44,9 @@ function(m512_program_settings name image)
         COMPILE_OPTIONS "-Dmain=image_main;-Wno-missing-prototypes")
 endfunction()
 
-# The same for the machine whose clock is told (hal/host/told): a shared object, which begins anew each time that it is loaded.
-# m512_told_program(<name> ...), as above
-function(m512_told_program name)
+# The same in simulated time (hal/host/simtime): a shared object, which begins anew each time that it is loaded.
+# m512_simtime_program(<name> ...), as above
+function(m512_simtime_program name)
     if(M512_WASM)
         return()
     endif()

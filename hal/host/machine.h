@@ -2,7 +2,7 @@
  * machine.h - what hal/host needs of the computer below it: lines, clock, memory, keys. The other half is chosen by the
  * linker:
  *   pc/            a Linux PC: serial port, terminal, files, the computer's clock
- *   told/          a clock that is told, for simulated servos
+ *   simtime/       simulated time, for simulated servos
  *   web/           a web page: these functions are imported from it
  * Everything returns at once but machine_wait, machine_bus_rate, machine_keep and machine_end. One caller: the program's
  * only thread. */

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Play and Edit, the same sources as on the chip, run as programs whose clock is told, with simulated servos on their line. One seed
+"""Play and Edit, the same sources as on the chip, run as programs in simulated time, with simulated servos on their line. One seed
 makes a session: typing, the remote, the panel, faults of servos and of the line, a hand at a joint, a late computer, a pulled
-adapter, power cuts at any tick and within any write. Rules are asked at every tick (told/rules.c), and places that must have been
-reached are counted (told/marks.c). `tools/prove sessions --only 66` repeats session 66 and, if it fails, makes it short.
+adapter, power cuts at any tick and within any write. Rules are asked at every tick (simtime/rules.c), and places that must have been
+reached are counted (simtime/marks.c). `tools/prove sessions --only 66` repeats session 66 and, if it fails, makes it short.
 
 What is special to the chip (interrupts, stack, its loader, timing) is not here; the other parts have that.
 """
@@ -10,7 +10,7 @@ What is special to the chip (interrupts, stack, its loader, timing) is not here;
 import collections
 
 from tests.campaigns import proof
-from tests.campaigns.told import board, chance, runs
+from tests.campaigns.simtime import board, chance, runs
 
 TITLE = "Sessions in simulated time"
 PROMISE = "Whatever a person, servos, lines, a computer and the power do at any tick: no leap, nothing moves unasked, text and pages stand."
@@ -84,9 +84,9 @@ PLACES = (
     "next step as the page says",
     "aim arrived",
     "swing swung",
-    "a play is told by @where",
-    "a pose is told by @pose",
-    "a page is told by a request",
+    "@where names the play",
+    "@pose gives the pose",
+    "page read by a request",
     "request refused for its words",
     "page of a program as it was sent",
     "table of Edit as flash holds it",
@@ -145,7 +145,7 @@ def run(options):
 
 
 def both(options):
-    """The figure of what the strict board has played as well. (Of a sample the test prove.told has it.)"""
+    """The figure of what the strict board has played as well. (Of a sample the test prove.simtime has it.)"""
     count = BOTH if options.both is None else options.both
     if options.sample or options.list or options.only is not None or (options.sessions and options.both is None) or not count:
         return []

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from cm5sim import Board
 from cm5sim.board import sync_goals
-from tests.campaigns.told import chance, runs
+from tests.campaigns.simtime import chance, runs
 from tests.sim.play_robot import shown
 
 TICK = 15625  # half microseconds
@@ -100,7 +100,7 @@ def pause_of(count, into_tick):
 # ---- in simulated time ----
 
 
-def told(actions, servos=SERVOS):
+def simulated(actions, servos=SERVOS):
     """The Trace of it, and how far behind the beginning of the program's tick its own ticks lie."""
 
     def session(lines):
@@ -184,7 +184,7 @@ def lines_of(text):
 def difference(seed):
     """(frames of goals, what differs: "" or words) of a session in both."""
     actions = made(seed)
-    here, into_tick = told(actions)
+    here, into_tick = simulated(actions)
     there = on_board(actions, into_tick)
     for frame, (ours, theirs) in enumerate(zip(here.goals, there.goals)):
         if ours != theirs:

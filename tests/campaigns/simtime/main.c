@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * main.c - runs one session in simulated time: told_session FOLDER [--show] < actions
+ * main.c - runs one session in simulated time: simtime_session FOLDER [--show] < actions
  *
- * FOLDER holds the programs (libtold-play.so, libtold-edit.so). A line of the list is "TICK VERB WORDS"; README.md lists
- * the verbs. Prints "ticks N", a line "mark COUNT NAME" for each place that was reached, and "fault RULE: what happened" if
- * a rule was broken; the exit status is then 1. */
+ * FOLDER holds the programs (libsimtime-play.so, libsimtime-edit.so). A line of the list is "TICK VERB WORDS"; README.md
+ * lists the verbs. Prints "ticks N", a line "mark COUNT NAME" for each place that was reached, and "fault RULE: what
+ * happened" if a rule was broken; the exit status is then 1. */
 #include "session.h"
 
 #include <signal.h>
@@ -81,7 +81,7 @@ static void read_list(void)
         }
         list.action = realloc(list.action, (list.count + 1) * sizeof *list.action);
         if (list.action == NULL || sscanf(text, "%u %n", &tick, &at) != 1) {
-            fprintf(stderr, "told_session: not an action: %s\n", text);
+            fprintf(stderr, "simtime_session: not an action: %s\n", text);
             exit(EXIT_USAGE);
         }
         list.action[list.count++] = (action_t){tick, strdup(text + at)};
@@ -103,7 +103,7 @@ static void take(char *words)
     } else if (strcmp(words, "end") == 0) {
         session.is_over = true;
     } else if (!world_do(words)) {
-        fprintf(stderr, "told_session: not an action: %s\n", words);
+        fprintf(stderr, "simtime_session: not an action: %s\n", words);
         exit(EXIT_USAGE);
     }
 }
@@ -122,14 +122,14 @@ static void take_due(void)
     }
 }
 
-static told_teller_t teller;
+static simtime_callbacks_t callbacks;
 
 static void tick(void)
 {
-    world_teller.tick();
+    world_callbacks.tick();
     take_due();
     if (session.is_over || list.switch_image) {
-        told_stop();
+        simtime_stop();
     }
 }
 
@@ -139,22 +139,22 @@ static void start_once(const char *folder)
 {
     char file[PATH_BYTES];
     const char *error;
-    snprintf(file, sizeof file, "%s/libtold-%s.so", folder, session.is_edit ? "edit" : "play");
+    snprintf(file, sizeof file, "%s/libsimtime-%s.so", folder, session.is_edit ? "edit" : "play");
     list.switch_image = false;
     session.boot_tick = session.tick;
     world_power(true);
     world_forget_line();
     marks_boot();
     rules_boot();
-    const told_end_t end = told_run(file, &error);
+    const simtime_end_t end = simtime_run(file, &error);
     if (error != NULL) {
-        fprintf(stderr, "told_session: %s: %s\n", file, error);
+        fprintf(stderr, "simtime_session: %s: %s\n", file, error);
         exit(EXIT_USAGE);
     }
-    if (end == TOLD_HUNG) {
+    if (end == SIMTIME_HUNG) {
         session_fail("answers", "the watchdog was not kicked for a second");
     }
-    if (end != TOLD_ENDED) {
+    if (end != SIMTIME_ENDED) {
         world_power(false);   /* a restart leaves the servos as they are */
     }
     if (++session.boots > STARTS_MAX) {
@@ -166,7 +166,7 @@ int main(int argc, char **argv)
 {
     session.shows = argc == 3 && strcmp(argv[2], "--show") == 0;
     if (argc != (session.shows ? 3 : 2)) {
-        fprintf(stderr, "usage: told_session FOLDER [--show] < actions\n");
+        fprintf(stderr, "usage: simtime_session FOLDER [--show] < actions\n");
         return EXIT_USAGE;
     }
     signal(SIGALRM, on_signal);
@@ -177,9 +177,9 @@ int main(int argc, char **argv)
     signal(SIGILL, on_signal);
     alarm(HANG_S);
     world_init();
-    teller = world_teller;
-    teller.tick = tick;
-    told_init(&teller);
+    callbacks = world_callbacks;
+    callbacks.tick = tick;
+    simtime_init(&callbacks);
     read_list();
     take_due();
     while (!session.is_over) {

@@ -41,7 +41,7 @@ static void on_byte(void *context, uint64_t now_cycles, uint8_t byte, uint32_t r
     }
     uint64_t at = now + line.latency;
     at += line.lump > 0 ? line.lump - at % line.lump : 0;
-    told_hear(byte, (uint32_t)(at - told_now()));
+    simtime_hear(byte, (uint32_t)(at - simtime_now()));
 }
 
 static void bus_packet(uint64_t end, const uint8_t *packet, uint16_t count, uint32_t bits_per_s)
@@ -60,7 +60,7 @@ static void bus_packet(uint64_t end, const uint8_t *packet, uint16_t count, uint
 static uint64_t bus_next(void)
 {
     const uint64_t next = servo_bus_next_cycles(session.bus);
-    return next == SERVO_BUS_NEVER ? TOLD_NEVER : (next + CYCLES - 1) / CYCLES;
+    return next == SERVO_BUS_NEVER ? SIMTIME_NEVER : (next + CYCLES - 1) / CYCLES;
 }
 
 static void bus_advance(uint64_t now)
@@ -95,7 +95,7 @@ void world_free(void)
 
 void world_power(bool on)
 {
-    servo_bus_power(session.bus, cycles(told_now()), on);
+    servo_bus_power(session.bus, cycles(simtime_now()), on);
 }
 
 /* ---- the console ---- */
@@ -155,12 +155,12 @@ static void cut_write(machine_memory_t memory, uint32_t at, const uint8_t *bytes
     marks_cut(names[memory]);
     const uint32_t way = session_random() % 4;
     if (way == 0) {
-        told_tear(memory, at, bytes, count, toss);
+        simtime_tear(memory, at, bytes, count, toss);
     } else {
-        memcpy(told_memory(memory) + at, bytes, session_random() % (count + 1));
+        memcpy(simtime_memory(memory) + at, bytes, session_random() % (count + 1));
     }
-    told_tear_unsettled(toss);
-    told_cut();
+    simtime_tear_unsettled(toss);
+    simtime_cut();
 }
 
 static bool keep(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uint32_t count)
@@ -186,7 +186,7 @@ static struct {
 
 static void put_on_line(uint8_t byte, uint32_t what)
 {
-    told_type(&byte, 1, BYTE_TIME);
+    simtime_type(&byte, 1, BYTE_TIME);
     under_way.what[under_way.head++ % UNDER_WAY] = what;
 }
 
@@ -219,7 +219,7 @@ static void send_remote(unsigned buttons)
 /* The panel. */
 static void press(unsigned buttons)
 {
-    told_press((uint8_t)buttons);
+    simtime_press((uint8_t)buttons);
     if (buttons != 0) {
         session.asked_tick = session.tick;
         law_remote(buttons >= 16 ? 512 : buttons);   /* Start stops */
@@ -244,7 +244,7 @@ static bool set_fault(unsigned id, const char *name, uint32_t answers)
     if (joint == NULL || joint->servo == NULL || fault == SERVO_FAULTS) {
         return false;
     }
-    servo_bus_fault(session.bus, cycles(told_now()), joint->servo, fault, answers == 0 ? SERVO_FAULT_ALWAYS : answers);
+    servo_bus_fault(session.bus, cycles(simtime_now()), joint->servo, fault, answers == 0 ? SERVO_FAULT_ALWAYS : answers);
     joint->fault_tick = session.tick;
     joint->late_tick = fault == SERVO_FAULT_LATE ? session.tick : joint->late_tick;
     if (answers == 0 && (fault == SERVO_FAULT_SILENT || fault == SERVO_FAULT_DEAD) && joint->silent_since == NEVER_TICK) {
@@ -262,7 +262,7 @@ static bool clear_faults(unsigned id)
     session.joint[id].late_tick = servo_fault_is_on(servo, SERVO_FAULT_LATE) ? session.tick : session.joint[id].late_tick;
     for (unsigned fault = 0; fault < SERVO_FAULTS; fault++) {
         if (servo_fault_is_on(servo, (servo_fault_t)fault)) {
-            servo_bus_fault(session.bus, cycles(told_now()), servo, (servo_fault_t)fault, 0);
+            servo_bus_fault(session.bus, cycles(simtime_now()), servo, (servo_fault_t)fault, 0);
         }
     }
     servo->temperature_c = servo->ambient_c;
@@ -279,7 +279,7 @@ static bool write_memories(const char *path)
         return false;
     }
     for (unsigned memory = 0; memory < MACHINE_MEMORIES; memory++) {
-        fwrite(told_memory((machine_memory_t)memory), 1, told_bytes((machine_memory_t)memory), file);
+        fwrite(simtime_memory((machine_memory_t)memory), 1, simtime_bytes((machine_memory_t)memory), file);
     }
     return fclose(file) == 0;
 }
@@ -291,7 +291,7 @@ static bool load_motions(const char *path)
     if (file == NULL) {
         return false;
     }
-    const size_t got = fread(told_memory(MACHINE_PAGES), 1, told_bytes(MACHINE_PAGES), file);
+    const size_t got = fread(simtime_memory(MACHINE_PAGES), 1, simtime_bytes(MACHINE_PAGES), file);
     fclose(file);
     return got > 0;
 }
@@ -313,10 +313,10 @@ bool world_do(char *words)
     } else if (strcmp(verb, "clear") == 0 && numbers == 1) {
         return clear_faults(a);
     } else if (strcmp(verb, "push") == 0 && numbers == 2 && a < IDS && session.joint[a].servo != NULL) {
-        servo_push_to(session.joint[a].servo, cycles(told_now()), b);
+        servo_push_to(session.joint[a].servo, cycles(simtime_now()), b);
         session.joint[a].pushed_tick = session.pushed_tick = session.tick;
     } else if (strcmp(verb, "supply") == 0 && numbers == 1) {
-        servo_bus_supply(session.bus, cycles(told_now()), a / 10.0);
+        servo_bus_supply(session.bus, cycles(simtime_now()), a / 10.0);
         session.trouble_tick = session.tick;
     } else if (strcmp(verb, "remote") == 0 && numbers == 1) {
         send_remote(a);
@@ -330,10 +330,10 @@ bool world_do(char *words)
     } else if (strcmp(verb, "damage") == 0 && numbers == 1) {
         line.damage = a;
     } else if (strcmp(verb, "late") == 0 && numbers == 1) {
-        told_hold_up((uint64_t)a * TOLD_PER_MS);
+        simtime_hold_up((uint64_t)a * SIMTIME_PER_MS);
         session.trouble_tick = session.late_tick = session.tick + (a + 7) / 8;
     } else if (strcmp(verb, "plug") == 0 && numbers == 1) {
-        told_plug(a != 0);
+        simtime_plug(a != 0);
         session.trouble_tick = session.late_tick = session.tick;
     } else if (strcmp(verb, "cutwrite") == 0 && numbers == 1) {
         session.cut_at_write = a;
@@ -342,7 +342,7 @@ bool world_do(char *words)
     } else if (strcmp(verb, "servo") == 0 && numbers == 1) {
         world_add_servo(a);
     } else if (strcmp(verb, "pause") == 0 && numbers == 1) {
-        told_type_pause(a);
+        simtime_type_pause(a);
     } else if (strcmp(verb, "memories") == 0) {
         return write_memories(rest);
     } else if (strcmp(verb, "motions") == 0) {
@@ -362,12 +362,12 @@ static void tick(void)
     if (session.cut_now) {
         session.cut_now = false;
         marks_cut("power cut");
-        told_tear_unsettled(toss);
-        told_cut();
+        simtime_tear_unsettled(toss);
+        simtime_cut();
     }
 }
 
-const told_teller_t world_teller = {
+const simtime_callbacks_t world_callbacks = {
     .bus_packet = bus_packet, .bus_next = bus_next, .bus_advance = bus_advance, .tick = tick, .was_read = was_read,
     .printed = printed, .said = said, .keep = keep,
 };

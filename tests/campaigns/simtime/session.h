@@ -17,7 +17,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "hal/host/told/told.h"
+#include "hal/host/simtime/simtime.h"
 #include "servo_bus.h"
 
 #define IDS 254u
@@ -40,7 +40,7 @@ typedef struct {
     uint32_t goal_tick;            /* the last goal */
     uint16_t goal;
     bool is_known;                 /* the program has found it */
-    bool told_silent;              /* what the person was told last */
+    bool named_silent;             /* what the person read last */
 } joint_t;
 
 /* One session. */
@@ -80,7 +80,7 @@ _Noreturn void session_fail(const char *rule, const char *format, ...) __attribu
 uint32_t session_random(void);
 
 /* world.c */
-extern const told_teller_t world_teller;
+extern const simtime_callbacks_t world_callbacks;
 void world_init(void);
 void world_free(void);
 void world_add_servo(unsigned id);

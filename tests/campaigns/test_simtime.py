@@ -4,7 +4,7 @@ sessions are the same each time, a broken rule is seen, and its list becomes sho
 
 import pytest
 
-from tests.campaigns.told import board, chance, runs
+from tests.campaigns.simtime import board, chance, runs
 
 
 @pytest.mark.parametrize("seed", range(3))

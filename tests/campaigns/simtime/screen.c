@@ -228,7 +228,7 @@ void screen_typed(const char *line)
 void screen_tick(void)
 {
     const uint32_t last = session.typed_tick > session.printed_tick ? session.typed_tick : session.printed_tick;
-    if (session.is_edit && screen.is_table && !screen.was_seen && session.tick - last > QUIET && told_has_typed()) {
+    if (session.is_edit && screen.is_table && !screen.was_seen && session.tick - last > QUIET && simtime_has_typed()) {
         screen.was_seen = true;
         look();
     }

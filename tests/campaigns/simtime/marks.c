@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * marks.c - places that a campaign must have reached, told by what the console says and what was typed before. */
+ * marks.c - places that a campaign must have reached, by what the console says and what was typed before. */
 #include "session.h"
 
 #include <stdio.h>

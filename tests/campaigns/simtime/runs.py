@@ -7,10 +7,10 @@ import subprocess
 from typing import NamedTuple
 
 from tests.campaigns import proof
-from tests.campaigns.told import chance
+from tests.campaigns.simtime import chance
 
-FOLDER = proof.BUILD / "host" / "tests" / "campaigns" / "told"
-PROGRAM = FOLDER / "told_session"
+FOLDER = proof.BUILD / "host" / "tests" / "campaigns" / "simtime"
+PROGRAM = FOLDER / "simtime_session"
 MOTIONS = FOLDER / "motions.bin"
 MOST_TRIES = 600
 

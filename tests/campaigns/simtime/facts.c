@@ -3,7 +3,7 @@
 
 const uint8_t *page_at(unsigned page)
 {
-    return told_memory(MACHINE_PAGES) + page % PAGES * PAGE_BYTES;
+    return simtime_memory(MACHINE_PAGES) + page % PAGES * PAGE_BYTES;
 }
 
 uint8_t sum_of(const uint8_t *page)

@@ -27,7 +27,7 @@ enum { INST_WRITE = 3, INST_REG_WRITE = 4, INST_SYNC_WRITE = 0x83 };
 static struct {
     uint8_t page[0x20000];         /* the pages as they were when the last save was over */
     uint32_t write_tick;
-    uint32_t silent_tick[IDS];     /* the person was told that it does not answer: no goals, until asked */
+    uint32_t silent_tick[IDS];     /* it was named as silent: no goals, until asked */
     uint32_t off_tick[IDS];
     uint32_t ended_tick;           /* a play has said that it is over, and its last frame may come after that; NEVER_TICK */
     unsigned ended_page;
@@ -279,12 +279,12 @@ static void named_silent(unsigned id)
     if (!has_fault(joint) && !somebody_is_late() && long_ago(session.trouble_tick, TROUBLE)) {
         session_fail("a servo that is well is not called lost", "servo %u", id);
     }
-    joint->told_silent = true;
+    joint->named_silent = true;
     rules.silent_tick[id] = session.tick;
 }
 
 /* "No answer from servos 3, 5-7": the answer to what a person asked of them. */
-static void told_silent(const char *list)
+static void silent_ones_named(const char *list)
 {
     unsigned first, last;
     for (int length; sscanf(list, "%u%n", &first, &length) == 1;) {
@@ -294,7 +294,7 @@ static void told_silent(const char *list)
             list += length;
         }
         for (; first <= last && first < JOINTS; first++) {
-            session.joint[first].told_silent = true;
+            session.joint[first].named_silent = true;
         }
         list += strspn(list, ", ");
     }
@@ -315,7 +315,7 @@ static void pose_must_be_there(unsigned page)
     const uint8_t *at = page_at(page);
     const unsigned steps = at[STEPS_AT];
     const bool is_plain = !rules.is_shaped && law_is_exact() && !session.is_edit;
-    if (!is_plain || page >= told_bytes(MACHINE_PAGES) / PAGE_BYTES || steps == 0 || steps > 7) {
+    if (!is_plain || page >= simtime_bytes(MACHINE_PAGES) / PAGE_BYTES || steps == 0 || steps > 7) {
         return;
     }
     for (unsigned id = 0; id < JOINTS; id++) {
@@ -359,12 +359,12 @@ void rules_printed(const char *line)
         session_fail("settings are old or new", "\"%s\"", line);
     }
     if (strncmp(line, "No answer from servos ", 22) == 0) {
-        told_silent(line + 22);
+        silent_ones_named(line + 22);
     }
     if (sscanf(line, "Servo %u does not answer%n", &id, &at) == 1 && at > 0) {
         named_silent(id);
     } else if (sscanf(line, "Servo %u answers again%n", &id, &at) == 1 && at > 0 && id < IDS) {
-        session.joint[id].told_silent = false;
+        session.joint[id].named_silent = false;
     }
 }
 
@@ -372,7 +372,7 @@ void rules_printed(const char *line)
 
 static void text_must_stand(void)
 {
-    if (session.is_edit || !session.typed_is_known || !told_has_typed() || !long_ago(session.late_tick, SECOND)) {
+    if (session.is_edit || !session.typed_is_known || !simtime_has_typed() || !long_ago(session.late_tick, SECOND)) {
         return;
     }
     const uint32_t last = session.typed_tick > session.printed_tick ? session.typed_tick : session.printed_tick;
@@ -396,8 +396,8 @@ static void text_must_stand(void)
 /* A page is as it was, or whole. */
 static void pages_must_be_whole(void)
 {
-    const uint8_t *now = told_memory(MACHINE_PAGES);
-    for (unsigned at = 0; at < told_bytes(MACHINE_PAGES); at += PAGE_BYTES) {
+    const uint8_t *now = simtime_memory(MACHINE_PAGES);
+    for (unsigned at = 0; at < simtime_bytes(MACHINE_PAGES); at += PAGE_BYTES) {
         if (memcmp(now + at, rules.page + at, PAGE_BYTES) == 0) {
             continue;
         }
@@ -413,7 +413,7 @@ static int newest_settings(void)
 {
     int newest = -1;
     for (unsigned copy = 0; copy < 2; copy++) {
-        const uint8_t *at = told_memory(MACHINE_EEPROM) + MEM_EE_SETTINGS + copy * COPY_BYTES;
+        const uint8_t *at = simtime_memory(MACHINE_EEPROM) + MEM_EE_SETTINGS + copy * COPY_BYTES;
         const unsigned body = at[3];
         if (at[0] != 'S' || body > COPY_BYTES - 6) {
             continue;
@@ -477,11 +477,11 @@ void rules_boot(void)
     session.asked_tick = session.save_asked_tick = NEVER_TICK;
     session.typed_tick = session.printed_tick = session.tick;
     for (unsigned id = 0; id < IDS; id++) {
-        session.joint[id].told_silent = false;
+        session.joint[id].named_silent = false;
         session.joint[id].goal_tick = NEVER_TICK;
     }
     if (session.boots == 0) {
-        memcpy(rules.page, told_memory(MACHINE_PAGES), sizeof rules.page);
+        memcpy(rules.page, simtime_memory(MACHINE_PAGES), sizeof rules.page);
         rules.sequence = -1;
     }
 }
@@ -505,7 +505,7 @@ static void servos_must_be_named(void)
     for (unsigned id = 0; id < JOINTS; id++) {
         const joint_t *joint = &session.joint[id];
         if (joint->is_known && joint->silent_since != NEVER_TICK && joint->silent_since > session.boot_tick + TROUBLE &&
-            long_ago(joint->silent_since, NEWS) && !joint->told_silent && long_ago(session.trouble_tick, NEWS)) {
+            long_ago(joint->silent_since, NEWS) && !joint->named_silent && long_ago(session.trouble_tick, NEWS)) {
             session_fail("a silent servo is named", "servo %u is silent since tick %u", id, joint->silent_since);
         }
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * answers.c - what the requests of firmware/common/PROTOCOL.md must answer, told from that page, the memories, the servos
+ * answers.c - what the requests of firmware/common/PROTOCOL.md must answer, by that page, the memories, the servos
  * and what was asked before. And what `@save` wrote is what `@data` has sent. */
 #include "session.h"
 
@@ -160,12 +160,12 @@ static void look_at_place(const char *answer)
         look_at_shape(answer);
     }
     if (!session.is_edit && law_place(&page, &step, &repetition)) {
-        reached("a play is told by @where");
+        reached("@where names the play");
         if (strstr(answer, " state=playing ") == NULL) {
             wrong(answer, "state=playing");
         }
-        const int told = field(answer, "step");
-        if (told != 1 && told != (int)step + 1) {   /* else the console is about to tell the next one */
+        const int answered = field(answer, "step");
+        if (answered != 1 && answered != (int)step + 1) {   /* else the console is about to tell the next one */
             must_have(answer, "step", (int)step);
             must_have(answer, "page", (int)page);
             must_have(answer, "repetition", (int)repetition);
@@ -200,7 +200,7 @@ static void look_at_pose(const char *answer)
     if (there < known) {
         wrong(answer, "a servo more");
     }
-    reached("a pose is told by @pose");
+    reached("@pose gives the pose");
 }
 
 static void look_at_page(const char *answer)
@@ -224,7 +224,7 @@ static void look_at_page(const char *answer)
     }
     snprintf(right + at, sizeof right - (size_t)at, " %04X OK", crc_of(page, PAGE_BYTES));
     must_be(answer, right);
-    reached("a page is told by a request");
+    reached("page read by a request");
 }
 
 static void look_at_crcs(const char *answer)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "told.h"
+#include "simtime.h"
 
 #include <dlfcn.h>
 #include <setjmp.h>
@@ -9,11 +9,11 @@
 #define QUEUE_BYTES 16384u         /* a power of two */
 #define PACKETS 64u
 #define PACKET_BYTES 260u
-#define WATCH (1000u * TOLD_PER_MS)
+#define WATCH (1000u * SIMTIME_PER_MS)
 #define LOOKS_A_US 32u             /* a program that only looks at the clock sees it go on */
 #define AT_ONCE 100u               /* 50 us */
-#define FIRST_PATIENCE (30u * TOLD_PER_MS)
-#define LEAST_PATIENCE (20u * TOLD_PER_MS)
+#define FIRST_PATIENCE (30u * SIMTIME_PER_MS)
+#define LEAST_PATIENCE (20u * SIMTIME_PER_MS)
 #define BUS_BITS_PER_S_1M 1000000u
 
 /* Bytes and when each comes. */
@@ -24,7 +24,7 @@ typedef struct {
 } queue_t;
 
 static struct {
-    told_teller_t teller;
+    simtime_callbacks_t callbacks;
     uint64_t now, next_tick, watched;
     uint32_t looks;
     uint64_t hold_up;
@@ -42,7 +42,7 @@ static struct {
     uint8_t buttons;
     bool is_there, end_asked;
     jmp_buf leave;
-} told;
+} simtime;
 
 static uint8_t pages[0x20000], journal[0x2000], eeprom[0x1000], settled_eeprom[0x1000];
 static const struct {
@@ -66,13 +66,13 @@ static void queue_put(queue_t *queue, uint64_t at, uint8_t byte)
 
 static uint64_t queue_next(const queue_t *queue)
 {
-    return queue->head == queue->tail ? TOLD_NEVER : queue->at[queue->tail % QUEUE_BYTES];
+    return queue->head == queue->tail ? SIMTIME_NEVER : queue->at[queue->tail % QUEUE_BYTES];
 }
 
 static uint16_t queue_take(queue_t *queue, uint8_t *to, uint16_t room)
 {
     uint16_t count = 0;
-    while (count < room && queue_next(queue) <= told.now) {
+    while (count < room && queue_next(queue) <= simtime.now) {
         to[count++] = queue->byte[queue->tail++ % QUEUE_BYTES];
     }
     return count;
@@ -82,65 +82,66 @@ static uint16_t queue_take(queue_t *queue, uint8_t *to, uint16_t room)
 
 static uint64_t packet_end(void)
 {
-    return told.packet_head == told.packet_tail ? TOLD_NEVER : told.packet[told.packet_tail % PACKETS].end;
+    return simtime.packet_head == simtime.packet_tail ? SIMTIME_NEVER : simtime.packet[simtime.packet_tail % PACKETS].end;
 }
 
 /* Lets everything happen up to `until`; stops where the program would be woken by a byte, if asked to. */
 static void pass(uint64_t until, bool wakes)
 {
     for (;;) {
-        const uint64_t bus = told.teller.bus_next(), packet = packet_end();
+        const uint64_t bus = simtime.callbacks.bus_next(), packet = packet_end();
         uint64_t next = bus < packet ? bus : packet;
-        next = next < told.next_tick ? next : told.next_tick;
+        next = next < simtime.next_tick ? next : simtime.next_tick;
         if (wakes) {
-            uint64_t byte = queue_next(&told.bus), typed = queue_next(&told.console);
+            uint64_t byte = queue_next(&simtime.bus), typed = queue_next(&simtime.console);
             byte = byte < typed ? byte : typed;
             if (byte <= until && byte <= next) {
-                told.now = byte > told.now ? byte : told.now;
+                simtime.now = byte > simtime.now ? byte : simtime.now;
                 return;
             }
         }
         if (next > until) {
-            told.now = until > told.now ? until : told.now;
+            simtime.now = until > simtime.now ? until : simtime.now;
             return;
         }
-        told.now = next > told.now ? next : told.now;
+        simtime.now = next > simtime.now ? next : simtime.now;
         if (next == packet) {
-            const uint32_t at = told.packet_tail++ % PACKETS;
-            told.teller.bus_packet(next, told.packet[at].bytes, told.packet[at].count, told.packet[at].bits_per_s);
+            const uint32_t at = simtime.packet_tail++ % PACKETS;
+            simtime.callbacks.bus_packet(next, simtime.packet[at].bytes, simtime.packet[at].count,
+                                         simtime.packet[at].bits_per_s);
         } else if (next == bus) {
-            told.teller.bus_advance(next);
+            simtime.callbacks.bus_advance(next);
         } else {
-            told.next_tick += TOLD_TICK;
-            told.teller.tick();
+            simtime.next_tick += SIMTIME_TICK;
+            simtime.callbacks.tick();
         }
     }
 }
 
 uint64_t machine_now(void)
 {
-    if (++told.looks == LOOKS_A_US) {
-        told.looks = 0;
-        pass(told.now + 2u, false);
-        if (told.now - told.watched > WATCH) {
-            longjmp(told.leave, 1 + TOLD_HUNG);
+    if (++simtime.looks == LOOKS_A_US) {
+        simtime.looks = 0;
+        pass(simtime.now + 2u, false);
+        if (simtime.now - simtime.watched > WATCH) {
+            longjmp(simtime.leave, 1 + SIMTIME_HUNG);
         }
     }
-    return told.now;
+    return simtime.now;
 }
 
 void machine_wait(uint64_t until)
 {
-    told.looks = 0;
-    if (told.hold_up > 0) {
-        const uint64_t late = told.now + told.hold_up;
-        told.hold_up = 0;
+    simtime.looks = 0;
+    if (simtime.hold_up > 0) {
+        const uint64_t late = simtime.now + simtime.hold_up;
+        simtime.hold_up = 0;
         pass(late, false);
         return;
     }
-    if (queue_next(&told.bus) <= told.now || queue_next(&told.console) <= told.now) {
+    if (queue_next(&simtime.bus) <= simtime.now || queue_next(&simtime.console) <= simtime.now) {
         /* The program has left bytes where they are: a computer would return at once, again and again. */
-        pass(until < told.now + AT_ONCE ? until : told.now + AT_ONCE, false);
+        pass(until < simtime.now + AT_ONCE ? until : simtime.now + AT_ONCE, false);
         return;
     }
     pass(until, true);
@@ -150,7 +151,7 @@ void machine_wait(uint64_t until)
 
 bool machine_bus_is_there(void)
 {
-    return told.is_there;
+    return simtime.is_there;
 }
 
 uint32_t machine_bus_first_patience(void)
@@ -165,36 +166,36 @@ uint32_t machine_bus_least_patience(void)
 
 uint32_t machine_bus_rate(uint8_t divisor)
 {
-    told.bits_per_s = 2000000u / (divisor + 1u);
-    return told.bits_per_s;
+    simtime.bits_per_s = 2000000u / (divisor + 1u);
+    return simtime.bits_per_s;
 }
 
 void machine_bus_write(const uint8_t *bytes, uint16_t count)
 {
-    const uint64_t begin = told.now > told.line_free ? told.now : told.line_free;
-    told.line_free = begin + (uint64_t)count * (20000000u / told.bits_per_s);
-    if (!told.is_there || count > PACKET_BYTES || told.packet_head - told.packet_tail == PACKETS) {
+    const uint64_t begin = simtime.now > simtime.line_free ? simtime.now : simtime.line_free;
+    simtime.line_free = begin + (uint64_t)count * (20000000u / simtime.bits_per_s);
+    if (!simtime.is_there || count > PACKET_BYTES || simtime.packet_head - simtime.packet_tail == PACKETS) {
         return;
     }
-    const uint32_t at = told.packet_head++ % PACKETS;
-    told.packet[at].end = told.line_free;
-    told.packet[at].bits_per_s = told.bits_per_s;
-    told.packet[at].count = count;
-    memcpy(told.packet[at].bytes, bytes, count);
+    const uint32_t at = simtime.packet_head++ % PACKETS;
+    simtime.packet[at].end = simtime.line_free;
+    simtime.packet[at].bits_per_s = simtime.bits_per_s;
+    simtime.packet[at].count = count;
+    memcpy(simtime.packet[at].bytes, bytes, count);
 }
 
 uint16_t machine_bus_read(uint8_t *to, uint16_t room)
 {
-    return queue_take(&told.bus, to, room);
+    return queue_take(&simtime.bus, to, room);
 }
 
 /* ---- the console and the panel ---- */
 
 uint16_t machine_console_read(uint8_t *to, uint16_t room)
 {
-    const uint16_t count = queue_take(&told.console, to, room);
+    const uint16_t count = queue_take(&simtime.console, to, room);
     for (uint16_t i = 0; i < count; i++) {
-        told.teller.was_read();
+        simtime.callbacks.was_read();
     }
     return count;
 }
@@ -202,19 +203,19 @@ uint16_t machine_console_read(uint8_t *to, uint16_t room)
 uint16_t machine_console_write(const uint8_t *bytes, uint16_t count)
 {
     if (count > 0) {
-        told.teller.printed(bytes, count);
+        simtime.callbacks.printed(bytes, count);
     }
     return count;
 }
 
 uint8_t machine_buttons(void)
 {
-    return told.buttons;
+    return simtime.buttons;
 }
 
 void machine_tell(const char *sentence)
 {
-    told.teller.said(sentence);
+    simtime.callbacks.said(sentence);
 }
 
 /* ---- memory ---- */
@@ -231,7 +232,7 @@ bool machine_recall(machine_memory_t memory, uint8_t *bytes, uint32_t count)
 bool machine_keep(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uint32_t count, bool now)
 {
     (void)now;
-    if (!told.teller.keep(memory, at, bytes, count)) {
+    if (!simtime.callbacks.keep(memory, at, bytes, count)) {
         return false;
     }
     memcpy(memories[memory].bytes + at, bytes, count);
@@ -245,7 +246,7 @@ void machine_settle(machine_memory_t memory)
     }
 }
 
-void told_tear(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uint32_t count, bool (*choose)(void))
+void simtime_tear(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uint32_t count, bool (*choose)(void))
 {
     for (uint32_t i = 0; i < count; i++) {
         if (choose()) {
@@ -254,7 +255,7 @@ void told_tear(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uint3
     }
 }
 
-void told_tear_unsettled(bool (*choose)(void))
+void simtime_tear_unsettled(bool (*choose)(void))
 {
     for (uint32_t i = 0; i < sizeof eeprom; i++) {
         if (eeprom[i] != settled_eeprom[i] && choose()) {
@@ -263,12 +264,12 @@ void told_tear_unsettled(bool (*choose)(void))
     }
 }
 
-uint8_t *told_memory(machine_memory_t memory)
+uint8_t *simtime_memory(machine_memory_t memory)
 {
     return memories[memory].bytes;
 }
 
-uint32_t told_bytes(machine_memory_t memory)
+uint32_t simtime_bytes(machine_memory_t memory)
 {
     return memories[memory].count;
 }
@@ -277,36 +278,36 @@ uint32_t told_bytes(machine_memory_t memory)
 
 void machine_watch(void)
 {
-    told.watched = told.now;
+    simtime.watched = simtime.now;
 }
 
 bool machine_is_asked_to_end(void)
 {
-    return told.end_asked;
+    return simtime.end_asked;
 }
 
 _Noreturn void machine_end(void)
 {
-    longjmp(told.leave, 1 + TOLD_ENDED);
+    longjmp(simtime.leave, 1 + SIMTIME_ENDED);
 }
 
-_Noreturn void told_cut(void)
+_Noreturn void simtime_cut(void)
 {
-    longjmp(told.leave, 1 + TOLD_CUT);
+    longjmp(simtime.leave, 1 + SIMTIME_CUT);
 }
 
-_Noreturn void told_stop(void)
+_Noreturn void simtime_stop(void)
 {
-    longjmp(told.leave, 1 + TOLD_STOPPED);
+    longjmp(simtime.leave, 1 + SIMTIME_STOPPED);
 }
 
-void told_init(const told_teller_t *teller)
+void simtime_init(const simtime_callbacks_t *callbacks)
 {
-    memset(&told, 0, sizeof told);
-    told.teller = *teller;
-    told.next_tick = TOLD_TICK;
-    told.bits_per_s = BUS_BITS_PER_S_1M;
-    told.is_there = true;
+    memset(&simtime, 0, sizeof simtime);
+    simtime.callbacks = *callbacks;
+    simtime.next_tick = SIMTIME_TICK;
+    simtime.bits_per_s = BUS_BITS_PER_S_1M;
+    simtime.is_there = true;
     for (unsigned memory = 0; memory < MACHINE_MEMORIES; memory++) {
         memset(memories[memory].bytes, 0xFF, memories[memory].count);
     }
@@ -316,17 +317,17 @@ void told_init(const told_teller_t *teller)
 /* What was under way when the power went is lost. */
 static void switch_on(void)
 {
-    told.bus.tail = told.bus.head;
-    told.console.tail = told.console.head;
-    told.packet_tail = told.packet_head;
-    told.line_free = told.typed_until = told.now;
-    told.watched = told.now;
-    told.hold_up = 0;
-    told.end_asked = false;
+    simtime.bus.tail = simtime.bus.head;
+    simtime.console.tail = simtime.console.head;
+    simtime.packet_tail = simtime.packet_head;
+    simtime.line_free = simtime.typed_until = simtime.now;
+    simtime.watched = simtime.now;
+    simtime.hold_up = 0;
+    simtime.end_asked = false;
     memcpy(settled_eeprom, eeprom, sizeof eeprom);
 }
 
-told_end_t told_run(const char *file, const char **error)
+simtime_end_t simtime_run(const char *file, const char **error)
 {
     static void *program;   /* static: kept across longjmp */
     static int why;
@@ -334,80 +335,80 @@ told_end_t told_run(const char *file, const char **error)
     program = dlopen(file, RTLD_NOW | RTLD_LOCAL);
     if (program == NULL) {
         *error = dlerror();
-        return TOLD_ENDED;
+        return SIMTIME_ENDED;
     }
     int (*begin)(void);
     *(void **)&begin = dlsym(program, "program_start");
     if (begin == NULL) {
         *error = dlerror();
-        return TOLD_ENDED;
+        return SIMTIME_ENDED;
     }
     switch_on();
-    why = setjmp(told.leave);
+    why = setjmp(simtime.leave);
     if (why == 0) {
         (void)begin();
-        why = 1 + TOLD_ENDED;
+        why = 1 + SIMTIME_ENDED;
     }
     (void)dlclose(program);
     if (dlopen(file, RTLD_NOW | RTLD_NOLOAD) != NULL) {
         *error = "the program stays in memory, so it would not begin anew";
     }
-    return (told_end_t)(why - 1);
+    return (simtime_end_t)(why - 1);
 }
 
-/* ---- what the teller tells ---- */
+/* ---- what the caller says ---- */
 
-uint64_t told_now(void)
+uint64_t simtime_now(void)
 {
-    return told.now;
+    return simtime.now;
 }
 
-void told_hear(uint8_t byte, uint32_t delay)
+void simtime_hear(uint8_t byte, uint32_t delay)
 {
-    if (told.is_there) {
-        queue_put(&told.bus, told.now + delay, byte);
+    if (simtime.is_there) {
+        queue_put(&simtime.bus, simtime.now + delay, byte);
     }
 }
 
-void told_type(const uint8_t *bytes, uint16_t count, uint32_t byte_time)
+void simtime_type(const uint8_t *bytes, uint16_t count, uint32_t byte_time)
 {
-    told.typed_until = told.typed_until > told.now ? told.typed_until : told.now;
+    simtime.typed_until = simtime.typed_until > simtime.now ? simtime.typed_until : simtime.now;
     for (uint16_t i = 0; i < count; i++) {
-        told.typed_until += byte_time;
-        queue_put(&told.console, told.typed_until, bytes[i]);
+        simtime.typed_until += byte_time;
+        queue_put(&simtime.console, simtime.typed_until, bytes[i]);
     }
 }
 
-void told_type_pause(uint32_t half_us)
+void simtime_type_pause(uint32_t half_us)
 {
-    told.typed_until = (told.typed_until > told.now ? told.typed_until : told.now) + half_us;
+    simtime.typed_until = (simtime.typed_until > simtime.now ? simtime.typed_until : simtime.now) + half_us;
 }
 
-bool told_has_typed(void)
+bool simtime_has_typed(void)
 {
-    return told.console.head == told.console.tail;
+    return simtime.console.head == simtime.console.tail;
 }
 
-void told_press(uint8_t buttons)
+void simtime_press(uint8_t buttons)
 {
-    told.buttons = buttons;
+    simtime.buttons = buttons;
 }
 
-void told_plug(bool is_there)
+void simtime_plug(bool is_there)
 {
-    told.is_there = is_there;
+    simtime.is_there = is_there;
     if (!is_there) {
-        told.bus.tail = told.bus.head;
-        told.packet_tail = told.packet_head;
+        simtime.bus.tail = simtime.bus.head;
+        simtime.packet_tail = simtime.packet_head;
     }
 }
 
-void told_hold_up(uint64_t half_us)
+void simtime_hold_up(uint64_t half_us)
 {
-    told.hold_up = half_us;
+    simtime.hold_up = half_us;
 }
 
-void told_ask_to_end(void)
+void simtime_ask_to_end(void)
 {
-    told.end_asked = true;
+    simtime.end_asked = true;
 }

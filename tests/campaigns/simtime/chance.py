@@ -431,7 +431,7 @@ class Editor(Person):
 
 def made(seed, motions):
     """The actions of a session."""
-    rng = random.Random(f"told {seed}")
+    rng = random.Random(f"session {seed}")
     servos = list(range(1, 1 + rng.choice((0, 1, 4, 6, 6, 12, 18, 18))))
     actions = [(0, f"seed {seed}"), (0, f"motions {motions}")] + [(0, f"servo {servo}") for servo in servos]
     kinds = rng.choice(((Player,), (Player,), (Player,), (Editor,), (Editor, Player), (Player, Editor)))
@@ -451,5 +451,5 @@ def made(seed, motions):
 
 
 def text(actions):
-    """The list as told_session reads it."""
+    """The list as simtime_session reads it."""
     return "".join(f"{tick} {words}\n" for tick, words in actions)

@@ -471,7 +471,7 @@ bool law_is_exact(void)
     return !law.is_classic;
 }
 
-/* A step has been told a moment ago at the earliest: the program may be in the next one already. */
+/* A step was named a moment ago at the earliest: the program may be in the next one already. */
 bool law_place(unsigned *page, unsigned *step, unsigned *repetition)
 {
     *page = law.last.page;
@@ -480,7 +480,7 @@ bool law_place(unsigned *page, unsigned *step, unsigned *repetition)
     return law.is_judged && law.knows_place && law.ended_tick == NEVER_TICK;
 }
 
-/* A joint has come to where it was told to go, or swings about there. */
+/* A joint has come to where it was sent, or swings about there. */
 static void look_at_aim(unsigned id)
 {
     const unsigned is = law.now[id], to = law.aim[id].to, amplitude = law.aim[id].amplitude;
@@ -495,7 +495,7 @@ static void look_at_aim(unsigned id)
     const int below = (int)law.aim[id].lowest - (int)(to - amplitude);
     const int above = (int)law.aim[id].highest - (int)(to + amplitude);
     if (abs(below) > most || abs(above) > most) {
-        session_fail("aims and swings go where they were told", "servo %u from %u to %u, asked: %u and %u to both sides",
+        session_fail("aims and swings go where they were sent", "servo %u from %u to %u, asked: %u and %u to both sides",
                      id, law.aim[id].lowest, law.aim[id].highest, to, amplitude);
     }
 }
