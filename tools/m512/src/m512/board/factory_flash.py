@@ -20,14 +20,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
+from m512.board.factory_line import WRONG_ADDRESS, FactoryLine, Unsure
 from m512.board.memory import BOOT, FLASH_PAGE
 from m512.board.typed import segments
 from m512.errors import BoardError, RefusedError
-
-if TYPE_CHECKING:
-    from m512.board.factory import FactoryLoader
 
 BLIND_MOST = 2600
 RESERVE = 0x1800
@@ -43,21 +40,13 @@ _REPORT = re.compile(
 )
 # What can only come when a download is over: the loader is silent while it receives.
 _OVER = re.compile(rb"Succ|Erro|Rewr|Size|Checks|\r\n - ")
-WRONG_ADDRESS = (
-    "the boot loader took another address than it was given. It has written nothing and waits for data: "
-    "press MODE before anything else, then repeat the command"
-)
-
-
-class Unsure(BoardError):
-    """A download may be open: nothing more may be sent."""
 
 
 def in_reserve(page: int) -> bool:
     return page * FLASH_PAGE >= LAST_START
 
 
-def write_page(loader: FactoryLoader, page: int, pages: dict[int, bytes]) -> None:
+def write_page(loader: FactoryLine, page: int, pages: dict[int, bytes]) -> None:
     """Writes a page. `pages`: what belongs into those that may be endangered; they are to be looked at afterwards."""
     if page + 1 in pages:
         _send(loader, page, page, pages[page], segments(pages[page]))
@@ -72,7 +61,7 @@ def endangered(page: int, pages: dict[int, bytes]) -> set[int]:
     return {page, page + 1 if page + 1 in pages else page - 1}
 
 
-def _send(loader: FactoryLoader, scratch: int, page: int, data: bytes, pieces: list[tuple[int, int]]) -> None:
+def _send(loader: FactoryLine, scratch: int, page: int, data: bytes, pieces: list[tuple[int, int]]) -> None:
     """All pieces but the lowest go to `scratch`, to fill the loader's buffer; the lowest, sent last, to the page.
 
     After trouble all are sent again: the buffer may hold anything."""
@@ -90,7 +79,7 @@ def _send(loader: FactoryLoader, scratch: int, page: int, data: bytes, pieces: l
     raise BoardError(f"page 0x{page * FLASH_PAGE:05X}: {trouble}, {TRIES} times. {loader.how_it_stands()}")
 
 
-def _download(loader: FactoryLoader, address: int, data: bytes) -> str:
+def _download(loader: FactoryLine, address: int, data: bytes) -> str:
     """One download: what went wrong, or nothing; it is over then. Unsure: it may still be open."""
     if address % FLASH_PAGE or not 0 < len(data) <= FLASH_PAGE or not 0 <= address < LAST_START:
         raise RefusedError(f"a download to 0x{address:X} of {len(data)} bytes would hurt")  # our own mistake

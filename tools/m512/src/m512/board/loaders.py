@@ -16,7 +16,8 @@ from typing import Callable, Union
 
 from m512.board import banner
 from m512.board.block import IDENTITY, BlockLoader
-from m512.board.factory import KNOCK, PROMPT, FactoryLoader
+from m512.board.factory import FactoryLoader
+from m512.board.factory_line import KNOCK, PROMPT
 from m512.board.link import Link
 from m512.errors import NoAnswerError, RefusedError
 

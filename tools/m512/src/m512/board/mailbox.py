@@ -9,21 +9,17 @@ read back, before the mark that says "please write".
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from m512.board.factory_line import FactoryLine
 from m512.board.memory import FLASH_PAGE, MOTIONS
 from m512.errors import BoardError, NoAnswerError, RefusedError
 
-if TYPE_CHECKING:
-    from m512.board.factory import FactoryLoader
-
-MAILBOX, STATE, NUMBER, BOOT_MODE = 0x800, 0xFF4, 0xFF5, 0xFFF
+MAILBOX, STATE, NUMBER = 0x800, 0xFF4, 0xFF5
 PLEASE, DONE, NOTHING = 0xAA, 0x55, 0xFF
 PAGE_BYTES, PAGES = 512, 128
 TRIES = 3
 
 
-def write_motion_page(loader: FactoryLoader, number: int, data: bytes) -> None:
+def write_motion_page(loader: FactoryLine, number: int, data: bytes) -> None:
     """Writes motion page `number`. The loader restarts and is at its prompt again."""
     if not 0 <= number < PAGES or len(data) != PAGE_BYTES:
         raise RefusedError(f"no motion page {number} for the mailbox")  # our own mistake
@@ -45,7 +41,7 @@ def write_motion_page(loader: FactoryLoader, number: int, data: bytes) -> None:
     _settle(loader, STATE, NOTHING)
 
 
-def different(loader: FactoryLoader, wanted: dict[int, int]) -> dict[int, int]:
+def different(loader: FactoryLine, wanted: dict[int, int]) -> dict[int, int]:
     """Returns those of the cells that differ on the board."""
     out, cells = {}, sorted(wanted)
     for run in _runs(cells):
@@ -64,7 +60,7 @@ def _runs(cells: list[int]) -> list[list[int]]:
     return out
 
 
-def _settle(loader: FactoryLoader, cell: int, value: int) -> None:
+def _settle(loader: FactoryLine, cell: int, value: int) -> None:
     """Writes one EEPROM cell if it differs, and reads it back."""
     for _ in range(TRIES):
         if not different(loader, {cell: value}):

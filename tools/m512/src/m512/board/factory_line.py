@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: MIT
+"""A line to the factory boot loader: its prompt, its dumps, its EEPROM, how it stays and goes. Nothing here writes flash.
+
+It acknowledges nothing, checks nothing, and takes late data for typed text. So every line is typed, its echo compared, and
+only then ended; words are long ones, of which no single wrong bit makes another word.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Callable
+
+from m512.board.link import Link
+from m512.errors import BoardError, NoAnswerError
+
+PROMPT = b"\r\n - "
+# Empties the line, whatever stands in it, and asks for a prompt. The line holds 80 characters; some may get lost.
+KNOCK = b"\x08" * 100 + b"\r"
+DUMP_BYTES = 128
+DUMP_CHARACTERS = 660
+DUMP_AHEAD = 4  # dumps asked for in advance, a few bytes each of the loader's 255
+TRIES = 4
+DUMP_TRIES = 8
+EEPROM_PIECE = 32
+EEPROM_SECONDS = 0.0085
+START_SECONDS = 0.4
+ECHO_QUIET = 0.02  # behind an echo: a line that doubles would show it by then
+PATIENCE = 4.0  # longest silence that is not yet the end of hope, on a line that answers at once
+BOOT_MODE = 0xFFF  # of the EEPROM: 0xFF when the controller stays in the loader
+_DUMP_LINE = re.compile(rb"\r\n ([0-9A-F]{8}) : ((?:[0-9A-F]{2} ){16})([\x20-\x7f]{16})")
+
+Progress = Callable[[int, int], None]
+WRONG_ADDRESS = (
+    "the boot loader took another address than it was given. It has written nothing and waits for data: "
+    "press MODE before anything else, then repeat the command"
+)
+
+
+class Unsure(BoardError):
+    """A download may be open: nothing more may be sent."""
+
+
+class FactoryLine:
+    def __init__(self, link: Link):
+        self.link = link
+        self.retries = 0
+        self.pace = 1 / 5714  # seconds a byte, there and back: measured by echoes
+        self.open_at: int | None = None
+        self.mode_before: int | None = None
+        self.stays = False
+        self.clean()
+
+    # The line
+
+    def patience(self, count: int) -> float:
+        """How long an answer of `count` bytes may take, judged by what this line has shown so far."""
+        return PATIENCE + 3 * self.pace * count
+
+    def clean(self) -> None:
+        """Brings the loader to an empty line behind its prompt. Not while a download may be open."""
+        for _ in range(TRIES):
+            self.link.drain(0.05, 5.0)
+            self.link.write(KNOCK)
+            if self.link.look_for(PROMPT, self.patience(4 * len(KNOCK)))[1]:
+                self.link.drain(0.02)
+                return
+        raise NoAnswerError("the boot loader does not answer any more. " + self.how_it_stands())
+
+    def how_it_stands(self) -> str:
+        """The board's state after trouble, and what is safe to do."""
+        state = ""
+        if self.open_at is not None:
+            state = (
+                f"The board may still wait for the rest of a download to 0x{self.open_at:05X}; only pages that this command "
+                "writes can change by it. Type nothing into a terminal now. "
+            )
+        again = "Wait a second and repeat the command: it goes on where it stopped. Its boot loader is unharmed"
+        stays = "; until that has worked the controller stays in it at every start" if self.stays else "; MODE may be pressed as well"
+        return state + again + stays
+
+    def type_line(self, line: str) -> None:
+        """Types a line without its end, until the echo shows that it arrived unchanged."""
+        for _ in range(TRIES):
+            begun = self.link.now()
+            self.link.write(line.encode())
+            echo = b""
+            while len(echo) < len(line):
+                some = self.link.read_some(self.patience(2 * len(line)), len(line) - len(echo))
+                if not some:
+                    break
+                echo += some
+            if echo == line.encode() and not self.link.drain(ECHO_QUIET, 0.1):  # not twice
+                self.pace = max(1 / 5714, (self.link.now() - begun - ECHO_QUIET) / (2 * len(line)))
+                return
+            self.retries += 1
+            self.clean()
+        raise NoAnswerError(f"what is typed arrives damaged (`{line}` came back as {echo!r}). Is the cable good?")
+
+    def command(self, line: str, count: int = 60) -> bytes:
+        """A line's answer of about `count` bytes, up to the prompt."""
+        self.type_line(line)
+        self.link.write(b"\r")
+        return self.link.read_until(PROMPT, self.patience(count), f"`{line}` to the boot loader")
+
+    # Reading
+
+    def _dump(self, word: str, start: int, end: int, modulo: int, progress: Progress | None) -> bytes:
+        """Reads memory by dumps of 128 bytes; asks for a few in advance while none is damaged."""
+        first = start - start % DUMP_BYTES
+        out, tries, ahead = bytearray(), 0, DUMP_AHEAD
+        while first + len(out) < end:
+            at = first + len(out)
+            count = (end - at + DUMP_BYTES - 1) // DUMP_BYTES
+            try:
+                for piece in self._dumps(word, at, count, modulo, ahead):
+                    out += piece
+                    tries = 0
+                    if progress:
+                        progress(min(first + len(out), end) - start, end - start)
+            except NoAnswerError:
+                tries, ahead = tries + 1, 1
+                self.retries += 1
+                if tries == DUMP_TRIES:
+                    raise
+                self.clean()
+        return bytes(out[start - first : end - first])
+
+    def _dumps(self, word: str, at: int, count: int, modulo: int, ahead: int) -> Iterator[bytes]:
+        asked = 0
+        for done in range(count):
+            while asked < min(count, done + ahead):
+                self.link.write((f"{word} {at:x}" if asked == 0 else word).encode() + b"\r")
+                asked += 1
+            here = at + done * DUMP_BYTES
+            text = self.link.read_until(PROMPT, self.patience(DUMP_CHARACTERS), f"a dump of 0x{here:X}")
+            rows = _DUMP_LINE.findall(text)
+            wanted = [(here + 16 * k) % modulo for k in range(DUMP_BYTES // 16)]
+            data = [bytes.fromhex(digits.decode()) for _, digits, _ in rows]
+            if [int(address, 16) for address, _, _ in rows] != wanted or any(_as_text(piece) != shown for piece, (_, _, shown) in zip(data, rows)):
+                self.link.drain(0.2, 3)
+                raise NoAnswerError(f"the dump of 0x{here:X} came damaged")
+            yield b"".join(data)
+
+    def read(self, start: int, end: int, progress: Progress | None = None) -> bytes:
+        return self._dump("flash", start, end, 0x20000, progress)
+
+    def read_eeprom(self, start: int = 0, end: int = 4096, progress: Progress | None = None) -> bytes:
+        return self._dump("eeprom", start, end, 0x1000, progress)
+
+    # Writing EEPROM
+
+    def write_eeprom(self, cells: dict[int, int], progress: Progress | None = None) -> None:
+        """Single bytes, by address. Not read back."""
+        done = 0
+        for at, data in _pieces(cells):
+            for _ in range(TRIES):
+                if self._eeprom_piece(at, data):
+                    break
+                self.retries += 1
+                self.clean()
+            else:
+                raise NoAnswerError("EEPROM bytes do not arrive. " + self.how_it_stands())
+            done += len(data)
+            if progress:
+                progress(done, len(cells))
+
+    def _eeprom_piece(self, at: int, data: bytes) -> bool:
+        """Whether it went well. If not, the loader may wait for the rest; what clean() types is enough of it."""
+        self.type_line(f"eep_dn {at:x} {len(data):x}")
+        self.link.write(b"\r")
+        answer, ready = self.link.look_for(b"Ready", self.patience(80))
+        if not ready:
+            return False
+        if b"Write Address : %08X" % at not in answer:
+            raise Unsure(WRONG_ADDRESS)
+        self.link.write(data)
+        return self.link.look_for(PROMPT, self.patience(len(data) + 20) + EEPROM_SECONDS * len(data))[1]
+
+    # Starting and staying
+
+    def stay(self) -> None:
+        """Makes the controller stay in this loader at every start, until leave()."""
+        if self.stays:
+            return
+        self.mode_before = self.read_eeprom(BOOT_MODE, BOOT_MODE + 1)[0]
+        self._mode("sys")
+        self.stays = True
+
+    def _mode(self, word: str) -> None:
+        wanted = 0xFF if word == "sys" else None
+        for _ in range(TRIES):
+            self.command(word)
+            found = self.read_eeprom(BOOT_MODE, BOOT_MODE + 1)[0]
+            if (found == 0xFF) == (wanted == 0xFF):
+                return
+        raise BoardError(f"`{word}` does not change the boot mode")
+
+    def restart(self) -> None:
+        """Resets the controller. Then the loader is at its prompt again (see stay())."""
+        self.type_line("reset")
+        self.link.write(b"\r")
+        self.link.look_for(PROMPT, START_SECONDS + self.patience(100))
+        self.clean()
+
+    def leave(self, to: int = 0) -> None:
+        """0 stay at the prompt, 1 start the application (and at every start from now on), 2 reset."""
+        if to == 1 or (self.stays and self.mode_before != 0xFF):
+            self._mode("app")
+        self.stays = False
+        if to == 1:
+            self.type_line("go")
+            self.link.write(b"\r")
+            self.link.read_until(b"Jump Address", self.patience(60), "`go` to the boot loader")
+        elif to == 2:
+            self.type_line("reset")
+            self.link.write(b"\r")
+
+
+def _as_text(data: bytes) -> bytes:
+    return bytes(byte if 0x20 <= byte <= 0x7F else 0x2E for byte in data)
+
+
+def _pieces(cells: dict[int, int]) -> list[tuple[int, bytes]]:
+    """Runs of neighbouring bytes. A byte too many would be typed text, so the end of a line stands alone."""
+    out: list[tuple[int, bytearray]] = []
+    for at in sorted(cells):
+        last = out[-1] if out else (-1, bytearray())
+        if at == last[0] + len(last[1]) and len(last[1]) < EEPROM_PIECE and cells[at] not in b"\r\n" and last[1][-1] not in b"\r\n":
+            last[1].append(cells[at])
+        else:
+            out.append((at, bytearray([cells[at]])))
+    return [(at, bytes(data)) for at, data in out]
