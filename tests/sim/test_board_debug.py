@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What looks into the simulated board: probes, stack figures, symbols, loader of images, VCD, GDB, target_runner."""
+"""What looks into the simulated board: probes, stack figures, symbols, loader of images, GDB, target_runner."""
 
 import os
 import pathlib
@@ -194,18 +194,6 @@ def test_trace_keeps_instruction_packets():
     board = Board(images=[NEGATIVE / "right-bus_overrun.hex"], servos=[1])
     board.expect("right")
     assert [packet for _, packet in board.packets] == [b"\xff\xff\x01\x02\x01\xfb"]
-
-
-def test_vcd_holds_pins_and_bytes(tmp_path):
-    board = Board(images=[NEGATIVE / "right-bus_overrun.hex"], servos=[1])
-    board.vcd(tmp_path / "pins.vcd")
-    board.expect("right")
-    board.stop_vcd()
-    text = (tmp_path / "pins.vcd").read_text()
-    assert "$var wire 1 h bus_drive $end" in text and "\n1h\n" in text and "\n0h\n" in text
-    times = [int(line[1:]) for line in text.splitlines() if line.startswith("#")]
-    assert times == sorted(times)
-    assert text.count("b11111011 B") == 1, "the checksum of the packet on bus_tx"
 
 
 def test_gdb_stops_at_a_function():

@@ -224,16 +224,6 @@ def test_terminal_keys_as_remote(terminal):
 # --- violations and wrong usage ---
 
 
-def test_sweep_is_told_in_the_summary():
-    done = run(ROBOT, "--sweep", "no_such_thing:12", "--time", "100ms", "--fast", "--summary")
-    assert done.returncode == 4 and b"no such function" in done.stderr
-    done = run(ROBOT, "--sweep", "put:30", "--time", "1s", "--fast", "--summary", stdin=b"p" * 20)
-    match = re.search(rb"sweep of put: (\d+) calls, (\d+) rounds of all places, (\d+) interrupts", done.stderr)
-    assert match and int(match[1]) > 100 and int(match[2]) >= 1 and int(match[3]) > 10, done.stderr
-    done = run(ROBOT, "--sweep", "put")
-    assert done.returncode == 2 and b"FUNCTION:VECTOR" in done.stderr
-
-
 def test_violation_stops_with_cycle_pc_function_reason_and_code_3():
     done = run(ROBOT, stdin=b"s")
     assert done.returncode == 3

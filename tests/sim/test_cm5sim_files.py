@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the command cm5sim keeps and writes: flash, EEPROM, traces, plots, VCD; and its port for avr-gdb."""
+"""What the command cm5sim keeps and writes: flash, EEPROM, traces, plots; and its port for avr-gdb."""
 
 import csv
 import socket
@@ -78,13 +78,6 @@ def test_plot_without_matplotlib_says_so(tmp_path, monkeypatch):
     done = play(tmp_path, MOVE, "--plot", tmp_path / "move.svg")
     assert done.returncode == 4
     assert b"no picture without matplotlib" in done.stderr
-
-
-def test_vcd_is_written(tmp_path):
-    vcd = tmp_path / "pins.vcd"
-    assert play(tmp_path, MOVE, "--vcd", vcd).returncode == 0
-    text = vcd.read_text()
-    assert "$timescale" in text and "$enddefinitions" in text and text.count("#") > 10
 
 
 def free_port():

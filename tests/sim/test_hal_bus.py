@@ -80,36 +80,17 @@ def test_turn_round_is_bounded_whatever_else_interrupts(capsys):
     assert 5 < flooded <= TURN_US and 5 < longest <= TURN_US
 
 
-def pauses_us(path):
-    """The pauses between the characters of our packets, from a recording of the line."""
-    pauses, now, ended, driven = [], 0, None, False
-    for line in path.read_text().splitlines():
-        if line.startswith("#"):
-            now = int(line[1:])
-        elif line in ("0h", "1h"):  # bus_drive
-            driven, ended = line == "1h", None
-        elif line == "bzzzzzzzz B":  # bus_tx
-            ended = now
-        elif line.startswith("b") and line.endswith(" B") and driven and ended is not None:
-            pauses.append((now - ended) / 1000)
-    return pauses
-
-
-def test_pauses_inside_a_packet_are_short_whatever_else_interrupts(tmp_path, capsys):
+def test_pauses_inside_a_packet_are_short_whatever_else_interrupts(capsys):
     """Two characters leave without a pause; before the next two the interrupt must be served. Servos allow far more:
     the simulated ones 100 us."""
     board = walker()
     board.send(pattern(int(LINE_BYTES_PER_S)))
-    board.vcd(tmp_path / "line.vcd")
+    board.bus_pause_us(forget=True)
     board.run(ms=1000)
-    board.stop_vcd()
-    pauses = pauses_us(tmp_path / "line.vcd")
-    real = [pause for pause in pauses if pause > 0]
+    longest = board.bus_pause_us()
     with capsys.disabled():
-        print(f"\nhal: pauses in packets in a flood: {sum(real) / len(real):.1f} us on the average, at most {max(real):.1f} us")
-    assert len(pauses) > 127 * (100 + 7)
-    assert len(real) <= len(pauses) / 2 + 1
-    assert max(real) <= 30  # 22.8 with GCC 14
+        print(f"\nhal: pauses in packets in a flood: at most {longest:.1f} us")
+    assert 0 < longest <= 30  # 22.8 with GCC 14
 
 
 def test_silent_servo_is_named_within_a_second_and_the_others_walk_on():

@@ -83,7 +83,7 @@ def test_command_of_the_readme_runs(command, folder):
     assert not needs(command), "not built; tools/dev/build makes it"
     code, errors = execute(command, folder)
     assert code == 0, errors
-    for option, name in re.findall(r"--(plot|trace|vcd|flash|eeprom|servo-eeprom) (\S+)", command):
+    for option, name in re.findall(r"--(plot|trace|flash|eeprom|servo-eeprom) (\S+)", command):
         assert (folder / name).stat().st_size > 20, f"--{option} left nothing in {name}"
     if "--trace" in command:
         assert ",600" in (folder / "walk.csv").read_text()

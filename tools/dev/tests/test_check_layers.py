@@ -24,13 +24,17 @@ GOOD = {
     "hal/compiler.h": "",
     "hal/avr/flash.c": '#include <avr/io.h>\n#include "flash.h"\n',
     "firmware/common/store.c": '#include "flash.h"\n#include "page.h"\n',
+    "tools/sim/board/board.h": "",
+    "tools/sim/board/machine/cpu.h": '#include <stdio.h>\n#include "board.h"\n',
+    "tools/sim/board/parts/uart.h": '#include "cpu.h"\n',
+    "tools/sim/board/api/board.c": '#include "uart.h"\n#include "cpu.h"\n',
 }
 
 
 def test_good_tree_passes(tmp_path):
     done = check(tmp_path, GOOD)
     assert done.returncode == 0, done.stdout
-    assert "6 files" in done.stdout
+    assert "10 files" in done.stdout
 
 
 @pytest.mark.parametrize(
@@ -43,6 +47,8 @@ def test_good_tree_passes(tmp_path):
         ("hal/flash.c", '#include "store.h"', "(of nowhere)"),
         ("firmware/common/store.c", "#include <util/delay.h>", "belongs in"),
         ("firmware/common/store.c", "#ifdef __AVR__", "which machine"),
+        ("tools/sim/board/machine/cpu.c", '#include "uart.h"', "tools/sim/board/machine may not include uart.h"),
+        ("tools/sim/board/board.h", '#include "cpu.h"', "tools/sim/board may not include cpu.h"),
         ("firmware/play/main.c", '#include "fake_flash.h"', "firmware/play may not include fake_flash.h"),
     ],
 )

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * board.h - a CM-5 or CM-2 controller board with its ATmega128, as strict as the chip: life, time, code, reset.
  * The rest of the interface: board_ports.h (console, servo bus, panel), board_memory.h (flash, EEPROM, power cuts),
- * board_debug.h (symbols, stack, probes, GDB, VCD). Any number of boards may exist; none is shared between threads.
+ * board_debug.h (symbols, stack, probes, GDB). Any number of boards may exist; none is shared between threads.
  *
  * Time is counted in cycles of 16 MHz from board_new() on, never runs backwards and goes on while power is off.
  * The same seed, images and calls give the same run, to the cycle.

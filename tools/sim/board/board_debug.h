@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * board_debug.h - looking into the running firmware: symbols, stack, cycles of a function, interrupts at every place of
- * one, GDB, VCD. Part of board.h. */
+ * one, GDB. Part of board.h. */
 #ifndef SIM_BOARD_DEBUG_H
 #define SIM_BOARD_DEBUG_H
 
@@ -70,9 +70,5 @@ uint32_t board_step(board_t *board);
 
 /* A GDB server on 127.0.0.1:port; the run waits for it at once if wait is true. false: board_error(). */
 bool board_gdb(board_t *board, int port, bool wait);
-
-/* Writes pins, LEDs and the bytes on both UARTs to a VCD file until board_vcd_stop(). false: board_error(). */
-bool board_vcd_start(board_t *board, const char *path);
-void board_vcd_stop(board_t *board);
 
 #endif

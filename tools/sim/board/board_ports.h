@@ -43,6 +43,9 @@ void board_body(board_t *board, const struct servo_body *body);
  * answers sooner is not heard. forget: measure anew. */
 uint64_t board_bus_turn(board_t *board, bool forget);
 
+/* The longest pause, in cycles, between two characters of a packet of the board's. forget: measure anew. */
+uint64_t board_bus_pause(board_t *board, bool forget);
+
 /* Keeps every instruction packet with a good checksum that the board sends to the servos, from now on (what was kept
  * before is dropped). It uses the bus's on_packet. The pointer is good until the next run. */
 typedef struct {

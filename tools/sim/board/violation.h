@@ -9,7 +9,7 @@
 
 typedef enum {
     VIOLATION_NONE,
-    /* flash.c */
+    /* parts/flash.c */
     VIOLATION_SPM_PLACE,       /* SPM executed outside the boot section */
     VIOLATION_SPM_SEQUENCE,    /* SPM without, or more than 4 cycles after, its SPMCSR write; unknown operation */
     VIOLATION_SPM_BUSY,        /* SPM or SPMCSR while an erase or a write is going on */
@@ -20,11 +20,11 @@ typedef enum {
     VIOLATION_FLASH_REFILL,    /* a word of the page buffer filled twice */
     VIOLATION_FLASH_ALIGN,     /* page write with the word bits of Z not zero */
     VIOLATION_FLASH_WORN,      /* a page erased more than 10,000 times */
-    /* eeprom.c */
+    /* parts/eeprom.c */
     VIOLATION_EEPROM_BUSY,     /* EEPROM read, written or addressed during a write */
     VIOLATION_EEPROM_SEQUENCE, /* EEWE without EEMWE in the 4 cycles before */
     VIOLATION_EEPROM_WORN,     /* a byte written more than 100,000 times */
-    /* uart.c, console.c, bus_wire.c */
+    /* parts/uart.c, parts/bus_wire.c */
     VIOLATION_UART_OVERRUN,    /* a received character was lost: the firmware came too late */
     VIOLATION_BUS_OVERRUN,     /* the same on UART0, where a repeated request mends it: allowed at first */
     VIOLATION_UART_TX_LOST,    /* UDR written while the buffer is full or the transmitter is off */
@@ -33,11 +33,11 @@ typedef enum {
     VIOLATION_BUS_UNDRIVEN,    /* a byte sent on the bus while the drive pin is low */
     VIOLATION_BUS_BOTH,        /* drive and listen pins high together */
     VIOLATION_BUS_RELEASED,    /* drive pin low before the last stop bit has left */
-    /* panel.c */
+    /* parts/panel.c */
     VIOLATION_PULLUP,          /* a button read without its pull-up */
     VIOLATION_CHARGER,         /* battery charger on */
     VIOLATION_PIN_FIGHT,       /* an output drives a pin that something else drives */
-    /* cpu.c, stack.c */
+    /* machine/cpu.c, machine/stack.c */
     VIOLATION_STACK,           /* stack grown into the variables */
     VIOLATION_STACK_UNSET,     /* stack used before it was set */
     VIOLATION_ERASED,          /* execution ran into erased flash */
@@ -46,7 +46,7 @@ typedef enum {
     VIOLATION_SLEEP,           /* sleep from which nothing wakes it */
     VIOLATION_INTERRUPT,       /* an interrupt routine came back with other registers or flags than it found */
     VIOLATION_UNMODELLED,      /* something the real chip has and this board has not (external RAM, XDIV, ...) */
-    /* reset.c */
+    /* parts/watchdog.c, api/reset.c */
     VIOLATION_TIMED_SEQUENCE,  /* WDTCR or IVSEL changed without the timed sequence: the chip ignores it */
     VIOLATION_UNEXPECTED_RESET, /* the watchdog bit; off unless board_allow(.., false) asks for it */
     VIOLATION_COUNT

@@ -130,8 +130,7 @@ static const char *load_memories(session_t *session)
     return error;
 }
 
-/* Trace, sweeps, VCD. */
-static const char *open_instruments(session_t *session)
+static const char *open_trace(session_t *session)
 {
     const options_t *options = session->options;
     if (options->trace) {
@@ -147,14 +146,6 @@ static const char *open_instruments(session_t *session)
         if (!session->tracing) {
             return strerror(errno);
         }
-    }
-    for (int i = 0; i < options->sweep_count; i++) {
-        if (!board_sweep(session->board, options->sweeps[i].function, options->sweeps[i].vector, 0)) {
-            return "--sweep: no such function in the images, or a vector that cannot be raised";
-        }
-    }
-    if (options->vcd && !board_vcd_start(session->board, options->vcd)) {
-        return board_error(session->board);
     }
     return NULL;
 }
@@ -210,7 +201,7 @@ int session_open(session_t *session, const options_t *options)
         board_body(session->board, options->hung_on);
     }
     error = error ? error : console_open(&session->console, options, input, session);
-    error = error ? error : open_instruments(session);
+    error = error ? error : open_trace(session);
     if (error) {
         session_complain(session, "%s", error);
         return EXIT_FILE;
@@ -271,7 +262,6 @@ void session_close(session_t *session)
     if (session->board == NULL) {
         return;
     }
-    board_vcd_stop(session->board);
     if (session->tracing) {
         close_trace(session);
     }

@@ -25,9 +25,9 @@ static const char doc[] =
     "the chip or the board does not allow, 4 a file or port could not be used.";
 
 enum {
-    OPT_BOARD = 256, OPT_SERVOS, OPT_MOTIONS, OPT_PTY, OPT_TCP, OPT_BUS_PTY, OPT_RC, OPT_SCRIPT, OPT_GDB, OPT_VCD,
+    OPT_BOARD = 256, OPT_SERVOS, OPT_MOTIONS, OPT_PTY, OPT_TCP, OPT_BUS_PTY, OPT_RC, OPT_SCRIPT, OPT_GDB,
     OPT_TRACE, OPT_PLOT, OPT_REALTIME, OPT_FAST, OPT_FLASH, OPT_EEPROM, OPT_SERVO_EEPROM, OPT_TIME, OPT_SEED,
-    OPT_FAULT, OPT_ALLOW, OPT_SWEEP, OPT_NO_STDIO, OPT_SUMMARY, OPT_BODY, OPT_VIEW
+    OPT_FAULT, OPT_ALLOW, OPT_NO_STDIO, OPT_SUMMARY, OPT_BODY, OPT_VIEW
 };
 
 static const struct argp_option descriptions[] = {
@@ -64,10 +64,7 @@ static const struct argp_option descriptions[] = {
     {"trace", OPT_TRACE, "FILE", 0, "CSV: goal and present position of every servo, 128 rows a second", 0},
     {"plot", OPT_PLOT, "FILE", 0, "Joints over time as .svg or .png (needs Python with matplotlib)", 0},
     {"summary", OPT_SUMMARY, 0, 0, "At the end: simulated and real time, CPU load, stack headroom, serial counters", 0},
-    {"vcd", OPT_VCD, "FILE", 0, "Pins and serial bytes for a wave viewer", 0},
     {"gdb", OPT_GDB, "PORT", OPTION_ARG_OPTIONAL, "Wait for avr-gdb on port PORT (default 1234) of 127.0.0.1", 0},
-    {"sweep", OPT_SWEEP, "FUNCTION:VECTOR", 0, "Interrupt each call of a function once, behind one instruction more each "
-     "time (12: Timer 1 A, 18 and 20: bus, 30: console); --summary tells how far it came", 0},
     {"allow", OPT_ALLOW, "KIND", 0, "Do not stop at this violation", 0},
     {0}};
 
@@ -128,23 +125,6 @@ static const char *parse_fault(options_t *options, char *text)
         return "too many faults";
     }
     options->faults[options->fault_count++] = (fault_plan_t){(uint8_t)id, fault};
-    return NULL;
-}
-
-static const char *parse_sweep(options_t *options, char *text)
-{
-    const char *vector = cut(text, ':');
-    long number;
-    sweep_plan_t *sweep = &options->sweeps[options->sweep_count];
-    if (vector == NULL || !cli_number(vector, 1, 34, &number)) {
-        return "give FUNCTION:VECTOR, a vector number 1..34";
-    }
-    if (options->sweep_count == CLI_SWEEPS_MAX || strlen(text) >= sizeof sweep->function) {
-        return "too many sweeps, or too long a name";
-    }
-    memcpy(sweep->function, text, strlen(text) + 1);
-    sweep->vector = (int)number;
-    options->sweep_count++;
     return NULL;
 }
 
@@ -259,8 +239,6 @@ static bool parse_port_or_file(int key, char *arg, struct argp_state *state, opt
     case OPT_SCRIPT: options->script = arg; break;
     case OPT_TRACE: options->trace = arg; break;
     case OPT_PLOT: options->plot = arg; break;
-    case OPT_VCD: options->vcd = arg; break;
-    case OPT_SWEEP: check(state, "--sweep", arg, with_copy(options, arg, parse_sweep)); break;
     case OPT_GDB: options->use_gdb = true; parse_port(state, "--gdb", arg, &options->gdb_port); break;
     default: return false;
     }

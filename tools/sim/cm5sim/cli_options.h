@@ -10,7 +10,6 @@
 #define CLI_IMAGES_MAX 8
 #define CLI_SERVOS_MAX 254
 #define CLI_FAULTS_MAX 32
-#define CLI_SWEEPS_MAX 8
 
 enum { EXIT_GOOD = 0, EXIT_EXPECTATION = 1, EXIT_USAGE = 2, EXIT_VIOLATION = 3, EXIT_FILE = 4 };
 
@@ -25,11 +24,6 @@ typedef struct {
     servo_fault_t fault;
 } fault_plan_t;
 
-typedef struct {
-    char function[64];
-    int vector;
-} sweep_plan_t;
-
 typedef enum { PACE_AUTO, PACE_REAL, PACE_FAST } pace_t;
 
 typedef struct {
@@ -41,15 +35,13 @@ typedef struct {
     int servo_count;
     fault_plan_t faults[CLI_FAULTS_MAX];
     int fault_count;
-    sweep_plan_t sweeps[CLI_SWEEPS_MAX];
-    int sweep_count;
     bool use_pty, use_tcp, bus_pty, rc, use_gdb, quiet, no_stdio, summary;
     const char *pty_link, *bus_link;
     int tcp_port, gdb_port; /* tcp_port 0: any free one */
     const char *body;             /* a body of tools/body, or a file; NULL: none */
     bool view;                    /* show it */
     const servo_body_t *hung_on;  /* what the servos hang on, NULL: nothing */
-    const char *script, *vcd, *trace, *plot, *flash, *eeprom, *servo_eeprom;
+    const char *script, *trace, *plot, *flash, *eeprom, *servo_eeprom;
     pace_t pace;
     uint64_t time_cycles; /* end of the run, UINT64_MAX: none */
     uint32_t seed;

@@ -144,12 +144,6 @@ static void summarize(const session_t *session, const struct timespec *begun)
                      board_stack_headroom(session->board), board_resets(session->board));
     session_complain(session, "bus: %" PRIu64 " bytes out, %" PRIu64 " in, %" PRIu64 " overruns, %" PRIu64
                      " framing errors", bus.sent, bus.received, bus.overruns, bus.framing);
-    for (int i = 0; i < session->options->sweep_count; i++) {
-        const char *function = session->options->sweeps[i].function;
-        const sweep_t *sweep = board_sweep_result(session->board, function);
-        session_complain(session, "sweep of %s: %" PRIu64 " calls, %" PRIu64 " rounds of all places, %" PRIu64 " interrupts",
-                         function, sweep->calls, sweep->rounds, sweep->taken);
-    }
     session_complain(session, "console: %" PRIu64 " bytes out, %" PRIu64 " in, %" PRIu64 " overruns, %" PRIu64
                      " framing errors", console.sent, console.received, console.overruns, console.framing);
 }

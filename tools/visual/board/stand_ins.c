@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: MIT
  * What a page has no use for, as doors that stay shut: GDB, wave files, ELF files. They take the place of simavr's
- * sim_gdb.c, sim_vcd_file.c and sim_cmds.c, and of tools/sim/board's gdb.c, vcd.c, elf_image.c and symbols.c, which want
+ * sim_gdb.c, sim_vcd_file.c and sim_cmds.c, and of tools/sim/board's gdb.c, elf_image.c and symbols.c, which want
  * sockets, files and libelf. Without symbols a violation names an address and no function, and the stack guard ends at
  * the start of the SRAM. */
 #include <stdio.h>
 
-#include "board_private.h"
 #include "elf_image.h"
+#include "sim_avr.h"
 #include "sim_cmds.h"
+#include "sim_gdb.h"
 #include "sim_vcd_file.h"
+#include "symbols.h"
 
 int avr_gdb_init(avr_t *avr)
 {
@@ -35,18 +37,6 @@ void avr_gdb_handle_watchpoints(avr_t *avr, uint16_t address, enum avr_gdb_watch
 void avr_vcd_close(avr_vcd_t *vcd) { (void)vcd; }
 
 void avr_cmd_init(avr_t *avr) { (void)avr; }
-
-void vcd_free(board_t *board) { (void)board; }
-
-void vcd_pins(board_t *board) { (void)board; }
-
-void vcd_byte(board_t *board, int uart, bool sent, int byte)
-{
-    (void)board;
-    (void)uart;
-    (void)sent;
-    (void)byte;
-}
 
 image_status_t elf_image_read(FILE *file, image_t *image)
 {

@@ -1,22 +1,29 @@
 /* SPDX-License-Identifier: MIT
  * bus_wire.h - between UART0 and the servos: the direction pins, and the time scale of the bus. */
-#ifndef SIM_PARTS_BUS_WIRE_H
-#define SIM_PARTS_BUS_WIRE_H
+#ifndef SIM_BUS_WIRE_H
+#define SIM_BUS_WIRE_H
 
-#include "board_ports.h"
+#include "servo_bus.h"
+#include "uart.h"
 
 typedef struct {
-    struct servo_bus *bus;
+    machine_t *machine;
+    uart_t *uart;
+    board_kind_t kind;
+    servo_bus_t *bus;
     uint64_t listening_since; /* NEVER: not listening */
     uint64_t sent_at;         /* when our last stop bit left; NEVER: the board has listened since */
     uint64_t longest_turn;
+    uint64_t character_end; /* of the packet that the board is sending; NEVER: its first one is still to come */
+    uint64_t longest_pause;
 } bus_wire_t;
 
-bool bus_wire_init(board_t *board);
-void bus_wire_free(board_t *board);
-void bus_wire_follow(board_t *board); /* takes over the bus's next event */
-void bus_wire_event(board_t *board, uint64_t now);
-void bus_wire_supply(board_t *board, double volts);
-void bus_wire_pins(board_t *board, uint8_t before, uint8_t after); /* port E outputs that are driven high */
+bool bus_wire_init(bus_wire_t *wire, machine_t *machine, uart_t *uart, board_kind_t kind); /* false: no memory */
+void bus_wire_free(bus_wire_t *wire);
+void bus_wire_follow(bus_wire_t *wire); /* takes over the bus's next event */
+void bus_wire_power(bus_wire_t *wire, bool on);
+void bus_wire_supply(bus_wire_t *wire, double volts);
+void bus_wire_body(bus_wire_t *wire, const servo_body_t *body);
+void bus_wire_pins(bus_wire_t *wire, uint8_t before, uint8_t after); /* port E outputs that are driven high */
 
 #endif

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT
  * panel.h - LEDs, buttons, charger, battery; and every write to a port, since other parts hang on pins too. */
-#ifndef SIM_PARTS_PANEL_H
-#define SIM_PARTS_PANEL_H
+#ifndef SIM_PANEL_H
+#define SIM_PANEL_H
 
-#include <simavr/sim_avr.h>
-
-#include "board_ports.h"
-#include "m128.h"
+#include "bus_wire.h"
 
 typedef struct {
+    machine_t *machine;
+    bus_wire_t *wire;
+    board_kind_t kind;
     uint8_t pressed; /* bit n: button_t n */
     uint64_t bounce;                      /* how long a contact bounces; until when each does */
     uint64_t bounces_until[BUTTON_COUNT];
@@ -18,8 +18,10 @@ typedef struct {
     double battery_v, thermistor_v;
 } panel_t;
 
-void panel_init(board_t *board);
-void panel_reset(board_t *board);
-void panel_event(board_t *board, uint64_t now); /* the charger's grace time is over */
+void panel_init(panel_t *panel, machine_t *machine, bus_wire_t *wire, board_kind_t kind);
+void panel_reset(panel_t *panel);
+void panel_press(panel_t *panel, button_t button, bool down); /* none but MODE, which is the reset pin */
+void panel_battery(panel_t *panel, double volts);
+void panel_thermistor(panel_t *panel, double volts);
 
 #endif

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
  * uart.h - USART0 and USART1. */
-#ifndef SIM_PARTS_UART_H
-#define SIM_PARTS_UART_H
+#ifndef SIM_UART_H
+#define SIM_UART_H
 
 #include "board_ports.h"
+#include "machine.h"
 
-struct uart;
-typedef struct uart {
-    board_t *board;
+typedef struct {
+    machine_t *machine;
     uint8_t index, a, b, c;
     uint16_t ubrr;
     bool shifting, waiting;      /* transmitter: shift register, UDR */
@@ -20,18 +20,15 @@ typedef struct uart {
     uint64_t freed_at;           /* when the receive shift register became free */
     uint64_t enabled_at;         /* RXEN set */
     uart_counts_t counts;
-    /* The outside: a character begins to leave; one has left, stop bit included. */
-    void (*begin)(struct uart *uart, uint64_t now);
-    void (*sent)(struct uart *uart, uint64_t now, uint8_t byte, uint32_t rate_bps);
+    /* What hangs on it: a character begins to leave (NULL: nobody asks); one has left, stop bit included. */
+    void (*begin)(void *line, uint8_t byte);
+    void (*sent)(void *line, uint64_t now, uint8_t byte, uint32_t rate_bps);
+    void *line;
 } uart_t;
 
-void uart_init(board_t *board, int index);
+void uart_init(uart_t *uart, machine_t *machine, int index);
 void uart_reset(uart_t *uart);
-void uart_event(uart_t *uart, uint64_t now);
 bool uart_is_sending(const uart_t *uart);
-
-/* For board_interrupt(): `byte` has just come in whole; or the character being sent, if any, has left. */
-void uart_raise(uart_t *uart, bool received, uint8_t byte);
 
 /* A character has passed at rate_bps, started at start; bad: the wire was not clean. */
 void uart_receive(uart_t *uart, uint64_t start, uint8_t byte, uint32_t rate_bps, bool bad);

@@ -313,6 +313,10 @@ class Board(Inside, Wear):
         """The longest time from a last stop bit of ours to listening again, since the start or a call with forget."""
         return int(self._lib.board_bus_turn(self._pointer, forget)) / 16
 
+    def bus_pause_us(self, forget: bool = False) -> float:
+        """The longest pause between two characters of a packet of the board's."""
+        return int(self._lib.board_bus_pause(self._pointer, forget)) / 16
+
     @property
     def packets(self) -> list[tuple[int, bytes]]:
         """[(cycle, bytes)] of every good instruction packet since the start or clear_trace()."""

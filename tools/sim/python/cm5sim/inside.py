@@ -105,10 +105,3 @@ class Inside:
     def step(self) -> int:
         """Runs one instruction or interrupt response and returns its cycles."""
         return int(self._lib.board_step(self._pointer))
-
-    def vcd(self, path: str | pathlib.Path) -> None:
-        if not self._lib.board_vcd_start(self._pointer, str(path).encode()):
-            raise OSError(self._lib.board_error(self._pointer).decode())
-
-    def stop_vcd(self) -> None:
-        self._lib.board_vcd_stop(self._pointer)

@@ -100,6 +100,7 @@ _FUNCTIONS: dict[str, tuple[Any, ...]] = {  # name: result, arguments...
     "board_body": (None, P, ctypes.POINTER(ServoBody)),
     "servo_mujoco_body": (ServoBody, P),
     "board_bus_turn": (U64, P, B),
+    "board_bus_pause": (U64, P, B),
     "board_uart_counts": (None, P, I, ctypes.POINTER(UartCounts)),
     "board_press": (None, P, I, B),
     "board_set_bounce": (None, P, U64),
@@ -145,8 +146,6 @@ _FUNCTIONS: dict[str, tuple[Any, ...]] = {  # name: result, arguments...
     "board_skip_waits": (None, P, B),
     "board_step": (U32, P),
     "board_gdb": (B, P, I, B),
-    "board_vcd_start": (B, P, S),
-    "board_vcd_stop": (None, P),
 }
 
 

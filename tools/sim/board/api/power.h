@@ -1,0 +1,10 @@
+/* SPDX-License-Identifier: MIT
+ * power.h - the supply, and cuts of it. */
+#ifndef SIM_POWER_H
+#define SIM_POWER_H
+
+#include "board.h"
+
+void power_init(board_t *board);
+
+#endif

@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: MIT
+ * gdb.h - simavr's GDB server, reachable from this computer only. */
+#ifndef SIM_GDB_H
+#define SIM_GDB_H
+
+#include <simavr/sim_avr.h>
+#include <stdbool.h>
+
+/* On 127.0.0.1:port; the next run waits for it if wait is true. false: the port cannot be opened. */
+bool gdb_start(avr_t *avr, int port, bool wait);
+
+#endif
