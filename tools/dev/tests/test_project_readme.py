@@ -48,7 +48,6 @@ def entries(folder):
         "body/try",
         "body/picture",
         "dev/size_report",
-        "dev/bench_edit",
         "dev/pack_texts",
         "dev/app_record",
         "dev/lint",

@@ -5,7 +5,6 @@ class Board."""
 from __future__ import annotations
 
 import ctypes
-import pathlib
 from typing import Any, NamedTuple
 
 # Interrupts of this firmware by what causes them.
