@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT
  * servo_bus.c - time on the bus: bytes pass, servos hear and answer, the body is stepped. */
-#include "servo_bus_parts.h"
+#include "servo_bus.h"
 
 #include <string.h>
 
 #include "servo_motion.h"
 #include "servo_protocol.h"
+#include "servo_wire.h"
 
 #define PROCESS_US 16u /* the least time between a packet and its answer, also with return delay 0 */
 

@@ -85,4 +85,10 @@ void servo_bus_fault(servo_bus_t *bus, uint64_t now_cycles, servo_t *servo, serv
 /* Puts count (up to SERVO_PACKET_MAX) stray bytes on the wire from now on, whoever else talks. */
 void servo_bus_noise(servo_bus_t *bus, uint64_t now_cycles, const uint8_t *bytes, uint8_t count, uint32_t rate_bps);
 
+/* For servo_set.c, in which servos are plugged in and get their supply: sets next_cycles, at the end of whatever changes who
+ * talks, or the body; and takes each servo's shaft as it stands now, in the body or by itself. */
+#define SERVO_TWIN_SKEW_US 3u /* servos with the same ID do not answer in step */
+void servo_bus_update_next(servo_bus_t *bus);
+void servo_bus_look_at_body(servo_bus_t *bus);
+
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * servo_set.c - the servos that are plugged in: their number, their supply, their faults. */
-#include "servo_bus_parts.h"
+#include "servo_bus.h"
 
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * servo_wire.c - the level of the wire: the AND of all talkers, and what a receiver samples of it. */
-#include "servo_bus_parts.h"
+#include "servo_wire.h"
 
 /* Level that one talker puts on the wire. */
 static unsigned level_of(const servo_talk_t *talk, uint64_t at_cycles)

@@ -1,14 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * servo_bus_parts.h - the seams inside the bus: what lies on the wire (servo_wire.c), which servos are plugged in
- * (servo_set.c), time (servo_bus.c). Included by these only. */
-#ifndef SIM_SERVO_BUS_PARTS_H
-#define SIM_SERVO_BUS_PARTS_H
+ * servo_wire.h - what lies on the wire when. For the files of the bus only. */
+#ifndef SIM_SERVO_WIRE_H
+#define SIM_SERVO_WIRE_H
 
 #include "servo_bus.h"
-
-#define SERVO_TWIN_SKEW_US 3u /* servos with the same ID do not answer in step */
-
-/* --- servo_wire.c --------------------------------------------------------------------------------------------------- */
 
 #define SERVO_WIRE_BITS_PER_BYTE 10u /* start, 8 data, stop */
 
@@ -40,13 +35,5 @@ bool servo_wire_is_shared(const servo_bus_t *bus, const servo_talk_t *self, uint
 
 /* What a receiver of the right rate gets from the byte time [start, end). Returns false: no stop bit. */
 bool servo_wire_sample(const servo_bus_t *bus, uint64_t start, uint64_t end, uint8_t *byte);
-
-/* --- servo_bus.c ---------------------------------------------------------------------------------------------------- */
-
-/* Sets next_cycles. Call at the end of whatever changes who talks, or the body. */
-void servo_bus_update_next(servo_bus_t *bus);
-
-/* Each servo's shaft as it stands now, in the body or by itself. */
-void servo_bus_look_at_body(servo_bus_t *bus);
 
 #endif
