@@ -142,6 +142,9 @@ void screen_sync(void)
     }
     if ((turned & SHOWN_HEX) != 0) {
         session_mark_all();
+        for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+            the_session.marks[joint] |= MARK_LABEL;   /* its live position */
+        }
         the_screen.items |= ITEM_GO;
     }
     the_screen.items |= (turned & SHOWN_PAGE0) != 0 ? ITEM_LABELS | ITEM_GO : 0;

@@ -154,13 +154,14 @@ def test_hex_shows_and_takes_hexadecimal_and_dec_ends_it():
         r.line("goto 1 1")
         r.line("hex")
         assert r.cell(1, 1) == "01E0" and r.cell(8, 0) == "55 " and r.xya == ("01", "01", "0042")
+        assert r.text(6, 13, 6) == "(0200)"  # where a joint without torque is
         r.line("set 1f")
         assert r.cell(1, 1) == "001F"
         r.line("set 0x3ff")
         assert r.cell(1, 1) == "03FF"
         assert r.line("set 400").endswith("Position must be 0x0..0x3FF") or "must be" in r.message
         r.line("dec")
-        assert r.cell(1, 1) == "1023" and r.cell(8, 0) == "085"
+        assert r.cell(1, 1) == "1023" and r.cell(8, 0) == "085" and r.text(6, 13, 6) == "(0512)"
 
 
 def test_damaged_pages_are_shown_as_what_they_are():
