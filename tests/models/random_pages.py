@@ -3,7 +3,6 @@
 """Motion areas by chance, over the whole input space of the classic law, to compare players with classic_law.py.
 
     random_pages.py write DIR [--first SEED] [--count N]   each case as SEED.bin, SEED.case and SEED.csv, for a reader in any language
-    random_pages.py measure [--first SEED] [--count N]     how many cases each sentence of the page decides (rules.py)
 
 `case(seed)` gives the same case for the same seed, always. SEED.case holds lines of "word value ...": page, call (0 = called by number), joints
 (mask in hex), position ID POS, code TICK CODE, limit TICKS. SEED.csv holds "call,goals in the order of the IDs" for each call with
@@ -162,20 +161,14 @@ def write(case, folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=("write", "measure"))
-    parser.add_argument("folder", nargs="?", default=".")
+    parser.add_argument("what", choices=("write",))
+    parser.add_argument("folder")
     parser.add_argument("--first", type=int, default=1, metavar="SEED")
     parser.add_argument("--count", type=int, default=100, metavar="N")
     asked = parser.parse_args()
-    seeds = range(asked.first, asked.first + asked.count)
-    if asked.what == "write":
-        pathlib.Path(asked.folder).mkdir(parents=True, exist_ok=True)
-        for seed in seeds:
-            write(case(seed), asked.folder)
-        return
-    from tests.models import rules
-
-    rules.print_measure([case(seed, limit=600) for seed in seeds])
+    pathlib.Path(asked.folder).mkdir(parents=True, exist_ok=True)
+    for seed in range(asked.first, asked.first + asked.count):
+        write(case(seed), asked.folder)
 
 
 if __name__ == "__main__":
