@@ -83,7 +83,7 @@ static uint8_t expect_braking(const uint16_t *before, uint8_t end_events)
 
 static void break_at_every_tick(player_law_t law)
 {
-    for (uint8_t tick = 1; tick < PLAY_TICKS - 10; tick++) {
+    for (uint8_t tick = 1; tick < PLAY_TICKS - 10; tick = (uint8_t)(tick + TEST_STRIDE)) {
         play_to(law, tick);
         if (!player_is_moving(&player)) {
             break;
@@ -134,7 +134,7 @@ static uint16_t pause_and_go_on(player_law_t law, uint8_t tick)
 
 static void test_player_exact_goes_on_after_a_pause_in_the_time_left(void)
 {
-    for (uint8_t tick = 1; tick < 148; tick++) {
+    for (uint8_t tick = 1; tick < 148; tick = (uint8_t)(tick + TEST_STRIDE)) {
         uint16_t made = pause_and_go_on(PLAYER_LAW_EXACT, tick);
         TEST_ASSERT_EQUAL_UINT16(512, player_goal(&player, 0));
         /* 148 ticks, one braking, and at most one ramp more where a step had little time left */
@@ -146,7 +146,7 @@ static void test_player_exact_goes_on_after_a_pause_in_the_time_left(void)
 
 static void test_player_classic_goes_on_after_a_pause_to_its_end(void)
 {
-    for (uint8_t tick = 1; tick < 140; tick++) {
+    for (uint8_t tick = 1; tick < 140; tick = (uint8_t)(tick + TEST_STRIDE)) {
         (void)pause_and_go_on(PLAYER_LAW_CLASSIC, tick);
         TEST_ASSERT_FALSE(player_is_moving(&player));
         TEST_ASSERT_UINT16_WITHIN(4, 512, player_goal(&player, 0));

@@ -193,7 +193,7 @@ static void test_player_move_pause_anywhere_keeps_limit_and_target(void)
     static const uint16_t targets[] = {516, 530, 560, 819, 1000};
     for (uint8_t k = 0; k < sizeof targets / sizeof targets[0]; k++) {
         uint16_t total = 2;
-        for (uint16_t at = 1; at < total; at++) {
+        for (uint16_t at = 1; at < total; at = (uint16_t)(at + TEST_STRIDE)) {
             setUp();
             to[1] = targets[k];
             total = start(180);

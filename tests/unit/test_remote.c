@@ -176,10 +176,10 @@ static void test_remote_quiet_gives_up_an_unfinished_packet(void)
     TEST_ASSERT_EQUAL_UINT16(2, remote.dropped);
 }
 
-/* All 65,536 words, back to back. */
+/* All 65,536 words, back to back; on the chip one in TEST_STRIDE. */
 static void test_remote_every_word_is_heard(void)
 {
-    for (uint32_t word = 0; word < 0x10000; word++) {
+    for (uint32_t word = 0; word < 0x10000; word += TEST_STRIDE) {
         const uint8_t low = (uint8_t)word, high = (uint8_t)(word >> 8);
         const uint8_t bytes[] = {0xFF, 0x55, low, (uint8_t)~low, high, (uint8_t)~high};
         packets = 0;

@@ -153,6 +153,7 @@ endfunction()
 # Host world: a ctest under ASan and UBSan. With TARGET_TOO: the AVR world builds the same file as
 # build/firmware/tests/<test_name>.hex, and the host world runs that on the simulated ATmega128 as ctest target.<name>.
 # INCLUDES: folders of headers that the test itself needs beyond M512_CHECKED_INCLUDES.
+# TEST_STRIDE: a test that begins at every tick takes every one on the PC, every seventh on the chip.
 function(m512_unit_test name)
     cmake_parse_arguments(ARG "TARGET_TOO" "" "SOURCES;INCLUDES" ${ARGN})
     list(TRANSFORM ARG_INCLUDES PREPEND ${CMAKE_SOURCE_DIR}/)
@@ -164,6 +165,7 @@ function(m512_unit_test name)
             m512_image(${name} BOARD cm5 KIND test DIR tests SOURCES ${name}.c ${ARG_SOURCES}
                 ${CMAKE_SOURCE_DIR}/tests/unit/target/target_main.c ${CMAKE_SOURCE_DIR}/hal/avr/trap.c)
             target_include_directories(${name} PRIVATE ${ARG_INCLUDES})
+            target_compile_definitions(${name} PRIVATE TEST_STRIDE=7)
             target_link_libraries(${name} PRIVATE unity)
         endif()
         return()
@@ -171,6 +173,7 @@ function(m512_unit_test name)
     m512_checked(objects ${ARG_SOURCES})
     add_executable(${name} ${name}.c ${objects})
     target_include_directories(${name} PRIVATE ${M512_CHECKED_INCLUDES} ${ARG_INCLUDES})
+    target_compile_definitions(${name} PRIVATE TEST_STRIDE=1)
     target_compile_options(${name} PRIVATE ${M512_WARNINGS} ${M512_SANITIZE})
     target_link_options(${name} PRIVATE ${M512_SANITIZE})
     target_link_libraries(${name} PRIVATE unity)
