@@ -6,8 +6,6 @@ import random
 from fractions import Fraction
 
 import pytest
-from chance import given, settings
-from hypothesis import strategies as st
 
 from m512.errors import FileError, RefusedError
 from m512.files import formats, mtn, scale12
@@ -343,39 +341,12 @@ def test_csv_with_any_line_ends(tmp_path):
 @pytest.mark.parametrize("suffix", [".bin", ".hex", ".mtn", ".m512", ".csv"])
 def test_bad_input_truncated_anywhere(tmp_path, suffix):
     whole = files_of_every_kind(tmp_path)[suffix]
-    cuts = sorted({0, 1, 2, 3, len(whole) - 1} | set(range(0, len(whole), max(1, len(whole) // 60))))
+    cuts = sorted({0, 1, 2, 3, len(whole) - 1} | set(range(0, len(whole), max(1, len(whole) // 20))))
     for cut in cuts:
         try:
             formats.decode(whole[:cut], tmp_path / f"x{suffix}")
         except FileError as error:
             assert str(error)
-
-
-@settings(max_examples=200)
-@given(st.sampled_from([".hex", ".mtn", ".m512", ".csv"]), st.integers(0, 10**6), st.integers(0, 255), st.booleans(), st.booleans())
-def test_bad_input_any_byte_changed(tmp_path, suffix, at, value, insert, repaired):
-    whole = bytearray(files_of_every_kind(tmp_path)[suffix])
-    at %= len(whole)
-    whole[at : at + (0 if insert else 1)] = bytes([value])
-    if suffix == ".mtn" and repaired:
-        whole[-2:] = mtn.file_checksum(bytes(whole[:-2]))
-    try:
-        formats.decode(bytes(whole), tmp_path / f"x{suffix}")
-    except FileError as error:
-        assert str(error)
-
-
-@settings(max_examples=100)
-@given(
-    st.binary(max_size=600),
-    st.sampled_from(["", ":", "type=motion\n", "motion512 1\n", "page,1\n"]),
-    st.sampled_from([".bin", ".hex", ".mtn", ".m512", ".csv", ".xyz"]),
-)
-def test_bad_input_any_bytes(tmp_path, data, start, suffix):
-    try:
-        formats.decode(start.encode() + data, tmp_path / f"x{suffix}")
-    except FileError as error:
-        assert str(error)
 
 
 def test_convert_refuses_what_is_there_and_says_what_it_did(m512, tmp_path):

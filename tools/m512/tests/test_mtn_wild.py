@@ -29,7 +29,7 @@ def pages_of(image):
 @pytest.mark.parametrize("with_commas", [False, True])
 @pytest.mark.parametrize("version", ["1.00", "1.01"])
 def test_every_accident_is_read_and_told(accident, with_commas, version):
-    for seed in range(3):
+    for seed in range(2):
         blocks = blocks_by_chance(random.Random(seed))
         data = made(blocks, version=version, full=not seed)
         data = commas(data) if with_commas else data
@@ -158,8 +158,8 @@ def play(monkeypatch, start, make_page, stop):
     return list(classic_law.ClassicPlay(b"", start, 0b1110, {1: 512, 2: 500, 3: 600}, schedule).ticks(3000))
 
 
-@pytest.mark.parametrize("seed", range(8))
-@pytest.mark.parametrize("repeat", [1, 2, 3])
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("repeat", [1, 3])
 def test_a_long_page_plays_as_one_page_would(monkeypatch, seed, repeat):
     """Sample by sample, also with a stop at any time, over links from and to it."""
     chance, real = random.Random(seed), classic_law.Page
@@ -172,7 +172,7 @@ def test_a_long_page_plays_as_one_page_would(monkeypatch, seed, repeat):
         ]
     blocks[0].repeat = repeat
     image = mtn.read(made(blocks)).to_bytes()
-    for stop in [None] + [chance.randrange(800) for _ in range(6)]:
+    for stop in [None] + [chance.randrange(800) for _ in range(2)]:
         long = play(monkeypatch, 1, lambda _, number: LongPage(blocks[number - 1], number), stop)
         split = play(monkeypatch, 1, lambda _, number: real(image, number), stop)
         assert split == long, (seed, repeat, stop)
@@ -232,7 +232,7 @@ def test_pages_beyond_the_board_are_named_with_the_option_that_keeps_them(m512, 
 # Everything at once
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(12))
 def test_combinations_by_chance(seed):
     chance = random.Random(seed)
     blocks = blocks_by_chance(chance, chance.choice((1, 20, 100)), chance.choice((7, 7, 17)))

@@ -4,31 +4,13 @@
 import random
 
 import pytest
-from chance import given, settings
 from virtual_peer import VirtualLink
 
 from m512.board.block import BlockLoader, frame
 from m512.board.client import Client
 from m512.errors import M512Error
 from m512.files.text import read_text
-from tests.campaigns.noise import TALKS, NoisyLink, pieces, survives
-
-
-@pytest.mark.parametrize("talk", TALKS)
-@settings(max_examples=80)
-@given(data=pieces())
-def test_noise(talk, data):
-    talk(data)
-
-
-def test_noise_answers_of_a_block_with_every_byte_changed():
-    answer = b"\x5a" + frame(1, 160, b"\0\2")[1:]
-    for at in range(len(answer)):
-        for value in random.Random(at).sample(range(256), 20):
-            changed = answer[:at] + bytes([value]) + answer[at + 1 :]
-            if changed != answer:
-                survives(lambda data=changed: BlockLoader(NoisyLink(data), "", 1, 0.002))
-    assert BlockLoader(NoisyLink(answer), "", 1, 0.002).detail == 2
+from tests.campaigns.noise import NoisyLink, survives
 
 
 @pytest.mark.parametrize("times, gets_through", [(1, True), (2, True), (3, False)])
@@ -94,11 +76,11 @@ def test_noise_in_the_list_of_pages_and_in_the_name_of_the_image_is_found(starte
         truth, version, pages = client.list_pages(), client.version, client.pages
         assert list(truth) == [3, 4, 30, 127] and pages == 128
         changes = Changes(play, b"@list ")
-        for at in range(7, 70):
+        for at in chance.sample(range(7, 70), 12):
             changes.start(at, chance.choice([None, 0x20, 0x22, *b"0123456789:!ab"]))
             assert client.list_pages() == truth and changes.done, (SEED, at)
         changes = Changes(play, b"@ver ")
-        for at in range(6, 110, 2):
+        for at in chance.sample(range(6, 110), 8):
             changes.start(at, chance.choice([None, 0x20, *b"=x"]))
             found = Client(link)
             assert found.pages == 128 and found.version["image"].isalpha() and changes.done, (SEED, at, found.version, version)

@@ -83,7 +83,7 @@ def test_player_damaged_page_ends_the_play():
 page_recipe = st.tuples(st.lists(st.integers(0, 1023), min_size=1, max_size=7), st.integers(1, 80), st.integers(0, 60), st.integers(8, 90))
 
 
-@settings(max_examples=120)
+@settings(max_examples=40)
 @given(page_recipe)
 def test_player_exact_never_passes_a_way_point_and_ends_on_target(recipe):
     steps, time, accel, speed = recipe
@@ -98,7 +98,7 @@ def test_player_exact_never_passes_a_way_point_and_ends_on_target(recipe):
     assert abs(len(ticks) - ideal) <= 1 or time * speed < 32
 
 
-@settings(max_examples=60)
+@settings(max_examples=20)
 @given(page_recipe)
 def test_player_exact_mirrors(recipe):
     steps, time, accel, speed = recipe

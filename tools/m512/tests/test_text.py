@@ -288,7 +288,7 @@ def mutated(recipe):
     return page.seal() if sealed else page
 
 
-@settings(max_examples=150)
+@settings(max_examples=40)
 @given(st.lists(mutations(), min_size=1, max_size=5), st.sampled_from([10, 12]))
 def test_text_round_trip_of_damaged_pages(recipes, bits):
     image = Image.empty()
@@ -298,21 +298,12 @@ def test_text_round_trip_of_damaged_pages(recipes, bits):
     round_trip(image)
 
 
-@settings(max_examples=60)
+@settings(max_examples=20)
 @given(st.binary(min_size=512, max_size=512))
 def test_text_round_trip_of_any_bytes(data):
     image = Image.empty()
     image[3] = Page(data)
     round_trip(image)
-
-
-@settings(max_examples=300)
-@given(st.text(alphabet=st.sampled_from('pagestlinkrow 0123456789.:|;~-?@+"#\\\n'), max_size=120))
-def test_text_any_characters_give_an_image_or_a_clear_error(text):
-    try:
-        read_text("motion512 1\npage 1\n" + text)
-    except FileError as problem:
-        assert str(problem)
 
 
 # FORMAT.md tells the truth
