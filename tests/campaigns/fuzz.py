@@ -17,7 +17,7 @@ BYTES = 2_000_000  # with more a whole run no longer ends within the hour; tools
 SAMPLE_BYTES = {"loader": 24_000}
 SAMPLE_BYTES_ELSE = 12_000
 SECONDS = 30  # of libFuzzer a harness
-SAMPLE_RUNS = 1000  # of each harness, beside its corpus; by their number, so that CI runs the same inputs every time
+SAMPLE_RUNS = 200  # of each harness, beside its corpus; by their number, so that CI runs the same inputs every time
 SHRINK_TRIALS = 12
 SHRINKS = 3  # findings of one input that are made smaller
 

@@ -24,7 +24,8 @@ PROMISE = "Whenever the power fails, each motion page, setting and download is o
 SCENES = {scene.name: scene for scene in (*saves.SCENES, *loads.SCENES, *settings.SCENES)}
 LIVES = {life.name: life for life in lives.LIVES}
 LIFE_COUNT = 5
-SAMPLE_STATES = 1  # of each scene
+SAMPLED = ("save", "save-factory", "save-play", "mailbox", "repair", "app-blocks", "motions-load", "words", "taken", "settings", "pairs-save", "life")
+SAMPLE_STATES = 2  # of each of these
 DEEPEST = 3
 SHOWN = 12  # failures that are printed one by one
 
@@ -68,7 +69,6 @@ def play_one(name, part, seed, sample):
         return name, life.play(seed, part), life.board.operations
     if name == lives.Wear.name:
         wear = lives.Wear(seed)
-        wear.saves = 10 * robot.SLOTS if sample else wear.saves
         return name, wear.spread(), wear.saves
     cutter = Cutter(SCENES[name](seed), chooser(SCENES[name], seed, sample, part), seed=seed)
     return name, cutter.play(), cutter.operations
@@ -105,7 +105,7 @@ def run(options):
     options.keep = not only and not one
     if only:
         return repeat(only, options.seed)
-    names = [one] if one else [*SCENES, *LIVES, lives.Wear.name]
+    names = [one] if one else SAMPLED if options.sample else [*SCENES, *LIVES, lives.Wear.name]
     begun, spent = time.monotonic(), 0
     results, operations, wear = collections.defaultdict(list), {}, None
     kept = proof.Kept("power", options.keep and not options.sample)

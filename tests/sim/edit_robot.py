@@ -65,7 +65,9 @@ class Terminal:
         self.stream.feed(bytes(byte for byte in data if byte not in (0x11, 0x13)))
 
     def row(self, row):
-        return self.screen.display[row - 1]
+        """As screen.display has it; that would render all rows."""
+        line = self.screen.buffer[row - 1]
+        return "".join(line[column].data for column in range(self.screen.columns))
 
 
 class Robot:
@@ -81,7 +83,7 @@ class Robot:
         self.board.eeprom[0xFFF] = 0x11  # the loader starts the application
         self.terminal = Terminal(rows)
         self.page_at = None
-        self.settle(ms=1500)
+        self.settle(ms=700)  # its screen stands at 1030
 
     def __enter__(self):
         return self
@@ -97,7 +99,7 @@ class Robot:
         while self.terminal.answers:
             self.board.send(self.terminal.answers.pop(0).encode())
 
-    def settle(self, ms=0, quiet=90, limit=20000):
+    def settle(self, ms=0, quiet=70, limit=20000):
         """Runs at least `ms`, then until the line has been quiet for `quiet` ms."""
         if ms:
             self.board.run(ms=ms)

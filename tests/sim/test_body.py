@@ -16,6 +16,7 @@ from body.trial import try_motion
 from cm5sim import Board
 from cm5sim.library import build_folder
 from m512.files.formats import load as load_motions
+from tests.sim.snapshot import attempt
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 LIBRARY = load_motions(TOP / "tools" / "motions" / "motions.m512")
@@ -23,11 +24,12 @@ NUMBER = {page.title: number for number, page in LIBRARY.items() if number and p
 IMAGE = LIBRARY.to_bytes()
 
 
-def robot_on_its_feet(volts=11.1):
-    """A board with Play and a humanoid that has played `ready` in the hand and been put down."""
+@pytest.fixture(scope="module")
+def on_its_feet():
+    """A board with Play and a humanoid that has played `ready` in the hand and been put down. A test goes on with a copy (snapshot)."""
     physics = Physics(load("humanoid"))
     board = Board(images=["play-cm5.hex"], motions=IMAGE, servos=range(1, 19))
-    board.battery(volts)
+    board.battery(11.1)
     hand = Hand(physics)
     board.attach(physics)
     board.expect("] ", ms=3000)
@@ -42,9 +44,7 @@ def robot_on_its_feet(volts=11.1):
     return board, physics, hand
 
 
-def test_walks_as_without_its_chip():
-    """The player on the ATmega128, commands and wire included, leads the body as far as the same player on this machine."""
-    board, physics, hand = robot_on_its_feet()
+def walk(board, physics, hand):
     start = physics.x_mm
     board.send("play walk\r")
     board.expect("page 20 (walk)", ms=3000)
@@ -56,8 +56,12 @@ def test_walks_as_without_its_chip():
     assert physics.x_mm - start == pytest.approx(expected, rel=0.2) and expected > 80
 
 
-def test_registers_show_what_the_body_does():
-    board, physics, _ = robot_on_its_feet()
+def test_walks_as_without_its_chip(on_its_feet):
+    """The player on the ATmega128, commands and wire included, leads the body as far as the same player on this machine."""
+    attempt(walk, *on_its_feet)
+
+
+def carry_and_go_limp(board, physics, _):
     knee = board.servos[13]
     assert knee.present == pytest.approx(physics.robot.position(13, physics.joint(13)), abs=1)
     assert 1 < abs(knee.present - knee.goal) < 25 and knee.load != 0  # it carries: it droops
@@ -69,14 +73,21 @@ def test_registers_show_what_the_body_does():
     assert physics.z_mm < 270
 
 
-def test_detached_servos_stay_where_they_are_and_turn_by_themselves():
-    board, physics, _ = robot_on_its_feet()
+def test_registers_show_what_the_body_does(on_its_feet):
+    attempt(carry_and_go_limp, *on_its_feet)
+
+
+def detach(board, physics, _):
     present = board.servos.present
     board.attach(None)
     assert all(abs(board.servos.present[servo] - present[servo]) <= 1 for servo in present)
     before = physics.time_s
     board.run(ms=500)
     assert physics.time_s == before and board.servos[13].present == pytest.approx(board.servos[13].goal, abs=2)
+
+
+def test_detached_servos_stay_where_they_are_and_turn_by_themselves(on_its_feet):
+    attempt(detach, *on_its_feet)
 
 
 def cm5sim(*words, script=None, tmp_path=None):
@@ -113,10 +124,9 @@ def test_command_says_what_is_wrong_with_a_body(monkeypatch):
         assert "Traceback" not in run.stderr and "GLFW" not in run.stderr
 
 
-@pytest.mark.parametrize("words", [["--body", "humanoid"], ["--body=humanoid"], ["--bod", "humanoid"]])
-def test_command_takes_the_body_as_any_option_is_written(words):
+def test_command_takes_the_body_as_any_option_is_written():
     """And says of a robot that nobody let stand what to do."""
-    run = cm5sim("play-cm5.hex", "--time", "10ms", "--fast", *words)
+    run = cm5sim("play-cm5.hex", "--time", "10ms", "--fast", "--bod", "humanoid")
     assert run.returncode == 0 and "the hand held it to the end" in run.stderr and "Play `ready`" in run.stderr, run.stderr
 
 

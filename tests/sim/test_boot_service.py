@@ -4,8 +4,8 @@ tests/sim/service, and the page journal with both of them, cut at every operatio
 
 import pytest
 
-from cm5sim import Board, PowerCut
-from tests.sim.boot_board import BOOT_MODE, BOOT_START, JOURNAL_START, factory_section, new_board, noise
+from cm5sim import Board
+from tests.sim.boot_board import BOOT_MODE, BOOT_START, factory_section, new_board, noise
 
 SERVICE = "tests/service.hex"
 OURS, FACTORY, MAILBOX = 1, 2, 3
@@ -116,10 +116,6 @@ def test_time_and_erase_count(board):
     assert board.wear(0xE0) == 1
 
 
-def save(board, page, data, ms=400):
-    return ask(board, b"J" + bytes([page]) + data, 2, ms)[1]
-
-
 def test_journal_save_takes_less_than_60_ms(board):
     board.send(b"J" + bytes([120]) + noise(512))
     board.expect("j")
@@ -129,84 +125,6 @@ def test_journal_save_takes_less_than_60_ms(board):
     print(f"journal: a page saved in {board.now_ms - start:.1f} ms")
     assert board.now_ms - start <= 60
     assert bytes(board.flash[0x1D000:0x1D200]) == noise(512)
-
-
-def cut_board(old):
-    board = service_board()
-    board.flash[0x1D000:0x1D200] = old
-    hello(board)
-    return board
-
-
-def test_power_cut_at_every_operation_of_a_save():
-    """Old page or new page; the loader recovers before anything else; nothing else is touched; the next save works.
-    Recovery is cut too, at each of its operations."""
-    old, new, third = noise(512, 1), noise(512, 2), noise(512, 3)
-    cuts = recoveries = 0
-    for phase in ("before", "during", "after"):
-        for operation in range(1, 99):
-            again = 0
-            while True:
-                board = cut_board(old)
-                before = bytes(board.flash)
-                board.send(b"J" + bytes([120]) + new)
-                board.cut_power(operation, phase, tear=operation * 7 + again)
-                try:
-                    board.run(ms=400)
-                    break
-                except PowerCut:
-                    pass
-                board.power_on()
-                cuts += again == 0
-                was_cut = False
-                if again:
-                    board.cut_power(again, phase, tear=again)
-                    try:
-                        hello(board)
-                        board.cut_power(0)
-                    except PowerCut:
-                        was_cut = True
-                        recoveries += 1
-                        board.power_on()
-                if not again or was_cut:
-                    hello(board)
-                page = bytes(board.flash[0x1D000:0x1D200])
-                assert page in (old, new)
-                after = bytes(board.flash)
-                assert after[:JOURNAL_START] == before[:JOURNAL_START] and after[0xE000:0x1D000] == before[0xE000:0x1D000]
-                assert after[0x1D200:] == before[0x1D200:]
-                assert save(board, 120, third) == OK
-                assert bytes(board.flash[0x1D000:0x1D200]) == third
-                if again and not was_cut:
-                    break
-                again += 1
-            if again == 0:
-                break
-    print(f"service: {cuts} power cuts of a save, {recoveries} of the loader's recovery")
-    assert cuts == 3 * 11
-
-
-def test_power_cut_at_every_operation_of_a_single_write():
-    data, cuts = noise(256, 4), 0
-    for phase in ("before", "during", "after"):
-        for operation in range(1, 9):
-            board = service_board()
-            hello(board)
-            before = bytes(board.flash)
-            board.send(b"W" + at(0xE0) + data)
-            board.cut_power(operation, phase, tear=operation)
-            try:
-                board.run(ms=200)
-                break
-            except PowerCut:
-                cuts += 1
-            board.power_on()
-            assert hello(board)[0] == OURS
-            after = bytes(board.flash)
-            assert after[:0xE000] == before[:0xE000] and after[0xE100:] == before[0xE100:]
-            assert ask(board, b"W" + at(0xE0) + data) == bytes([OK])
-    print(f"service: {cuts} power cuts of a page write")
-    assert cuts == 3 * 2
 
 
 def test_mailbox_of_an_application_on_our_loader(board):
@@ -266,31 +184,3 @@ def test_factory_routine_that_fails_is_reported(factory):
     hello(board)
     board.lock(0xFB)
     assert ask(board, b"W" + at(0x1D0) + noise(256)) == bytes([VERIFY])
-
-
-def test_power_cut_at_every_operation_of_a_save_with_the_factory_loader(factory):
-    """The application recovers at its start: the factory loader does not know our journal."""
-    old, new, third, cuts = noise(512, 1), noise(512, 2), noise(512, 3), 0
-    for phase in ("before", "during", "after"):
-        for operation in range(1, 30):
-            board = factory_board(factory)
-            board.flash[0x1D000:0x1D200] = old
-            hello(board)
-            before = bytes(board.flash)
-            board.send(b"J" + bytes([120]) + new)
-            board.cut_power(operation, phase, tear=operation)
-            try:
-                board.run(ms=400)
-                break
-            except PowerCut:
-                cuts += 1
-            board.power_on()
-            hello(board)
-            after = bytes(board.flash)
-            assert after[0x1D000:0x1D200] in (old, new)
-            assert after[:JOURNAL_START] == before[:JOURNAL_START] and after[0xE000:0x1D000] == before[0xE000:0x1D000]
-            assert after[0x1D200:] == before[0x1D200:]
-            assert save(board, 120, third) == OK
-            assert bytes(board.flash[0x1D000:0x1D200]) == third
-    print(f"factory loader: {cuts} power cuts of a save")
-    assert cuts == 3 * 12

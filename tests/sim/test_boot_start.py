@@ -404,27 +404,3 @@ def test_a_download_drops_a_pending_page():
     board.run(ms=300)
     assert bytes(board.flash[0xE000:0xE200]) == b"\xff" * 512
     assert bytes(board.flash[0xE200:0xE300]) == data
-
-
-def test_mailbox_power_cut_at_every_operation():
-    cuts = 0
-    for phase in ("before", "during", "after"):
-        operation = 1
-        while True:
-            board, data = mailbox_board(5)
-            before = bytes(board.flash)
-            board.power_on()
-            board.cut_power(operation, phase, tear=operation)
-            try:
-                assert run_to_application(board)
-                break
-            except Exception as stop:
-                assert type(stop).__name__ == "PowerCut", stop
-            cuts += 1
-            operation += 1
-            board.power_on()
-            assert run_to_application(board)
-            assert bytes(board.flash[0xEA00:0xEC00]) == data
-            assert bytes(board.flash[:0xEA00]) == before[:0xEA00] and bytes(board.flash[0xEC00:]) == before[0xEC00:]
-    print(f"mailbox: {cuts} power cuts")
-    assert cuts == 3 * 5

@@ -4,9 +4,7 @@ loader is imitated (service/mailbox.c); one that knows no mailbox is the other i
 
 import pytest
 
-from cm5sim import PowerCut
 from tests.sim.edit_robot import MOTION_START, page, robot, seal
-from tests.sim.snapshot import attempt
 
 OLD = page("old", [(40, {1: 480}), (50, {3: 300})])
 OTHER = page("other", [(11, {1: 900})])
@@ -33,23 +31,6 @@ def mailbox_robot(fresh=False, **options):
 def edit(r):
     r.line("goto 1 3")
     r.line("set 700")
-
-
-def confirm(r):
-    """Answers yes, and waits until the robot has restarted and Edit is at rest again."""
-    resets, end = r.board.resets, r.board.now_ms + RESTART_MS
-    r.keys("y")
-    while r.board.resets == resets and r.board.now_ms < end:
-        r.settle(ms=100)
-    r.settle(ms=1500)
-
-
-def restarted(r):
-    """After a power cut or a restart: the terminal is the same, what it shows is new."""
-    r.board.power_on()
-    r.terminal.screen.reset()
-    r.board.take()
-    r.settle(ms=1500)
 
 
 def test_start_and_save_say_that_the_controller_restarts():
@@ -100,73 +81,3 @@ def test_a_loader_that_knows_no_mailbox_is_told_of():
         r.board.reset()
         r.settle(ms=1500)
         assert "SAVE will restart" in r.command
-
-
-def save_cut(r, operation, phase, tear):
-    """The save of a robot that has asked whether it may restart, with the power cut there. The page after the restart and what was cut,
-    or None when it ended before."""
-    others = bytes(r.board.flash[MOTION_START + 1024 :])
-    r.board.cut_power(operation, phase, tear)
-    try:
-        confirm(r)
-        return None
-    except PowerCut:
-        pass
-    restarted(r)
-    assert bytes(r.board.flash[MOTION_START + 1024 :]) == others
-    state = r.flash_page(1)
-    assert state in (bytes(OLD.data), new_bytes()), (operation, phase, tear)
-    assert r.fault == "" and r.text(1, 65, 3) == "old" and r.board.eeprom[STATE] == 0xFF
-    if state == bytes(OLD.data):  # and the next one works
-        edit(r)
-        r.line("save")
-        confirm(r)
-        assert r.flash_page(1) == new_bytes()
-    return state
-
-
-@pytest.fixture(scope="module")
-def about_to_save():
-    """By whether the mailbox is fresh: a robot that waits for the answer; each cut is made to a copy (snapshot)."""
-    with mailbox_robot(False) as used, mailbox_robot(True) as fresh:
-        for r in used, fresh:
-            edit(r)
-            r.line("save")
-        yield {False: used, True: fresh}
-
-
-def count(states, state):
-    states["old" if state == bytes(OLD.data) else "new"] += 1
-
-
-def test_power_cut_at_every_operation_leaves_the_old_or_the_new_page(about_to_save):
-    states, operation = {"old": 0, "new": 0}, 1
-    while True:
-        for phase, tear in (("before", 0), ("during", 3), ("during", 8), ("after", 0)):
-            state = attempt(save_cut, about_to_save[False], operation, phase, tear)
-            if state is None:
-                break
-            count(states, state)
-        if state is None:
-            break
-        operation += 1
-    print(f"power cuts in a save through the mailbox: {sum(states.values())} ({operation - 1} operations), old {states['old']}, new {states['new']}")
-    assert operation - 1 == 9  # two bytes, FF4, four of flash, FF4 by the loader, FF4 by Edit
-    assert states["old"] >= 9 and states["new"] >= 9
-
-
-@pytest.mark.parametrize("operation", [1, 100, 300, 500, 514, 515, 516, 519])
-def test_power_cut_while_a_whole_page_goes_into_a_fresh_mailbox(about_to_save, operation):
-    assert attempt(save_cut, about_to_save[True], operation, "during", 5) is not None
-
-
-@pytest.mark.parametrize("ms", [4300, 4390, 4410, 4430, 4500])
-def test_power_cut_at_any_time(ms):
-    with mailbox_robot(fresh=True) as r:
-        edit(r)
-        r.line("save")
-        r.board.cut_power_at(ms)
-        with pytest.raises(PowerCut):
-            r.keys("y", ms=RESTART_MS)
-        restarted(r)
-        assert r.flash_page(1) in (bytes(OLD.data), new_bytes()) and r.fault == ""

@@ -90,7 +90,7 @@ def test_screen_after_any_edits_is_that_of_a_redraw(rows, seed):
     rng = random.Random(seed)
     with robot(pages=PAGES, rows=rows, servos=(1, 2, 3, 4, 5, 9, 17, 18, 30)) as r:
         done = []
-        for _ in range(40):
+        for _ in range(15):
             for _ in range(rng.randrange(1, 4)):
                 done.append(action(rng))
                 act(r, *done[-1])

@@ -4,12 +4,7 @@ new one, all other pages are untouched, and the next save works."""
 
 import pytest
 
-from cm5sim import PowerCut
-from cm5sim.board import find_image
-from m512.board import memory
-from tests.sim.boot_board import APP_END, factory_section
 from tests.sim.edit_robot import MOTION_START, page, robot, seal
-from tests.sim.snapshot import attempt
 
 OLD = page("old", [(40, {1: 480}), (50, {3: 300})])
 OTHER = page("other", [(11, {1: 900})])
@@ -99,88 +94,6 @@ def test_without_a_boot_loader_the_page_stays_in_ram():
         edit(r)
         assert "No boot loader can write" in r.line("save")
         assert r.unsaved and r.flash_page(1) == bytes(OLD.data) and r.cell(1, 3) == "0700"
-
-
-OURS = {}
-FACTORY = {"images": ("edit-cm5.hex",), "loader": factory_section(), "bootrst": True}
-
-
-def save_cut(r, operation, phase, tear):
-    """The save of an edited page with the power cut there. Returns the page after the restart, or None when the save ended before."""
-    others = bytes(r.board.flash[MOTION_START + 1024 :])
-    r.board.cut_power(operation, phase, tear)
-    try:
-        r.line("save")
-        return None
-    except PowerCut:
-        pass
-    r.board.power_on()
-    r.terminal.screen.reset()
-    r.board.take()
-    r.settle(ms=1500)
-    assert bytes(r.board.flash[MOTION_START + 1024 :]) == others
-    state = r.flash_page(1)
-    assert r.fault == "" and r.text(1, 65, 3) == "old"
-    edit(r)
-    r.line("save")
-    assert r.message.endswith("OK") or r.message.endswith("no change")
-    assert r.flash_page(1) == new_bytes()
-    return state
-
-
-@pytest.mark.parametrize(
-    "name, options, cuts",
-    [
-        ("our loader", OURS, (("before", 0), ("during", 3), ("during", 8), ("after", 0))),
-        ("the factory loader", FACTORY, (("before", 0), ("during", 5))),
-    ],
-)
-def test_power_cut_at_every_operation_leaves_the_old_or_the_new_page(name, options, cuts):
-    states = {"old": 0, "new": 0}
-    operation = 1
-    with robot(pages={1: OLD, 2: OTHER}, **options) as r:
-        edit(r)
-        while True:
-            for phase, tear in cuts:
-                state = attempt(save_cut, r, operation, phase, tear)
-                if state is None:
-                    break
-                assert state in (bytes(OLD.data), new_bytes()), (operation, phase, tear)
-                states["old" if state == bytes(OLD.data) else "new"] += 1
-            if state is None:
-                break
-            operation += 1
-    print(f"power cuts in a save through {name}: {sum(states.values())} ({operation - 1} operations), old {states['old']}, new {states['new']}")
-    assert operation > 5 and states["old"] > 0 and states["new"] > 0
-
-
-def application(name):
-    """An image as the flash below the journal."""
-    flash = bytearray(b"\xff" * APP_END)
-    for number, data in memory.plan(find_image(name)).pages.items():
-        flash[256 * number : 256 * (number + 1)] = data
-    return flash
-
-
-@pytest.mark.parametrize("operation, torn", [(2, False), (7, True), (10, True)])
-def test_play_says_that_a_cut_save_waits_for_edit(operation, torn):
-    with robot(pages={1: OLD, 2: OTHER}, **FACTORY) as r:
-        edit(r)
-        r.board.cut_power(operation, "during", 5)
-        with pytest.raises(PowerCut):
-            r.line("save")
-        assert (r.flash_page(1) not in (bytes(OLD.data), new_bytes())) == torn
-        r.board.flash[0:APP_END] = application("play-cm5.hex")
-        r.board.take()
-        r.board.power_on()
-        assert ("A save was cut off: start Edit once" in r.board.expect("] ", ms=2500)) == torn
-        r.board.power_off()
-        r.board.flash[0:APP_END] = application("edit-cm5.hex")
-        r.board.power_on()
-        r.terminal.screen.reset()
-        r.settle(ms=1500)
-        assert r.flash_page(1) == (new_bytes() if torn else bytes(OLD.data))
-        assert (r.message.strip() == "Saved what was cut off") == torn
 
 
 def test_save_over_page_0_says_that_it_is_the_trim():

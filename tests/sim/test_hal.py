@@ -4,7 +4,7 @@ resets. The bus: test_hal_bus.py. The serial line: test_hal_console.py."""
 
 import pytest
 
-from cm5sim import Board, PowerCut
+from cm5sim import Board
 from m512.crc16 import crc16
 from tests.sim.hal_board import pattern, walker, word, words
 
@@ -14,14 +14,14 @@ TICK = 125_000
 # ---- time ----
 
 
-def test_tick_is_exact_over_a_minute_and_none_is_missed():
+def test_tick_is_exact_over_ten_seconds_and_none_is_missed():
     board = walker(servos=range(1, 19))
     board.run_to("__vector_12", ms=20)
     start, ticks = board.now_cycles, word(board, "walker_ticks")
-    board.run(cycles=7679 * TICK + TICK // 2)
+    board.run(cycles=1279 * TICK + TICK // 2)
     board.run_to("__vector_12", ms=20)
-    assert board.now_cycles - start == 7680 * TICK
-    assert word(board, "walker_ticks") - ticks == 7680
+    assert board.now_cycles - start == 1280 * TICK
+    assert word(board, "walker_ticks") - ticks == 1280
     assert word(board, "walker_missed") == 0
     assert word(board, "walker_late", 1) == 0
 
@@ -115,38 +115,6 @@ def test_settings_are_kept_over_a_power_cycle_and_stay_in_their_area():
     board.expect("start 00000001")
     assert loaded(board) == (0, 1, 77)
     assert all(board.eeprom_wear(address) == 0 for address in range(0x100, 0x1000))
-
-
-def test_power_cut_at_every_eeprom_write_leaves_old_or_new_settings(capsys):
-    cuts, old, new = 0, 0, 0
-    for phase in ("before", "during", "after"):
-        op = 1
-        while True:
-            board = words()
-            board.send("S")
-            board.expect("saved")
-            board.send("S")
-            board.expect("saved")
-            board.cut_power(op=op, phase=phase, tear=op)
-            board.send("s")
-            try:
-                board.expect("saved", ms=2000)
-                break
-            except PowerCut:
-                cuts += 1
-            board.power_on()
-            board.expect("start 00000001")
-            outcome = loaded(board)
-            assert outcome in ((0, 0, 33), (0, 1, 77)), (phase, op, outcome)
-            old += outcome == (0, 0, 33)
-            new += outcome == (0, 1, 77)
-            board.send("s")
-            board.expect("saved", ms=2000)
-            assert loaded(board) == (0, 1, 77)
-            op += 1
-    with capsys.disabled():
-        print(f"\nhal: settings: {cuts} power cuts, {old} old, {new} new, 0 other")
-    assert cuts >= 15 and old and new
 
 
 # ---- resets ----

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The golden traces of the classic law, from the shipped Play image: goals on the servo bus, tick by tick, approach off."""
+"""Golden traces of the classic law, from the shipped Play image: goals on the servo bus, tick by tick, approach off. All of them:
+tests/unit/test_player_golden.c."""
 
 import csv
 
@@ -32,9 +33,9 @@ def played_trace(name, servos):
     return [(tick(frame.cycle) - first, frame.goals) for frame in frames]
 
 
-@pytest.mark.parametrize("path", sorted(GOLDEN.glob("*.csv")), ids=lambda path: path.stem)
-def test_classic_equals_the_original_sample_by_sample(path):
-    played, wanted = played_trace(path.stem, range(1, 13)), wanted_trace(path.stem)
+@pytest.mark.parametrize("name", ["walk_like", "pauses_speed_base"])
+def test_classic_equals_the_original_sample_by_sample(name):
+    played, wanted = played_trace(name, range(1, 13)), wanted_trace(name)
     for one, other in zip(played, wanted):
         assert one == other
     assert len(played) == len(wanted)
