@@ -18,7 +18,7 @@ from tests.campaigns.proof import Figure
 FILES = 10_000
 ANSWERS = 6_000
 COMMANDS = 600
-SAMPLE = 40  # the sample is so many times smaller
+SAMPLE = 100  # the sample is so many times smaller
 TASK = 250
 LIMIT_S = 10.0  # of CPU, one file
 KINDS = (".m512", ".mtn", ".hex", ".csv", ".bin")

@@ -12,10 +12,14 @@ from m512.files.page import EMPTY
 
 
 class NoisyLink(links.Link):
-    """A line on which something else talks: canned bytes, then silence. Time does not pass."""
+    """A line on which something else talks: canned bytes, then silence, in which alone time passes."""
 
     def __init__(self, data):
         self.data, self.held, self.trace, self.url = data, b"", None, "noise"
+        self.silent_s = 0.0
+
+    def now(self):
+        return self.silent_s
 
     def write(self, data, wait=True):
         pass
@@ -26,6 +30,7 @@ class NoisyLink(links.Link):
             return out
         size = min(limit, 7)
         out, self.data = self.data[:size], self.data[size:]
+        self.silent_s += 0 if out else 0.001
         return out
 
     def look_for(self, end, seconds, limit=1 << 20):

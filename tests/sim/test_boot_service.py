@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What the boot section does for applications: the page-write service behind the call table, through the application of
-tests/sim/service, and the page journal with both of them, cut at every operation."""
+tests/sim/service, and the page journal with both of them. Power cuts: tools/prove power."""
 
 import pytest
 

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""SAVE: questions, time, and the power cut at every flash operation and inside it. Afterwards the page is the old or the
-new one, all other pages are untouched, and the next save works."""
+"""SAVE: questions and time. Power cuts: tools/prove power."""
 
 import pytest
 

@@ -96,6 +96,7 @@ class PausingLink(NoisyLink):
     def _receive(self, limit, seconds):
         if not self.data:
             self.data = self.pieces.pop(0) if self.pieces else b""
+            self.silent_s += 0.001
             return b""
         return super()._receive(limit, seconds)
 
@@ -125,7 +126,7 @@ GOOD = b"\x1e@where state=playing page=2 step=1 repetition=2 code=0 dv=96 missed
 def test_where_the_robot_is_is_asked_again_when_its_answer_is_damaged(was, becomes):
     """Seen: a traceback of m512 play --wait while the robot went on."""
     client = Client.__new__(Client)
-    client.version, client.slack = {}, 0.0
+    client.version, client.slack, client.heard = {}, 0.0, b""
     bad = GOOD.replace(was, becomes)
     assert bad != GOOD
     client.link = NoisyLink(bad + GOOD)
