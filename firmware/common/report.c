@@ -64,8 +64,10 @@ void report_failed_assert(void)
     uint16_t line;
     uint32_t address;
     if (system_take_failed_assert(&line, &address)) {
-        text_P_number(TEXT_P("Failed at line "), line);
-        TEXT(": report it. ");
+        text_P_number(TEXT_P("Failed: line "), line);
+        TEXT(", 0x");
+        text_hex((uint16_t)address, 4);   /* an application ends below 0xC000 */
+        TEXT(". Report it. ");
     }
 }
 

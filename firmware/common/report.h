@@ -18,7 +18,8 @@ void report_bad_page(uint8_t page, uint8_t fault);
 /* Why a play did not start: report_bad_page, "Busy: stop what is playing first". Prints nothing for PERFORMER_OK. */
 void report_refusal(performer_status_t status, uint8_t page, uint8_t fault);
 
-/* "Failed at line 47: report it. " once after a failed ASSERT (trap.h) has restarted the program; else nothing. */
+/* "Failed: line 47, 0x2468. Report it. " once after a failed ASSERT (trap.h) has restarted the program; else nothing.
+ * The second number is the byte address it was called from, for avr-addr2line. */
 void report_failed_assert(void);
 
 /* The version in an image's record: "1.0.0". */

@@ -83,7 +83,7 @@ static uint8_t do_where(const shell_args_t *args)
 static uint8_t do_watch(const shell_args_t *args)
 {
     const uint16_t ticks = (uint16_t)((uint32_t)args->number[0] * TICK_HZ / 1000u);
-    watch.every_ticks = ticks != 0 && ticks < WATCH_TICKS_MIN ? WATCH_TICKS_MIN : ticks;
+    watch.every_ticks = args->number[0] != 0 && ticks < WATCH_TICKS_MIN ? WATCH_TICKS_MIN : ticks;
     watch.last_tick = tick_now16();
     watch.on_channel = channel_is_printing();
     return REQUEST_OK;

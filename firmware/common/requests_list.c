@@ -37,23 +37,27 @@ static void print_list_entry(uint8_t page)
     text_put('"');
 }
 
-/* The last page of a request that names none (then all) or a first and a last one. false: an error has been printed. */
-static bool take_pages(const shell_args_t *args, uint8_t *last)
+/* The last page of a request that names none (then all) or a first and a last one. */
+static uint8_t take_pages(const shell_args_t *args, uint8_t *last)
 {
     *last = args->count > 1 ? (uint8_t)args->number[1] : PAGE_COUNT - 1u;
-    if (args->count == 2 || *last < args->number[0]) {
+    if (args->count == 2) {
+        return SHELL_ERR_COUNT;
+    }
+    if (*last < args->number[0]) {
         (void)requests_error(REQUEST_ERR_RANGE);
         shell_print_range(TEXT_P("Page"), (int16_t)args->number[0], PAGE_COUNT - 1, false);
-        return false;
+        return SHELL_ERR_REPORTED;
     }
-    return true;
+    return REQUEST_OK;
 }
 
 uint8_t request_list(const shell_args_t *args)
 {
     uint8_t last;
-    if (!take_pages(args, &last)) {
-        return SHELL_ERR_REPORTED;
+    const uint8_t status = take_pages(args, &last);
+    if (status != REQUEST_OK) {
+        return status;
     }
     for (uint16_t page = args->number[0]; page <= last; page++) {
         print_list_entry((uint8_t)page);
@@ -131,8 +135,9 @@ uint8_t request_dense(const shell_args_t *args)
 uint8_t request_crcs(const shell_args_t *args)
 {
     uint8_t last;
-    if (!take_pages(args, &last)) {
-        return SHELL_ERR_REPORTED;
+    const uint8_t status = take_pages(args, &last);
+    if (status != REQUEST_OK) {
+        return status;
     }
     text_put(' ');
     for (uint16_t page = args->number[0]; page <= last; page++) {

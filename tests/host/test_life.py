@@ -78,6 +78,16 @@ def test_a_second_program_is_refused_port_and_folder(make, files, tmp_path):
     assert " OK" in robot.ask("status")
 
 
+def test_a_file_is_not_replaced_by_a_link_to_the_console(make, files):
+    robot = make(motions=files)
+    mine = files.read_bytes()
+    asked = subprocess.run(
+        [program("play"), "--robot", robot.folder / "robot", f"--pty={files}", robot.port], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=30
+    )
+    assert asked.returncode == 6 and f"{files}: File exists" in asked.stderr
+    assert files.read_bytes() == mine
+
+
 def without_privilege(*command):
     """A superuser's program may open a port that is somebody's alone, so it runs without that privilege."""
     return (["setpriv", "--bounding-set=-sys_admin"] if os.geteuid() == 0 else []) + [str(word) for word in command]

@@ -268,6 +268,13 @@ def test_a_watch_goes_to_the_program_and_stays_while_a_person_types(side):
     assert answers_to(side, b"", 300)[0] == []
 
 
+@pytest.mark.parametrize("side", [EditSide, PlaySide])
+def test_a_watch_that_asks_for_more_than_50_ms_allow_gets_that(side):
+    side = side()
+    assert answers_to(side, request("@watch 1"), 20)[0] == ["@watch OK"]
+    assert 18 <= len(answers_to(side, b"", 1000)[0]) <= 22
+
+
 def test_a_list_that_is_printed_keeps_no_program_waiting():
     side = EditSide()
     side.board.send(b"list\r")

@@ -29,5 +29,5 @@ def restarted(image, marker):
 @pytest.mark.parametrize("image, marker", [("play", "] "), ("edit", "HELP explains"), ("monitor", "[CID:001")])
 def test_the_next_start_says_where_it_failed(image, marker):
     first, second = restarted(image, marker)
-    assert "Failed at line 321: report it. " in first
+    assert "Failed: line 321, 0x2468. Report it. " in first
     assert "Failed" not in second

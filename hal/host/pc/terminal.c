@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -67,7 +68,10 @@ static void open_pty(void)
     tcsetattr(console.pty_other, TCSANOW, &raw);
     console.in = console.out = master;
     if (pc_options.pty_link[0] != '\0') {
-        (void)unlink(pc_options.pty_link);
+        struct stat there;
+        if (lstat(pc_options.pty_link, &there) == 0 && S_ISLNK(there.st_mode)) {
+            (void)unlink(pc_options.pty_link);   /* an earlier run's; a file there is somebody's */
+        }
         if (symlink(path, pc_options.pty_link) != 0) {
             pc_fail(EXIT_PORT, "%s: %s", pc_options.pty_link, strerror(errno));
         }
