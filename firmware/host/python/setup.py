@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Takes the programs from the build tree (environment M512_BUILD, else build/ at the top)."""
+"""Takes the programs from the build tree (environment M512_BUILD, else build/ at the top). They may be another computer's, with STRIP for it."""
 import os
 import pathlib
 import re
@@ -25,14 +25,18 @@ class BuildWithPrograms(build_py):
             target = pathlib.Path(self.build_lib) / "motion512" / source.name
             shutil.copyfile(source, target)
             target.chmod(0o755)
-            subprocess.run(["strip", target], check=True)
+            subprocess.run([os.environ.get("STRIP", "strip"), target], check=True)
 
 
-class ForThisKindOfComputer(bdist_wheel):
-    """Any Python 3, this operating system and processor."""
+class ForTheProgramsComputer(bdist_wheel):
+    """Any Python 3; the processor and the C library that the programs themselves ask for."""
 
     def get_tag(self):
-        return ("py3", "none", super().get_tag()[2])
+        programs = [(BUILD / image / f"motion512-{image}").read_bytes() for image in ("play", "edit")]
+        machine = {62: "x86_64", 183: "aarch64"}.get(int.from_bytes(programs[0][18:20], "little"))  # e_machine of ELF
+        minors = [int(minor) for program in programs for minor in re.findall(rb"GLIBC_2\.(\d+)", program)]
+        known = machine and minors
+        return ("py3", "none", f"manylinux_2_{max(minors)}_{machine}" if known else super().get_tag()[2])
 
 
 class WithPrograms(Distribution):
@@ -41,4 +45,4 @@ class WithPrograms(Distribution):
 
 
 setup(version=re.search(r"project\(motion512 VERSION ([\d.]+)", (TOP / "CMakeLists.txt").read_text(encoding="utf-8"))[1],
-      distclass=WithPrograms, cmdclass={"build_py": BuildWithPrograms, "bdist_wheel": ForThisKindOfComputer})
+      distclass=WithPrograms, cmdclass={"build_py": BuildWithPrograms, "bdist_wheel": ForTheProgramsComputer})
