@@ -165,45 +165,6 @@ def test_an_interrupted_installation_begins_anew(tree, wheels):
     assert imported(tree) == "1.0"
 
 
-BACKEND = """
-import zipfile
-def _wheel(folder):
-    name = "ours-1-py3-none-any.whl"
-    with zipfile.ZipFile(f"{folder}/{name}", "w") as wheel:
-        wheel.writestr("ours.pth", __file__.rpartition("/")[0])
-        wheel.writestr("ours-1.dist-info/METADATA", "Metadata-Version: 2.1\\nName: ours\\nVersion: 1\\n")
-        wheel.writestr("ours-1.dist-info/WHEEL", "Wheel-Version: 1.0\\nRoot-Is-Purelib: true\\nTag: py3-none-any\\n")
-        wheel.writestr("ours-1.dist-info/RECORD", "")
-    return name
-def build_wheel(folder, config=None, metadata=None): return _wheel(folder)
-def build_editable(folder, config=None, metadata=None): return _wheel(folder)
-"""
-
-
-def test_a_package_of_the_tree_is_used_where_it_lies(tree, wheels):
-    """And installed again when what it asks for has changed. setuptools is there already, or comes as any package."""
-    with zipfile.ZipFile(wheels / "setuptools-99-py3-none-any.whl", "w") as wheel:
-        for name, text in (
-            ("METADATA", "Metadata-Version: 2.1\nName: setuptools\nVersion: 99\n"),
-            ("RECORD", ""),
-            ("WHEEL", "Wheel-Version: 1.0\nRoot-Is-Purelib: true\nTag: py3-none-any\n"),
-        ):
-            wheel.writestr(f"setuptools-99.dist-info/{name}", text)
-    ours = tree / "ours"
-    ours.mkdir()
-    (ours / "backend.py").write_text(BACKEND)
-    (ours / "ours.py").write_text("")
-    (ours / "pyproject.toml").write_text('[build-system]\nrequires = []\nbuild-backend = "backend"\nbackend-path = ["."]\n')
-    (tree / "tools/dev/needs/job.pip").write_text("-e ./ours\n")
-    assert python(tree, wheels).returncode == 0
-    said = subprocess.run([tree / "build/venv/bin/python", "-c", "import ours; print(ours.__file__)"], capture_output=True, text=True, check=True)
-    assert said.stdout.strip() == str(ours.resolve() / "ours.py")
-    assert python(tree, wheels).stdout == ""
-    with open(ours / "pyproject.toml", "a") as file:
-        file.write("# another\n")
-    assert "Python packages of 'job'" in python(tree, wheels).stdout
-
-
 def test_another_trees_python_is_not_used(tree, wheels, tmp_path):
     """In it the packages of that tree are installed."""
     assert python(tree, wheels).returncode == 0
