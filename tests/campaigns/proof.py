@@ -33,7 +33,7 @@ DETAILS = TOP / "tests" / "proofs"
 
 
 IMAGES = ("firmware", "hal", "linker", "motion")
-MOTIONS = ("motion", "tools/body/src", "tools/body/humanoid.xml", "tools/motions", "tools/sim/servo")
+MOTIONS = ("tools/body/src", "tools/body/humanoid.xml", "tools/motions", "tools/sim/servo")
 JUDGED = {  # the code of which a part's figures speak
     "power": IMAGES,
     "fuzz": (*IMAGES, "tools/m512/src"),
@@ -45,6 +45,8 @@ JUDGED = {  # the code of which a part's figures speak
     "shape": (*IMAGES, *MOTIONS),
     "sessions": IMAGES,
 }
+BY_GOALS = ("physics",)  # parts that judge the player by the goals that it makes (goals_of_motions), not by its source
+STOP, STOP_TICK, TICKS = 255, 1200, 4000
 CODE = (".c", ".h", ".in", ".py", ".m512", ".xml", ".json")
 
 
@@ -77,9 +79,31 @@ def git_files(*places):
     return [TOP / name for name in sorted(listed.split("\0")) if name and (TOP / name).exists()]
 
 
+def goals_of_motions():
+    """A digest of the goals of our motion library: each page, played once by the exact law from its first pose, with a stop on the way, so
+    that exit pages are played too. The C player must be built (host:played)."""
+    from m512.files.formats import load  # here, because no other part needs the C player
+    from tests.models.played import ENDED, EXACT, JOINTS, Played
+
+    image, found = load(TOP / "tools" / "motions" / "motions.m512"), hashlib.sha256()
+    for number, page in image.items():
+        if not number or not page.is_playable:
+            continue
+        words = {joint: page.word(0, joint) for joint in range(JOINTS)}
+        play = Played(image.to_bytes(), number, EXACT, positions={joint: word for joint, word in words.items() if word < 1024})
+        for tick in range(TICKS):
+            if tick == STOP_TICK:
+                play.code(STOP)
+            has_ended = play.tick() & ENDED
+            found.update(f"{number} {tick} {play.goals()}".encode())
+            if has_ended:
+                break
+    return found.hexdigest()
+
+
 def code(part):
-    """Ten digits that change when the code changes that this part judges; not with a comment or a blank in C."""
-    found = hashlib.sha256()
+    """Ten digits that change when what this part judges changes: its code, but no comment or blank in C, or the goals of our motions."""
+    found = hashlib.sha256((goals_of_motions() if part in BY_GOALS else "").encode())
     for path in git_files(*JUDGED.get(part, ())):
         if path.suffix not in CODE or "tests" in path.relative_to(TOP).parts:
             continue

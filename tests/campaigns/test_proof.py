@@ -8,6 +8,7 @@ import re
 import pytest
 
 from tests.campaigns import proof
+from tests.models.played import Played
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 
@@ -85,6 +86,20 @@ def test_code_changes_with_what_is_compiled_only(tmp_path, monkeypatch):
         (tmp_path / "motion.c").write_text(text)
         said.append(proof.code("power"))
     assert said[0] == said[1] != said[2]
+
+
+def test_physics_is_older_when_one_goal_of_our_motions_is_another(monkeypatch):
+    assert proof.is_current("physics") == (not proof.row_of("physics").endswith("older than the code |"))
+    before, goals_of_player = proof.code("physics"), Played.goals
+    made = []
+
+    def goals():
+        made.append(goals_of_player())
+        return [made[-1][0] ^ (len(made) % 20000 == 0), *made[-1][1:]]
+
+    monkeypatch.setattr(Played, "goals", staticmethod(goals))
+    assert proof.code("physics") != before and len(made) > 20000
+    assert proof.row_of("physics").endswith("older than the code |")
 
 
 ODD = [proof.Figure("a | b\nc", "`x | y`: how", "1; 2 |", True), proof.Figure("| d", "by\nhand |", "3 \\", False)]
