@@ -33,17 +33,6 @@ ALWAYS_INLINE int16_t ramp_distance(int16_t speed, ramp_share_t share)
     return (int16_t)((mul_u16_high(fifths, 52429u) >> 2) - share.bias);
 }
 
-/* int16((speed * ramp * 12 / 5) >> 8), the distance of a FALL to a stop. For speed >= 0 that is 3 speed ramp / 320, else
- * -((3 |speed| ramp + 318) / 320). 320 is 64 * 5, and / 64 is * 4 with a byte dropped. */
-static inline int16_t fall_distance(int16_t speed, uint8_t ramp)
-{
-    uint32_t product = mul_u16_u16(fix_size(speed), (uint16_t)(12u * ramp));
-    if (speed < 0) {
-        product += 4 * 318;
-    }
-    return with_sign(mul_u16_high((uint16_t)(product >> 8), 52429u) >> 2, speed < 0);
-}
-
 /* c / num, 0 < c <= num <= 32767, for all joints of a tick. */
 typedef struct {
     uint16_t c, num, share_q0_16;

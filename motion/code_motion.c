@@ -2,10 +2,8 @@
 #include "code_motion.h"
 
 #include <stddef.h>
-#include "fix.h"
+#include "mul.h"
 #include "page.h"
-
-/* --- slots -------------------------------------------------------------------------------------------------------- */
 
 void code_motion_init(code_motion_t *code)
 {
@@ -46,8 +44,6 @@ void code_motion_free(code_motion_t *code, uint32_t joints)
     }
     code->joints &= ~joints;
 }
-
-/* --- swing -------------------------------------------------------------------------------------------------------- */
 
 bool code_motion_can_swing(uint16_t centre, uint16_t amplitude, uint16_t period_ticks)
 {

@@ -56,39 +56,20 @@ static inline uint32_t fix_share(uint32_t value, uint16_t share_q0_16)
     return mul_u32_u16_shift16(value, share_q0_16);
 }
 
-/* part / whole as q0.16, 0 <= part <= whole, whole not 0; 1 becomes 65535. The plain expression is (part << 16) / whole; by
- * hand, because 16 bits are enough: 350 cycles less than the library's division. */
+/* part / whole as q0.16, 0 <= part <= whole, whole not 0; 1 becomes 65535. One 32-bit division. */
 uint16_t fix_ratio(uint16_t part, uint16_t whole);
 ONE_COPY NOINLINE uint16_t fix_ratio(uint16_t part, uint16_t whole)
 {
-    if (part >= whole) {
-        return UINT16_MAX;
-    }
-    uint16_t quotient = 0;
-    for (uint8_t left = 16; left != 0; left--) {
-        const bool has_17_bits = part > INT16_MAX;
-        part = (uint16_t)(part << 1);
-        quotient = (uint16_t)(quotient << 1);
-        if (has_17_bits || part >= whole) {
-            part = (uint16_t)(part - whole);
-            quotient++;
-        }
-    }
-    return quotient;
+    return (uint16_t)(part >= whole ? UINT16_MAX : ((uint32_t)part << 16) / whole);
 }
 
 /* The reciprocal of a ramp of 1..255 ticks, for fix_by_ramp: 2^16 / ticks below 16 ticks, 2^20 / ticks from there on, so
- * that at least 12 bits are significant. Too small by at most 2^-12 of its value. Two 16-bit divisions. */
+ * that at least 12 bits are significant. Too small by at most 2^-12 of its value. One 32-bit division. */
 #define FIX_LONG_RAMP 16u
 uint16_t fix_ramp_recip(uint8_t ticks);
 ONE_COPY NOINLINE uint16_t fix_ramp_recip(uint8_t ticks)
 {
-    uint16_t quotient = (uint16_t)(UINT16_MAX / ticks);
-    if (ticks < FIX_LONG_RAMP) {
-        return quotient;
-    }
-    uint16_t remainder = (uint16_t)(UINT16_MAX - quotient * ticks);
-    return (uint16_t)(quotient * 16u + (remainder * 16u) / ticks);
+    return (uint16_t)(ticks < FIX_LONG_RAMP ? UINT16_MAX / ticks : (uint16_t)(16ul * UINT16_MAX / ticks));
 }
 
 /* speed / ticks. Exact for 1 and 2 ticks; else never too large, with an error below 2^-12 of it plus 2^-16. */
@@ -104,6 +85,11 @@ static inline uint32_t fix_by_ramp(uint32_t speed, uint16_t ramp_recip, uint8_t 
 static inline uint16_t fix_size(int16_t value)
 {
     return (uint16_t)(value < 0 ? -value : value);
+}
+
+static inline uint16_t fix_distance(uint16_t from_pos, uint16_t to_pos)
+{
+    return to_pos > from_pos ? (uint16_t)(to_pos - from_pos) : (uint16_t)(from_pos - to_pos);
 }
 
 #endif

@@ -1,17 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * law.h - what the player's files know of each other:
- *
- *   player.c            states, ticks, break and pause
- *     sequence.c        which page and step follows; reads it
- *     law_exact.c       plans and moves the joints of a step: the law that robots run; slows joints down
- *     law_classic.c     the same by the law of the original. Programs without it link law_classic_none.c
- *
- * Each uses only files below it, and the laws do not know each other. */
+ * law.h - the two laws of motion, for player.c: they plan and move the joints of a step. A program without the classic law
+ * links law_classic_none.c in place of law_classic.c. */
 #ifndef LAW_H
 #define LAW_H
 
 #include "fix.h"
-#include "player.h"
+#include "player_state.h"
 
 /* Loops over the joints of a mask: i_ is the index, joint_ points to the joint.
  * NOLINTBEGIN(bugprone-macro-parentheses): the name of a declaration takes no parentheses */
@@ -27,61 +21,37 @@
     for (player_joint_t *joint_ = (player)->joint; joint_ != &(player)->joint[PAGE_JOINTS]; joint_++)
 /* NOLINTEND(bugprone-macro-parentheses) */
 
-/* --- sequence.c --------------------------------------------------------------------------------------------------- */
-
-/* Finds the page that plays first; `next` is its first step. false: there is none; only .fault and .fault_page have
- * changed. */
-bool sequence_start(player_t *player, link_t *link, uint8_t page);
-
-/* `next` becomes `now`; the step after it becomes `next`. At the last step of a page this decides the link. Returns
- * PLAYER_EV_ bits. Call it only if next.page is not 0. */
-uint8_t sequence_advance(player_t *player, link_t *link);
-
-/* Reads the positions of `next` into next_pos and next_joints, and shapes them. A joint that it does not use stays on its
- * target. */
-void sequence_look(player_t *player);
-
-/* The same with the first step of the page that the link names. Only the classic law looks at it, and only if the play
- * passes over that page or ends there (sequence_looks_elsewhere). */
-bool sequence_looks_elsewhere(const player_t *player);
-void sequence_look_at_named(player_t *player);
-
-/* --- the laws ----------------------------------------------------------------------------------------------------- */
-
-/* measure_next : sets length and pause of `next`, after sequence_look
- * plan         : plans `now` for all joints, from where they are to target_pos; the coming tick is its first
- * plan_tick    : begins the section of the step that the coming tick is the first of, if any
- * is_over      : all ticks of the step and of its pause are done
- * tick         : moves all joints by one tick; PLAYER_EV_OUTPUT if that made goals */
-void exact_stand(player_joint_t *joint, uint16_t pos);
-void exact_measure_next(player_t *player);
+/* start         : all joints rest on target_pos, and no step plays
+ * plan          : plans `now` for all joints, from where they are to target_pos; the coming tick is its first
+ * begin_section : if the coming tick is the first of a section of the step (cruise, fall, hold), plans that section
+ * is_over       : all ticks of the step and of its pause are done
+ * tick          : moves all joints by one tick; PLAYER_EV_OUTPUT if that made goals
+ * leave_step    : a break or a pause interrupts the step: sets left_ticks, and position and speed in the exact fields */
+void exact_start(player_t *player);
+void exact_measure_next(player_t *player);     /* after sequence_read_next: sets length and pause of `next` */
 void exact_plan(player_t *player);
-void exact_plan_tick(player_t *player);
+void exact_begin_section(player_t *player);
 bool exact_is_over(const player_t *player);
 uint8_t exact_tick(player_t *player);
+void exact_leave_step(player_t *player);
 
-/* Slowing down, from position and speed in the joints' exact fields. brake_tick returns false with the last tick. */
-void exact_stop_steps(player_t *player);      /* a step of the exact law ends here */
+/* For both laws.
+ * brake         : plans the slowing down, after leave_step
+ * brake_tick    : moves all joints by one tick of it; false: that was the last one
+ * resume        : plans what is left of the step, in left_ticks, but no fewer than slowing down took; false: nothing is */
 void exact_brake(player_t *player);
 bool exact_brake_tick(player_t *player);
+bool exact_resume(player_t *player);
 
-/* From a stop to target_pos: plans the rest of an interrupted step, which takes the ticks it still had, but no fewer than
- * slowing down took. false: nothing of it was left. */
-bool exact_plan_rest(player_t *player);
-
-/* used: joints that `now` uses. */
-bool classic_is_there(void);                  /* whether this program has the law */
-void classic_stand(player_joint_t *joint, uint16_t pos);
+bool classic_is_there(void);                   /* whether this program has the law */
 void classic_start(player_t *player);
-void classic_finish_step(player_t *player);   /* before sequence_advance: puts the joints on their targets */
-void classic_plan(player_t *player, uint32_t used);
-void classic_plan_tick(player_t *player);
+void classic_finish_step(player_t *player);    /* before the targets of the next step are set */
+void classic_plan(player_t *player);
+void classic_begin_section(player_t *player);
 bool classic_is_over(const player_t *player);
 uint8_t classic_tick(player_t *player);
-uint8_t classic_last_sample(player_t *player); /* the tick after a play; PLAYER_EV_OUTPUT if it made goals */
-
-/* To the joints' exact fields when the play slows down; back when the rest of the step is done. */
-void classic_freeze(player_t *player);
-void classic_thaw(player_t *player);
+uint8_t classic_last_tick(player_t *player);   /* the tick after a play; PLAYER_EV_OUTPUT if it made goals */
+void classic_leave_step(player_t *player);
+void classic_take_back(player_t *player);      /* what was left of the step is done, and all joints rest */
 
 #endif

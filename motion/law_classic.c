@@ -11,7 +11,7 @@
  * Ranges: |M| <= 1023; |v|, |w|, |g| <= 1023; acc within +-4893; M - acc within +-5916. */
 #include "classic_math.h"
 #include "law.h"
-#include "step_plan.h"
+#include "step_ticks.h"
 
 enum { SECTION_RISE, SECTION_CRUISE, SECTION_FALL, SECTION_HOLD };
 
@@ -24,7 +24,7 @@ bool classic_is_there(void)
     return true;
 }
 
-void classic_stand(player_joint_t *joint, uint16_t pos)
+static void rest_at(player_joint_t *joint, uint16_t pos)
 {
     joint->classic = (player_classic_t){.start_pos = (int16_t)pos, .out_pos = (int16_t)pos};
 }
@@ -35,18 +35,18 @@ static void enter(player_t *player, uint8_t section, uint16_t ticks)
 {
     player->section = section;
     player->section_ticks = ticks;
-    player->tick = 0;
+    player->section_tick = 0;
 }
 
 /* Enters the section after one of the same step. The joints go on from where they are, at the speed they have reached. */
-static void begin_section(player_t *player, uint8_t section, uint16_t ticks)
+static void change_section(player_t *player, uint8_t section, uint16_t ticks)
 {
     const bool has_moved = player->section_ticks != 0;
     enter(player, section, ticks);
     FOR_ALL_JOINTS(player, joint) {
         if (has_moved) {
             joint->classic.start_pos = joint->classic.out_pos;
-            joint->classic.carried = joint->classic.reached;
+            joint->classic.entry = joint->classic.reached;
         }
     }
 }
@@ -55,23 +55,26 @@ static void begin_section(player_t *player, uint8_t section, uint16_t ticks)
 static void enter_used_up(player_t *player, uint8_t section)
 {
     enter(player, section, 0);
-    player->tick = 1;
+    player->section_tick = 1;
 }
 
 /* An empty section takes a tick, in which nothing is made. */
 static bool is_used_up(const player_t *player)
 {
-    return player->tick >= (player->section_ticks != 0 ? player->section_ticks : 1u);
+    return player->section_tick >= (player->section_ticks != 0 ? player->section_ticks : 1u);
 }
 
 bool classic_is_over(const player_t *player)
 {
     return is_used_up(player) &&
-           (player->section == SECTION_HOLD || (player->section == SECTION_FALL && player->hold_ticks == 0));
+           (player->section == SECTION_HOLD || (player->section == SECTION_FALL && player->now.hold_ticks == 0));
 }
 
 void classic_start(player_t *player)
 {
+    FOR_ALL_JOINTS(player, joint) {
+        rest_at(joint, joint->target_pos);
+    }
     enter_used_up(player, SECTION_HOLD);
 }
 
@@ -87,16 +90,6 @@ void classic_finish_step(player_t *player)
             joint->classic.start_pos = (int16_t)joint->target_pos; /* drops what rounding has left */
         }
     }
-}
-
-/* Rule 4 for a joint that the step uses. It begins with the speed it has reached. */
-static void aim(player_classic_t *classic, int16_t to_pos, int16_t next_pos, bool may_run_through)
-{
-    const int16_t distance = (int16_t)(to_pos - classic->start_pos);
-    classic->carried = classic->reached;
-    classic->acc = 0;
-    classic->distance = distance;
-    classic->through = may_run_through && (distance > 0 ? next_pos > to_pos : distance < 0 && next_pos < to_pos);
 }
 
 /* A divisor of rule 7. */
@@ -115,7 +108,7 @@ static divisor_t divisor_of(uint16_t divisor)
 static int16_t speed_of(const player_classic_t *classic, uint8_t ramp, const divisor_t *by)
 {
     const int32_t speed_units = (int32_t)speed_units_of(fix_size(classic->distance));
-    const int32_t gained = (int32_t)classic->carried * (2 * ramp);
+    const int32_t gained = (int32_t)classic->entry * (2 * ramp);
     const int32_t dividend = (classic->distance < 0 ? -speed_units : speed_units) - gained;
     const uint32_t size = (uint32_t)(dividend < 0 ? -dividend : dividend);
     const int16_t quotient = (int16_t)divide_speed(size, by->divisor, by->recip32);
@@ -124,41 +117,44 @@ static int16_t speed_of(const player_classic_t *classic, uint8_t ramp, const div
 }
 
 /* Joints that the step does not use stay where they are. */
-static void leave_joints(player_t *player, uint32_t unused)
+static void keep_joints(player_t *player, uint32_t unused)
 {
     FOR_JOINTS(player, unused, i, joint) {
         joint->classic = (player_classic_t){.start_pos = joint->classic.start_pos, .out_pos = joint->classic.out_pos};
     }
 }
 
-/* Rule 4. Returns max |M|. */
-static uint16_t aim_joints(player_t *player, uint32_t used)
+/* Rule 4. Each joint begins with the speed that it has reached. Returns max |M|. */
+static uint16_t set_distances(player_t *player)
 {
-    const bool may_run_through = player->hold_ticks == 0;
     uint16_t longest = 0;
-    FOR_JOINTS(player, used, i, joint) {
-        aim(&joint->classic, (int16_t)joint->target_pos, (int16_t)player->next_pos[i], may_run_through);
-        const uint16_t size = fix_size(joint->classic.distance);
-        longest = size > longest ? size : longest;
+    FOR_JOINTS(player, player->now.joints, i, joint) {
+        player_classic_t *classic = &joint->classic;
+        const int16_t to_pos = (int16_t)joint->target_pos, next_pos = (int16_t)player->next_pos[i];
+        const int16_t distance = (int16_t)(to_pos - classic->start_pos);
+        const bool goes_on = distance > 0 ? next_pos > to_pos : distance < 0 && next_pos < to_pos;
+        classic->entry = classic->reached;
+        classic->rise_distance = 0;
+        classic->distance = distance;
+        classic->through = goes_on && player->now.hold_ticks == 0;
+        longest = fix_size(distance) > longest ? fix_size(distance) : longest;
     }
     return longest;
 }
 
-void classic_plan(player_t *player, uint32_t used)
+void classic_plan(player_t *player)
 {
-    const player_step_t *now = &player->now;
-    leave_joints(player, player->present & ~used);
-    player->hold_ticks = step_plan_classic_hold(now, &player->carry_q5_11);
-    player->step_ticks = step_plan_classic_ticks(now, aim_joints(player, used), &player->carry_q5_11);
-    player->ramp_ticks = step_plan_classic_ramp(now->accel_time, &player->step_ticks);
-    const uint16_t ticks = player->step_ticks;
-    const uint8_t ramp = player->ramp_ticks;
-    const divisor_t stop = divisor_of((uint16_t)(4u * (ticks - ramp)));
-    const divisor_t through = divisor_of((uint16_t)(4u * ticks - 2u * ramp));
-    enter(player, SECTION_RISE, ramp);
-    FOR_JOINTS(player, used, i, joint) {
+    player_step_t *now = &player->now;
+    keep_joints(player, player->present & ~now->joints);
+    now->hold_ticks = step_ticks_classic_hold(now, &player->carry_q5_11);
+    now->ticks = step_ticks_classic(now, set_distances(player), &player->carry_q5_11);
+    const uint8_t ramp = player->ramp_ticks = step_ticks_classic_ramp(now->accel_time, &now->ticks);
+    const divisor_t stop = divisor_of((uint16_t)(4u * (now->ticks - ramp)));
+    const divisor_t through = divisor_of((uint16_t)(4u * now->ticks - 2u * ramp));
+    FOR_JOINTS(player, now->joints, i, joint) {
         joint->classic.speed = speed_of(&joint->classic, ramp, joint->classic.through ? &through : &stop);
     }
+    enter(player, SECTION_RISE, ramp);
 }
 
 /* --- the other sections begin ------------------------------------------------------------------------------------- */
@@ -166,25 +162,26 @@ void classic_plan(player_t *player, uint32_t used)
 static void begin_cruise(player_t *player)
 {
     const uint8_t ramp = player->ramp_ticks;
-    const uint16_t ticks = player->step_ticks, cruise = (uint16_t)(ticks - 2u * ramp);
-    begin_section(player, SECTION_CRUISE, cruise);
+    const uint16_t ticks = player->now.ticks, cruise = (uint16_t)(ticks - 2u * ramp);
+    change_section(player, SECTION_CRUISE, cruise);
     if (cruise == 0) {
         return; /* a skipped step */
     }
     const part_t part = part_of(cruise, (uint16_t)(ticks - ramp));
     FOR_ALL_JOINTS(player, joint) {
         player_classic_t *classic = &joint->classic;
-        const int16_t left = (int16_t)(classic->distance - classic->acc);
-        classic->main = classic->through ? share_of(left, part) : (int16_t)(left - fall_distance(classic->speed, ramp));
+        const int16_t left = (int16_t)(classic->distance - classic->rise_distance);
+        const int16_t fall = (int16_t)((int32_t)classic->speed * ramp * 12 / 5 >> 8);
+        classic->section_distance = classic->through ? share_of(left, part) : (int16_t)(left - fall);
     }
 }
 
 static void begin_fall(player_t *player)
 {
-    begin_section(player, SECTION_FALL, player->ramp_ticks);
+    change_section(player, SECTION_FALL, player->ramp_ticks);
     FOR_ALL_JOINTS(player, joint) {
         player_classic_t *classic = &joint->classic;
-        classic->main = (int16_t)(classic->distance - classic->main - classic->acc);
+        classic->section_distance = (int16_t)(classic->distance - classic->section_distance - classic->rise_distance);
     }
 }
 
@@ -202,47 +199,47 @@ ALWAYS_INLINE void put(player_classic_t *classic, int16_t distance)
 /* Covers distance while the speed changes by `change` from w on. Returns the distance. */
 ALWAYS_INLINE int16_t ramp_to(player_classic_t *classic, int16_t change, ramp_share_t share)
 {
-    const int16_t distance = ramp_distance((int16_t)(classic->carried + (change >> 1)), share);
-    classic->reached = (int16_t)(classic->carried + change);
+    const int16_t distance = ramp_distance((int16_t)(classic->entry + (change >> 1)), share);
+    classic->reached = (int16_t)(classic->entry + change);
     put(classic, distance);
     return distance;
 }
 
 static void make_rise(player_t *player)
 {
-    const part_t part = part_of(player->tick, player->section_ticks);
-    const ramp_share_t share = ramp_share((uint8_t)player->tick);
+    const part_t part = part_of(player->section_tick, player->section_ticks);
+    const ramp_share_t share = ramp_share((uint8_t)player->section_tick);
     FOR_ALL_JOINTS(player, joint) {
         player_classic_t *classic = &joint->classic;
-        classic->acc = ramp_to(classic, share_of((int16_t)(classic->speed - classic->carried), part), share);
+        classic->rise_distance = ramp_to(classic, share_of((int16_t)(classic->speed - classic->entry), part), share);
     }
 }
 
 static void make_cruise(player_t *player)
 {
-    const part_t part = part_of(player->tick, player->section_ticks);
+    const part_t part = part_of(player->section_tick, player->section_ticks);
     FOR_ALL_JOINTS(player, joint) {
-        put(&joint->classic, share_of(joint->classic.main, part));
+        put(&joint->classic, share_of(joint->classic.section_distance, part));
         joint->classic.reached = joint->classic.speed;
     }
 }
 
 static void make_fall(player_t *player)
 {
-    const part_t part = part_of(player->tick, player->section_ticks);
-    const ramp_share_t share = ramp_share((uint8_t)player->tick);
+    const part_t part = part_of(player->section_tick, player->section_ticks);
+    const ramp_share_t share = ramp_share((uint8_t)player->section_tick);
     FOR_ALL_JOINTS(player, joint) {
         player_classic_t *classic = &joint->classic;
         if (classic->through) {
-            put(classic, share_of(classic->main, part));
+            put(classic, share_of(classic->section_distance, part));
             classic->reached = classic->speed;
         } else {
-            (void)ramp_to(classic, share_of((int16_t)-classic->carried, part), share);
+            (void)ramp_to(classic, share_of((int16_t)-classic->entry, part), share);
         }
     }
 }
 
-void classic_plan_tick(player_t *player)
+void classic_begin_section(player_t *player)
 {
     if (!is_used_up(player)) {
         return;
@@ -251,14 +248,14 @@ void classic_plan_tick(player_t *player)
         begin_cruise(player);
     } else if (player->section == SECTION_CRUISE) {
         begin_fall(player);
-    } else if (player->section == SECTION_FALL && player->hold_ticks != 0) {
-        begin_section(player, SECTION_HOLD, player->hold_ticks);
+    } else if (player->section == SECTION_FALL && player->now.hold_ticks != 0) {
+        change_section(player, SECTION_HOLD, player->now.hold_ticks);
     }
 }
 
 uint8_t classic_tick(player_t *player)
 {
-    player->tick++;
+    player->section_tick++;
     if (player->section_ticks == 0 || player->section == SECTION_HOLD) {
         return 0;
     }
@@ -278,7 +275,7 @@ uint8_t classic_tick(player_t *player)
 
 /* The original begins another step before it finds out that nothing follows, and sends its first tick: a RISE with the speed
  * of the last step, as long as the section before it. */
-uint8_t classic_last_sample(player_t *player)
+uint8_t classic_last_tick(player_t *player)
 {
     if (player->section_ticks == 0) {
         return 0;
@@ -286,23 +283,23 @@ uint8_t classic_last_sample(player_t *player)
     const bool was_hold = player->section == SECTION_HOLD;
     FOR_ALL_JOINTS(player, joint) {
         player_classic_t *classic = &joint->classic;
-        classic->carried = was_hold ? 0 : classic->reached;
+        classic->entry = was_hold ? 0 : classic->reached;
         classic->start_pos = was_hold ? classic->start_pos : classic->out_pos;
     }
     enter(player, SECTION_RISE, player->section_ticks);
-    player->tick = 1;
+    player->section_tick = 1;
     make_rise(player);
     return PLAYER_EV_OUTPUT;
 }
 
-/* --- slowing down, and back --------------------------------------------------------------------------------------- */
+/* --- break, pause, resume --------------------------------------------------------------------------------------- */
 
 static uint16_t ticks_left(const player_t *player)
 {
-    const uint16_t of_section = (uint16_t)(player->section_ticks - player->tick);
+    const uint16_t of_section = (uint16_t)(player->section_ticks - player->section_tick);
     switch (player->section) {
     case SECTION_RISE:
-        return player->step_ticks != 0 ? (uint16_t)(player->step_ticks - player->tick) : 1u;
+        return player->now.ticks != 0 ? (uint16_t)(player->now.ticks - player->section_tick) : 1u;
     case SECTION_CRUISE:
         return (uint16_t)(of_section + player->ramp_ticks);
     case SECTION_FALL:
@@ -320,27 +317,27 @@ static int32_t speed_now(const player_t *player, const player_classic_t *classic
         return 0;
     }
     if (player->section_ticks != 0 && (section == SECTION_CRUISE || (section == SECTION_FALL && classic->through))) {
-        const int32_t speed = (int32_t)((uint32_t)fix_from_pos(fix_size(classic->main)) / player->section_ticks);
-        return classic->main < 0 ? -speed : speed;
+        const int32_t speed = (int32_t)((uint32_t)fix_from_pos(fix_size(classic->section_distance)) / player->section_ticks);
+        return classic->section_distance < 0 ? -speed : speed;
     }
     return (int32_t)classic->reached * SPEED_UNIT_Q16_16;
 }
 
-void classic_freeze(player_t *player)
+void classic_leave_step(player_t *player)
 {
     FOR_ALL_JOINTS(player, joint) {
         const int32_t speed = speed_now(player, &joint->classic);
         const uint16_t pos = (uint16_t)joint->classic.out_pos;
         joint->exact = (player_exact_t){.pos_q16_16 = fix_from_pos(pos) + FIX_ROUND_UP, .speed_q16_16 = speed};
     }
-    player->rest_ticks = ticks_left(player);
+    player->left_ticks = ticks_left(player);
     player->moving_by = PLAYER_LAW_EXACT;
 }
 
-void classic_thaw(player_t *player)
+void classic_take_back(player_t *player)
 {
     FOR_ALL_JOINTS(player, joint) {
-        classic_stand(joint, fix_pos(joint->exact.pos_q16_16));
+        rest_at(joint, fix_pos(joint->exact.pos_q16_16));
     }
     if (player->section != SECTION_HOLD) {
         enter_used_up(player, SECTION_FALL);

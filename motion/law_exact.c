@@ -18,18 +18,14 @@
  * cruise = mean + (mean - (entry + exit) / 2) A / (N - A) <= 2 mean <= 2046. entry, exit and cruise are multiples of
  * 2^-15. */
 #include "law.h"
-#include "step_plan.h"
+#include "step_ticks.h"
 
 #define BRAKE_TICKS_MIN 8u
 
+/* Rounds down to a multiple of 2^-15, so that half the sum of two speeds is exact. */
 static uint32_t even(uint32_t speed)
 {
     return speed & ~(uint32_t)1;
-}
-
-static uint16_t distance_of(uint16_t from_pos, uint16_t to_pos)
-{
-    return to_pos > from_pos ? (uint16_t)(to_pos - from_pos) : (uint16_t)(from_pos - to_pos);
 }
 
 static uint32_t size_of(int32_t value)
@@ -48,14 +44,12 @@ static int32_t half_of(int32_t value)
     return with_sign_of(value < 0, size_of(value) >> 1);
 }
 
-static void set_pos(player_exact_t *exact, uint16_t pos, bool down)
+void exact_start(player_t *player)
 {
-    exact->pos_q16_16 = fix_from_pos(pos) + (down ? FIX_ROUND_DOWN : FIX_ROUND_UP);
-}
-
-void exact_stand(player_joint_t *joint, uint16_t pos)
-{
-    joint->exact = (player_exact_t){.pos_q16_16 = fix_from_pos(pos)};
+    player->tick = player->now.ticks = player->now.hold_ticks = 0;
+    FOR_ALL_JOINTS(player, joint) {
+        joint->exact = (player_exact_t){.pos_q16_16 = fix_from_pos(joint->target_pos)};
+    }
 }
 
 /* --- plan --------------------------------------------------------------------------------------------------------- */
@@ -66,14 +60,14 @@ void exact_measure_next(player_t *player)
     if (next->page == 0) {
         return;
     }
-    const bool depends = next->schedule == PAGE_SCHEDULE_SPEED || next->top_speed_q4_4 != 0;
+    const bool depends_on_distance = next->schedule == PAGE_SCHEDULE_SPEED || next->top_speed_q4_4 != 0;
     uint16_t longest = 0;
-    FOR_JOINTS(player, depends ? player->next_joints : 0, i, joint) {
-        const uint16_t distance = distance_of(joint->target_pos, player->next_pos[i]);
+    FOR_JOINTS(player, depends_on_distance ? next->joints : 0, i, joint) {
+        const uint16_t distance = fix_distance(joint->target_pos, player->next_pos[i]);
         longest = distance > longest ? distance : longest;
     }
-    next->ticks = step_plan_exact_ticks(next, longest, &player->carry_q5_11);
-    next->hold_ticks = step_plan_exact_hold(next, &player->carry_q5_11);
+    next->ticks = step_ticks_exact(next, longest, &player->carry_q5_11);
+    next->hold_ticks = step_ticks_exact_hold(next, &player->carry_q5_11);
     next->recip32 = fix_recip32(next->ticks);
 }
 
@@ -91,7 +85,7 @@ static uint32_t exit_speed(const plan_t *plan, bool down, uint16_t at_pos, uint1
     if (!plan->runs_on || (down ? next_pos >= at_pos : next_pos <= at_pos)) {
         return 0;
     }
-    const uint32_t next_mean = even(fix_mean(distance_of(at_pos, next_pos), plan->next_recip));
+    const uint32_t next_mean = even(fix_mean(fix_distance(at_pos, next_pos), plan->next_recip));
     return mean < next_mean ? mean : next_mean;
 }
 
@@ -100,38 +94,36 @@ static void plan_joint(const plan_t *plan, player_joint_t *joint, uint16_t next_
     player_exact_t *exact = &joint->exact;
     const uint16_t from_pos = fix_pos(exact->pos_q16_16), to_pos = joint->target_pos;
     const bool down = to_pos < from_pos;
-    const uint32_t mean = even(fix_mean(distance_of(from_pos, to_pos), plan->recip));
+    const uint32_t mean = even(fix_mean(fix_distance(from_pos, to_pos), plan->recip));
     const uint32_t entry = size_of(exact->exit_q16_16);
     const uint32_t exit = mean != 0 ? exit_speed(plan, down, to_pos, next_pos, mean) : 0;
     uint32_t cruise = mean, speed = entry, accel = 0;
     if (plan->ramp_ticks != 0) {
         const uint32_t missing = mean - ((entry + exit) >> 1);
-        /* A share of 65535 stands for 1. */
+        /* A share of 65535 means 1. */
         cruise = even(mean + (plan->share_q0_16 == UINT16_MAX ? missing : fix_share(missing, plan->share_q0_16)));
         accel = fix_by_ramp(cruise - entry, plan->ramp_recip, plan->ramp_ticks);
         speed = entry + (accel >> 1);
     }
-    set_pos(exact, from_pos, down);
+    exact->pos_q16_16 = fix_from_pos(from_pos) + (down ? FIX_ROUND_DOWN : FIX_ROUND_UP);
     exact->speed_q16_16 = with_sign_of(down, speed);
     exact->accel_q16_16 = with_sign_of(down, accel);
     exact->cruise_q16_16 = with_sign_of(down, cruise);
     exact->exit_q16_16 = with_sign_of(down, exit);
 }
 
-/* Plans step_ticks ticks for all joints, from where they are to target_pos; recip32 is 2^32 / step_ticks. The exit speed
- * that each has from the step before is its entry speed. */
-static void plan_joints(player_t *player, uint32_t recip32)
+/* The exit speed that a joint has from the step before is its entry speed. */
+void exact_plan(player_t *player)
 {
-    const uint16_t ticks = player->step_ticks;
-    const uint8_t accel_time = player->now.accel_time;
-    const bool runs_on = player->law == PLAYER_LAW_EXACT && player->next.page != 0 && player->now.pause == 0;
-    plan_t plan = {.recip = recip32,
+    const player_step_t *now = &player->now;
+    const uint16_t half = now->ticks / 2;
+    plan_t plan = {.recip = now->recip32,
                    .next_recip = player->next.recip32,
-                   .ramp_ticks = accel_time <= ticks / 2 ? accel_time : (uint8_t)(ticks / 2),
-                   .runs_on = runs_on};
+                   .ramp_ticks = now->accel_time <= half ? now->accel_time : (uint8_t)half,
+                   .runs_on = player->law == PLAYER_LAW_EXACT && player->next.page != 0 && now->pause == 0};
     if (plan.ramp_ticks != 0) {
         plan.ramp_recip = fix_ramp_recip(plan.ramp_ticks);
-        plan.share_q0_16 = fix_ratio(plan.ramp_ticks, (uint16_t)(ticks - plan.ramp_ticks));
+        plan.share_q0_16 = fix_ratio(plan.ramp_ticks, (uint16_t)(now->ticks - plan.ramp_ticks));
     }
     player->ramp_ticks = plan.ramp_ticks;
     player->tick = 0;
@@ -140,22 +132,14 @@ static void plan_joints(player_t *player, uint32_t recip32)
     }
 }
 
-void exact_plan(player_t *player)
-{
-    player->step_ticks = player->now.ticks;
-    player->hold_ticks = player->now.hold_ticks;
-    plan_joints(player, player->now.recip32);
-}
-
 /* --- a tick ------------------------------------------------------------------------------------------------------- */
 
 bool exact_is_over(const player_t *player)
 {
-    return player->tick >= player->step_ticks + player->hold_ticks;
+    return player->tick >= player->now.ticks + player->now.hold_ticks;
 }
 
-/* By one tick, at the present speed and acceleration. */
-static void move(player_t *player)
+static void move_joints(player_t *player)
 {
     FOR_ALL_JOINTS(player, joint) {
         joint->exact.pos_q16_16 += joint->exact.speed_q16_16;
@@ -174,7 +158,7 @@ static void begin_cruise(player_t *player)
 static void begin_fall(player_t *player)
 {
     uint16_t recip = fix_ramp_recip(player->ramp_ticks);
-    recip = recip == UINT16_MAX ? recip : (uint16_t)(recip + 1u); /* rather too slow early than past the target */
+    recip = recip == UINT16_MAX ? recip : (uint16_t)(recip + 1u); /* slow down a hair too early, not past the target */
     FOR_JOINTS(player, player->present, i, joint) {
         player_exact_t *exact = &joint->exact;
         const bool down = exact->cruise_q16_16 < 0;
@@ -184,46 +168,41 @@ static void begin_fall(player_t *player)
     }
 }
 
-void exact_plan_tick(player_t *player)
+void exact_begin_section(player_t *player)
 {
     const uint16_t done = player->tick, ramp = player->ramp_ticks;
-    if (done + 1u >= player->step_ticks) {
+    if (done + 1u >= player->now.ticks) {
         return; /* the tick that sets the target, or none */
     }
-    if (done + ramp == player->step_ticks) {
+    if (done + ramp == player->now.ticks) {
         begin_fall(player);
     } else if (done == ramp) {
         begin_cruise(player);
     }
 }
 
-static void reach_target(player_t *player)
-{
-    FOR_ALL_JOINTS(player, joint) {
-        joint->exact.pos_q16_16 = fix_from_pos(joint->target_pos);
-    }
-}
-
 uint8_t exact_tick(player_t *player)
 {
     const uint16_t tick = ++player->tick;
-    if (tick > player->step_ticks) {
+    if (tick > player->now.ticks) {
         return 0;
     }
-    if (tick == player->step_ticks) {
-        reach_target(player);
+    if (tick < player->now.ticks) {
+        move_joints(player);
         return PLAYER_EV_OUTPUT;
     }
-    move(player);
+    FOR_ALL_JOINTS(player, joint) {
+        joint->exact.pos_q16_16 = fix_from_pos(joint->target_pos);
+    }
     return PLAYER_EV_OUTPUT;
 }
 
-/* --- break, pause, rest ------------------------------------------------------------------------------------------- */
+/* --- break, pause, resume ------------------------------------------------------------------------------------------- */
 
-void exact_stop_steps(player_t *player)
+void exact_leave_step(player_t *player)
 {
-    const bool is_moving = player->tick < player->step_ticks;
-    player->rest_ticks = is_moving ? (uint16_t)(player->step_ticks - player->tick) : 0;
+    const bool is_moving = player->tick < player->now.ticks;
+    player->left_ticks = is_moving ? (uint16_t)(player->now.ticks - player->tick) : 0;
     FOR_ALL_JOINTS(player, joint) {
         player_exact_t *exact = &joint->exact;
         /* At the border of two ticks the speed is half an acceleration smaller than in the coming tick. */
@@ -241,7 +220,7 @@ static bool is_move(const player_t *player)
 static uint8_t brake_ticks_of(const player_t *player)
 {
     const uint8_t ramp = player->ramp_ticks;
-    const uint16_t left = (uint16_t)(player->step_ticks - player->tick);
+    const uint16_t left = (uint16_t)(player->now.ticks - player->tick);
     if (is_move(player)) {
         return left < ramp ? (uint8_t)left : ramp;
     }
@@ -276,21 +255,24 @@ bool exact_brake_tick(player_t *player)
     FOR_ALL_JOINTS(player, joint) {
         keep_in_range(&joint->exact);
     }
-    move(player);
+    move_joints(player);
     return --player->brake_ticks != 0;
 }
 
-bool exact_plan_rest(player_t *player)
+bool exact_resume(player_t *player)
 {
     const uint8_t braked = brake_ticks_of(player);
-    if (player->rest_ticks == 0) {
+    uint16_t ticks = player->left_ticks;
+    if (ticks == 0) {
         return false;
     }
     if (is_move(player)) {
-        player->step_ticks = (uint16_t)(player->rest_ticks + braked); /* in less time it could exceed its speed limit */
-    } else {
-        player->step_ticks = player->rest_ticks < braked ? braked : player->rest_ticks;
+        ticks = (uint16_t)(ticks + braked); /* in less time it could exceed its speed limit */
+    } else if (ticks < braked) {
+        ticks = braked;
     }
-    plan_joints(player, fix_recip32(player->step_ticks));
+    player->now.ticks = ticks;
+    player->now.recip32 = fix_recip32(ticks);
+    exact_plan(player);
     return true;
 }

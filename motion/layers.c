@@ -2,7 +2,6 @@
 #include "layers.h"
 
 #include <string.h>
-#include "law.h"
 
 /* --- the main play, the page layer -------------------------------------------------------------------------------- */
 

@@ -7,11 +7,8 @@
  *
  * Each source computes its goals by itself, so the main play is the same with layers and without: its timing, its links, its
  * goals. When a joint gets another source, the mux leads it there at the speed of the hand-over at most (mux.h). A page
- * layer starts from where its joints are; the speed also bounds that first step.
- *
- * A page layer plays by the exact law, whatever the main play's law: the original has no layers.
- *
- * Pure; caller-owned; main loop only. RAM: sizeof(layers_t), with a second player and its joints. */
+ * layer starts from where its joints are, and the mux bounds the speed of that first step too. It plays by the exact law,
+ * whatever the law of the main play. Pure; caller-owned; main loop only. */
 #ifndef LAYERS_H
 #define LAYERS_H
 
@@ -90,7 +87,7 @@ void layers_plan(layers_t *layers, link_t *main_link) NOINLINE;
 /* Whether a tick of the layers may still move something: a page layer plays, a joint changes hands or swings. */
 bool layers_are_moving(const layers_t *layers);
 
-/* Joints of the page layer and of code, and joints on their way back: to be sent with the main play's `joints`. */
+/* Joints of the page layer and of code, and joints that go back to the main play: to be sent with the joints of that. */
 uint32_t layers_joints(const layers_t *layers);
 
 /* Joints are lost (a silent servo, torque off): their goals stay. */

@@ -1,12 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "link.h"
 
-static void forget_exits(link_t *link)
-{
-    for (uint8_t i = 0; i < sizeof link->exits_seen; i++) {
-        link->exits_seen[i] = 0;
-    }
-}
+#include <string.h>
 
 void link_init(link_t *link, link_mode_t mode)
 {
@@ -16,7 +11,6 @@ void link_init(link_t *link, link_mode_t mode)
 
 void link_call(link_t *link, uint8_t code)
 {
-    link->call_code = code;
     link->code = code;
     link->held_code = code; /* a stop may come before the next packet of the button that called */
     link->stopping = false;
@@ -27,7 +21,7 @@ void link_call(link_t *link, uint8_t code)
 static void stop(link_t *link)
 {
     if (!link->stopping) {
-        forget_exits(link);
+        memset(link->exits_seen, 0, sizeof link->exits_seen);
     }
     link->stopping = true;
     link->code = LINK_CODE_STOP;
@@ -97,12 +91,10 @@ uint8_t link_decide(link_t *link, uint8_t page, const uint8_t *header, link_take
         return exit_of(link, page, header[PAGE_AT_EXIT_PAGE], taken);
     }
     if (code_matches(link, header[PAGE_AT_LINKED1_CODE])) {
-        link->call_code = link->code;
         *taken = LINK_LINKED1;
         return header[PAGE_AT_LINKED1_PAGE];
     }
     if (code_matches(link, header[PAGE_AT_LINKED2_CODE])) {
-        link->call_code = link->code;
         *taken = LINK_LINKED2;
         return header[PAGE_AT_LINKED2_PAGE];
     }

@@ -16,22 +16,19 @@
 typedef enum { LINK_LATCH = 0, LINK_HOLD } link_mode_t;
 
 /* Which link was taken (for the status line). */
-typedef enum { LINK_NEXT = 0, LINK_EXIT, LINK_LINKED1, LINK_LINKED2, LINK_END_OF_EXIT_LOOP,
-               LINK_ENDED } link_taken_t;
+typedef enum { LINK_NEXT = 0, LINK_EXIT, LINK_LINKED1, LINK_LINKED2, LINK_END_OF_EXIT_LOOP, LINK_ENDED } link_taken_t;
 
 typedef struct {
-    uint8_t mode;          /* link_mode_t */
-    uint8_t call_code;     /* the code that called the page now playing; 0: called by its number */
-    uint8_t code;          /* the code in force */
-    uint8_t held_code;     /* the last code heard, not counting stops; 0: released */
+    uint8_t mode;       /* link_mode_t */
+    uint8_t code;       /* the code in force */
+    uint8_t held_code;  /* the last code heard, except stops; 0: released */
     bool stopping;      /* a stop is in force: exit links are followed */
-    bool stop_is_final; /* ... and only a new call ends it (link_stop) */
+    bool stop_is_final; /* only a new call ends the stop (link_stop) */
     bool ending;        /* no link at all is followed (link_end) */
-    uint8_t exits_seen[PAGE_COUNT / 8]; /* exit pages gone through since the stop: a chain that comes back ends */
+    uint8_t exits_seen[PAGE_COUNT / 8]; /* exit pages played since the stop: a chain that comes back ends */
 } link_t;
 
-/* NOINLINE, like link_call, shape_set_amplitude and layers_can_swing: the compiler's copies at their callers would take 120
- * bytes of Play. */
+/* NOINLINE, like link_call and shape_set_amplitude: the compiler's copies at their callers would take 120 bytes of Play. */
 void link_init(link_t *link, link_mode_t mode) NOINLINE;
 
 /* A play begins: by a code, or by a page number (code 0). Forgets any stop. */
@@ -42,18 +39,17 @@ void link_call(link_t *link, uint8_t code) NOINLINE;
  * heard again (a remote repeats its packets) is not another one: a thumb on `forward` cannot undo somebody's stop. */
 void link_code(link_t *link, uint8_t code);
 
-/* A soft stop, whatever the mode; stays until the play is over or a new one is called. Of link_stop and link_end the last
- * one takes effect. */
+/* A soft stop, in both modes. It stays in force until a new call. Of link_stop and link_end the last one takes effect. */
 void link_stop(link_t *link);
 
-/* The play ends with the repetition that is on, without the exit page: every link is 0. Stays until a new call. */
+/* The play ends with the present repetition, without the exit page: every link is 0. Stays in force until a new call. */
 void link_end(link_t *link);
 
-/* true when repetitions are not to go on: a stop or link_end is in force. */
+/* true when the page must not be repeated: a stop or link_end is in force. */
 bool link_is_stopping(const link_t *link);
 
-/* The page that follows `page`, whose first 32 header bytes are `header`, decided at the moment its last step begins
- * (repetitions are the player's business). Updates the call. 0 = the play ends. `taken` tells which link it was. */
+/* The page that follows `page`, whose first 32 header bytes are `header`. The player asks when the last step of the last
+ * repetition begins. 0 = the play ends. `taken` tells which link it was. */
 uint8_t link_decide(link_t *link, uint8_t page, const uint8_t *header, link_taken_t *taken);
 
 #endif

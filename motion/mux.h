@@ -37,7 +37,7 @@ void mux_forget(mux_t *mux, uint32_t joints);
 uint8_t mux_allow(mux_speed_t *speed);
 
 /* The goal in this tick of a joint that was at from_pos and whose source asks for asked_pos. most_pos: movement while
- * it seeks. may_meet: false while the source itself is still on its way to its first position. */
+ * it seeks. may_meet: false while the source itself still moves to its first position. */
 uint16_t mux_goal(mux_t *mux, uint8_t joint, uint16_t from_pos, uint16_t asked_pos, uint8_t most_pos, bool may_meet);
 
 #endif

@@ -52,16 +52,12 @@ void page_seal(uint8_t page[PAGE_BYTES])
 
 void page_clear(uint8_t page[PAGE_BYTES])
 {
-    for (uint16_t at = 0; at < PAGE_BYTES; at++) {
-        page[at] = 0;
-    }
+    memset(page, 0, PAGE_BYTES);
     page[PAGE_AT_PLAY_COUNT] = 1;
     page[PAGE_AT_SCHEDULE] = PAGE_SCHEDULE_TIME;
     page[PAGE_AT_SPEED] = PAGE_SPEED_NOMINAL;
     page[PAGE_AT_ACCEL_TIME] = PAGE_ACCEL_DEFAULT;
-    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        page[PAGE_AT_COMPLIANCE + joint] = PAGE_COMPLIANCE_DEFAULT;
-    }
+    memset(&page[PAGE_AT_COMPLIANCE], PAGE_COMPLIANCE_DEFAULT, PAGE_JOINTS);
     for (uint8_t step = 0; step < PAGE_STEPS; step++) {
         for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
             page_set_pos(page, step, joint, PAGE_POS_UNUSED);
@@ -70,29 +66,14 @@ void page_clear(uint8_t page[PAGE_BYTES])
     page_seal(page);
 }
 
-static uint16_t pos_at(uint8_t step, uint8_t joint)
-{
-    return (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * step + 2u * joint);
-}
-
 uint16_t page_pos(const uint8_t *page, uint8_t step, uint8_t joint)
 {
-    return page_word(&page[pos_at(step, joint)]);
+    return page_word(&page[PAGE_AT_STEP0 + PAGE_STEP_BYTES * step + 2u * joint]);
 }
 
 void page_set_pos(uint8_t *page, uint8_t step, uint8_t joint, uint16_t word)
 {
-    uint16_t at = pos_at(step, joint);
-    page[at] = (uint8_t)word;
-    page[at + 1] = (uint8_t)(word >> 8);
-}
-
-uint8_t page_slope(uint8_t nibble)
-{
-    if (nibble == 0 || nibble > 7) {
-        nibble = PAGE_COMPLIANCE_DEFAULT & 0x0F;
-    }
-    return (uint8_t)(1u << nibble);
+    memcpy(&page[PAGE_AT_STEP0 + PAGE_STEP_BYTES * step + 2u * joint], &word, sizeof word);
 }
 
 bool page_set_add(uint8_t set[PAGE_COUNT / 8], uint8_t page)

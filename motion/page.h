@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * page.h - the 512-byte motion page: layout, checks, field access.
+ * page.h - the 512-byte motion page: layout, checks, field access; where pages come from.
  * Pure: no flash, no registers, no I/O. Callable from anywhere. No RAM of its own.
  * PAGE_FORMAT.md is the specification, with a worked hex dump. */
 #ifndef PAGE_H
@@ -69,15 +69,11 @@ typedef enum {
 /* 8-bit sum of `count` bytes, added to `sum`: pages are summed in pieces as they are read. */
 uint8_t page_sum(uint8_t sum, const uint8_t *bytes, uint16_t count);
 
-/* The checks of page_check that need only the 64 header bytes: all but checksum and positions. */
-page_status_t page_check_header(const uint8_t header[PAGE_STEP_BYTES]);
-
-/* The positions of one used step: PAGE_OK or PAGE_ERR_POSITION. */
-page_status_t page_check_step(const uint8_t step[PAGE_STEP_BYTES]);
-
-/* Checks a whole page: the sum, the header, the steps that PAGE_STEP counts. A caller that reads the page in pieces gets the
- * same result from page_sum, page_check_header and page_check_step, in this order. */
+/* Checks a whole page: the sum, the header, the positions of the steps that PAGE_STEP counts. A caller that reads the page
+ * in pieces gets the same result from page_sum, page_check_header and page_check_step, in this order. */
 page_status_t page_check(const uint8_t page[PAGE_BYTES]);
+page_status_t page_check_header(const uint8_t header[PAGE_STEP_BYTES]);
+page_status_t page_check_step(const uint8_t step[PAGE_STEP_BYTES]);
 
 /* Sets byte 31 so that the page sums to 0xFF. */
 void page_seal(uint8_t page[PAGE_BYTES]);
@@ -85,15 +81,13 @@ void page_seal(uint8_t page[PAGE_BYTES]);
 /* The empty page of PAGE_FORMAT.md, sealed. */
 void page_clear(uint8_t page[PAGE_BYTES]);
 
-/* Whether there is a page of this number. The parameter is wider than a page's number, because a PC has all
- * that a byte names. */
+/* Whether there is a page of this number. It is wider than a byte, because a PC has 256 pages. */
 static inline bool page_is_there(uint16_t page)
 {
     return page < PAGE_COUNT;
 }
 
-/* The little-endian word at `at`: at[0] | at[1] << 8, on machines that are little-endian themselves (all of
- * ours are: tests/unit/test_page.c), because the AVR's compiler makes 12 cycles of that and 4 of this. */
+/* The little-endian word at `at`. All our machines are little-endian too (tests/unit/test_page.c). */
 static inline uint16_t page_word(const uint8_t *at)
 {
     uint16_t word;
@@ -113,14 +107,20 @@ static inline bool page_pos_is_used(uint16_t word)
     return flags == 0;
 }
 
-/* Compliance slope register value, 2^nibble, of one nibble 1..7 of the compliance byte (PAGE_FORMAT.md). A nibble of 0
- * or above 7 stands for 5, the default. */
-uint8_t page_slope(uint8_t nibble);
-
 /* Adds a page to a set of pages. false: it is in the set already. */
 bool page_set_add(uint8_t set[PAGE_COUNT / 8], uint8_t page);
 
 /* true when the header has an action: steps and play count are not 0. */
 bool page_is_playable(const uint8_t *header);
+
+/* Where pages come from: flash on the robot, an array in a test. Both calls must be cheap: a tick of a play makes up to six
+ * reads of up to 64 bytes. */
+typedef struct {
+    void *context;
+    /* Copies `count` bytes at byte `offset` of page `page` (0..127). */
+    void (*read)(void *context, uint8_t page, uint16_t offset, void *to, uint8_t count);
+    /* page_status_t of the whole page, from a cache. */
+    uint8_t (*check)(void *context, uint8_t page);
+} page_source_t;
 
 #endif

@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 #include "player.h"
 #include "law.h"
-#include "step_plan.h"
+#include "sequence.h"
+#include "step_ticks.h"
 
 /*            player_start               last tick of the last step
  *   IDLE -------------------> PLAYING --------------------------> IDLE
  *                             |     ^
- *          wish PAUSE, BREAK  |     | wish GO: the rest of the step is planned
+ *          wish PAUSE, BREAK  |     | wish GO: what is left of the step is planned
  *                             v     |
- *                         BRAKING --+--> STANDING --> (wish BREAK) IDLE
+ *                         BRAKING --+--> STOPPED --> (wish BREAK) IDLE
  *
  * break, pause and resume only set the wish; player_plan acts on it. */
-enum { STATE_IDLE, STATE_PLAYING, STATE_BRAKING, STATE_STANDING };
+enum { STATE_IDLE, STATE_PLAYING, STATE_BRAKING, STATE_STOPPED };
 enum { WISH_GO, WISH_PAUSE, WISH_BREAK };
 
 #define ALL_JOINTS 0x7FFFFFFFu
@@ -34,21 +35,20 @@ static bool moves_by_classic(const player_t *player)
     return player->moving_by == PLAYER_LAW_CLASSIC;
 }
 
-static inline uint16_t goal_of(bool by_classic, const player_joint_t *joint)
+static uint16_t goal_of(const player_t *player, const player_joint_t *joint)
 {
-    return by_classic ? (uint16_t)joint->classic.out_pos : fix_pos(joint->exact.pos_q16_16);
+    return moves_by_classic(player) ? (uint16_t)joint->classic.out_pos : fix_pos(joint->exact.pos_q16_16);
 }
 
 uint16_t player_goal(const player_t *player, uint8_t joint)
 {
-    return goal_of(moves_by_classic(player), &player->joint[joint]);
+    return goal_of(player, &player->joint[joint]);
 }
 
 void player_goals(const player_t *player, uint32_t joints, uint16_t goal_pos[PAGE_JOINTS])
 {
-    const bool by_classic = moves_by_classic(player);
     FOR_JOINTS(player, joints & player->present, i, joint) {
-        goal_pos[i] = goal_of(by_classic, joint);
+        goal_pos[i] = goal_of(player, joint);
     }
 }
 
@@ -63,22 +63,14 @@ static void begin_play(player_t *player, player_law_t law, const uint16_t pose_p
     player->state = STATE_PLAYING;
     player->wish = WISH_GO;
     player->is_planned = false;
-    player->ramp_ticks = 0;
-    player->tick = player->step_ticks = player->hold_ticks = 0;
-    player->carry_q5_11 = STEP_PLAN_CARRY_START;
-    FOR_ALL_JOINTS(player, joint) {
-        const uint16_t pos = *pose_pos > PAGE_POS_MAX ? PAGE_POS_MAX : *pose_pos;
-        pose_pos++;
-        joint->target_pos = pos;
-        moves_by_classic(player) ? classic_stand(joint, pos) : exact_stand(joint, pos);
+    player->carry_q5_11 = STEP_TICKS_CARRY_START;
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
+        player->joint[i].target_pos = pose_pos[i] > PAGE_POS_MAX ? PAGE_POS_MAX : pose_pos[i];
     }
-}
-
-static void look_and_measure(player_t *player)
-{
-    sequence_look(player);
-    if (player->law == PLAYER_LAW_EXACT) {
-        exact_measure_next(player);
+    if (law == PLAYER_LAW_CLASSIC) {
+        classic_start(player);
+    } else {
+        exact_start(player);
     }
 }
 
@@ -98,11 +90,24 @@ player_status_t player_start(player_t *player, link_t *link, uint8_t page, playe
         return player->fault == PAGE_OK || player->fault == PAGE_EMPTY ? PLAYER_ERR_EMPTY : PLAYER_ERR_PAGE;
     }
     begin_play(player, law, pose_pos, present);
-    if (moves_by_classic(player)) {
-        classic_start(player);
+    sequence_read_next(player);
+    if (law == PLAYER_LAW_EXACT) {
+        exact_measure_next(player);
     }
-    look_and_measure(player);
     return PLAYER_OK;
+}
+
+uint32_t player_first_pose(const page_source_t *source, const shape_t *shape, uint8_t page, uint16_t pose_pos[PAGE_JOINTS])
+{
+    uint16_t words[PAGE_JOINTS];
+    uint32_t joints = 0;
+    sequence_read_words(source, shape, page, 1, words);
+    for (uint8_t i = PAGE_JOINTS; i-- > 0;) {
+        const bool is_used = page_pos_is_used(words[i]);
+        joints = joints << 1 | is_used;
+        pose_pos[i] = is_used ? words[i] : pose_pos[i];
+    }
+    return joints;
 }
 
 uint16_t player_move(player_t *player, const uint16_t from_pos[PAGE_JOINTS], uint32_t joints, uint16_t deg_s)
@@ -111,7 +116,7 @@ uint16_t player_move(player_t *player, const uint16_t from_pos[PAGE_JOINTS], uin
     begin_play(player, PLAYER_LAW_EXACT, from_pos, joints);
     player->joints = player->present;
     FOR_JOINTS(player, player->present, i, joint) {
-        const uint16_t distance = fix_size((int16_t)(player->next_pos[i] - joint->target_pos));
+        const uint16_t distance = fix_distance(joint->target_pos, player->next_pos[i]);
         longest = distance > longest ? distance : longest;
         joint->target_pos = player->next_pos[i];
     }
@@ -132,39 +137,52 @@ uint16_t player_move(player_t *player, const uint16_t from_pos[PAGE_JOINTS], uin
 
 static void begin_step(player_t *player, link_t *link)
 {
-    if (moves_by_classic(player)) {
+    if (player->law == PLAYER_LAW_CLASSIC) {
         classic_finish_step(player);
     }
-    const uint32_t used = player->next_joints;
-    player->joints |= used;
-    FOR_JOINTS(player, used, i, joint) {
+    player->joints |= player->next.joints;
+    FOR_JOINTS(player, player->next.joints, i, joint) {
         joint->target_pos = player->next_pos[i];
     }
     player->begun_events = sequence_advance(player, link);
-    if (player->law == PLAYER_LAW_CLASSIC) {
-        if (sequence_looks_elsewhere(player)) {
-            sequence_look_at_named(player);
-            classic_plan(player, used);
-            sequence_look(player);
-        } else {
-            sequence_look(player);
-            classic_plan(player, used);
-        }
-    } else {
-        look_and_measure(player);
+    if (player->law == PLAYER_LAW_EXACT) {
+        sequence_read_next(player);
+        exact_measure_next(player);
         exact_plan(player);
+    } else if ((player->begun_events & PLAYER_EV_LINK) != 0 && player->next_page != player->next.page) {
+        /* The play passes over the page that the link names, or ends there. Rule 4 looks at it all the same. */
+        (void)sequence_read_positions(player, player->next_page, 1);
+        classic_plan(player);
+        sequence_read_next(player);
+    } else {
+        sequence_read_next(player);
+        classic_plan(player);
     }
 }
 
 /* --- plan --------------------------------------------------------------------------------------------------------- */
 
+static bool step_is_over(const player_t *player)
+{
+    return moves_by_classic(player) ? classic_is_over(player) : exact_is_over(player);
+}
+
+static void begin_section(player_t *player)
+{
+    if (moves_by_classic(player)) {
+        classic_begin_section(player);
+    } else {
+        exact_begin_section(player);
+    }
+}
+
 static void slow_down(player_t *player)
 {
     player->state = STATE_BRAKING;
     if (moves_by_classic(player)) {
-        classic_freeze(player);
+        classic_leave_step(player);
     } else {
-        exact_stop_steps(player);
+        exact_leave_step(player);
     }
     exact_brake(player);
 }
@@ -172,14 +190,9 @@ static void slow_down(player_t *player)
 static void go_on(player_t *player)
 {
     player->state = STATE_PLAYING;
-    if (!exact_plan_rest(player) && player->law == PLAYER_LAW_CLASSIC) {
-        classic_thaw(player);
+    if (!exact_resume(player) && player->law == PLAYER_LAW_CLASSIC) {
+        classic_take_back(player);
     }
-}
-
-static bool step_is_over(const player_t *player)
-{
-    return moves_by_classic(player) ? classic_is_over(player) : exact_is_over(player);
 }
 
 void player_plan(player_t *player, link_t *link)
@@ -188,7 +201,7 @@ void player_plan(player_t *player, link_t *link)
         return;
     }
     player->is_planned = true;
-    if (player->state == STATE_STANDING && player->wish == WISH_GO) {
+    if (player->state == STATE_STOPPED && player->wish == WISH_GO) {
         go_on(player);
     }
     if (player->state != STATE_PLAYING) {
@@ -197,44 +210,44 @@ void player_plan(player_t *player, link_t *link)
     if (step_is_over(player) && player->next.page != 0) {
         begin_step(player, link);
     }
-    if (player->wish != WISH_GO) {
-        slow_down(player);
+    if (player->wish == WISH_GO) {
+        begin_section(player);
     } else {
-        moves_by_classic(player) ? classic_plan_tick(player) : exact_plan_tick(player);
+        slow_down(player);
     }
 }
 
 /* --- a tick ------------------------------------------------------------------------------------------------------- */
 
-static uint8_t end_play(player_t *player)
+static uint8_t end_play(player_t *player, uint8_t events)
 {
     player->state = STATE_IDLE;
-    return PLAYER_EV_ENDED;
+    return events | PLAYER_EV_ENDED;
 }
 
 static uint8_t tick_of_classic(player_t *player)
 {
     /* The original finds out one tick after the last one that nothing follows. */
-    return classic_is_over(player) ? (uint8_t)(classic_last_sample(player) | end_play(player)) : classic_tick(player);
+    return classic_is_over(player) ? end_play(player, classic_last_tick(player)) : classic_tick(player);
 }
 
 static uint8_t tick_of_exact(player_t *player)
 {
     const uint8_t events = exact_tick(player);
-    if (player->law == PLAYER_LAW_CLASSIC) { /* the rest of an interrupted step */
-        if (player->tick >= player->step_ticks) {
-            classic_thaw(player);
+    if (player->law == PLAYER_LAW_CLASSIC) { /* what was left of a step after a pause */
+        if (player->tick >= player->now.ticks) {
+            classic_take_back(player);
         }
         return events;
     }
-    return exact_is_over(player) && player->next.page == 0 ? (uint8_t)(events | end_play(player)) : events;
+    return exact_is_over(player) && player->next.page == 0 ? end_play(player, events) : events;
 }
 
 static uint8_t tick_playing(player_t *player)
 {
     const uint8_t begun = player->begun_events;
     player->begun_events = 0;
-    return (uint8_t)(begun | (moves_by_classic(player) ? tick_of_classic(player) : tick_of_exact(player)));
+    return begun | (moves_by_classic(player) ? tick_of_classic(player) : tick_of_exact(player));
 }
 
 static uint8_t tick_braking(player_t *player)
@@ -242,12 +255,12 @@ static uint8_t tick_braking(player_t *player)
     if (exact_brake_tick(player)) {
         return PLAYER_EV_OUTPUT;
     }
-    player->state = STATE_STANDING;
+    player->state = STATE_STOPPED;
     switch (player->wish) {
     case WISH_BREAK:
-        return (uint8_t)(PLAYER_EV_OUTPUT | PLAYER_EV_STANDING | end_play(player));
+        return end_play(player, PLAYER_EV_OUTPUT | PLAYER_EV_STOPPED);
     case WISH_PAUSE:
-        return PLAYER_EV_OUTPUT | PLAYER_EV_STANDING;
+        return PLAYER_EV_OUTPUT | PLAYER_EV_STOPPED;
     default:
         return PLAYER_EV_OUTPUT;
     }
@@ -262,8 +275,8 @@ uint8_t player_tick(player_t *player, link_t *link)
         return tick_playing(player);
     case STATE_BRAKING:
         return tick_braking(player);
-    case STATE_STANDING:
-        return player->wish == WISH_BREAK ? (uint8_t)(PLAYER_EV_STANDING | end_play(player)) : 0;
+    case STATE_STOPPED:
+        return player->wish == WISH_BREAK ? end_play(player, PLAYER_EV_STOPPED) : 0;
     default:
         return 0;
     }
@@ -311,5 +324,5 @@ void player_drop_joints(player_t *player, uint32_t joints)
 {
     player->present &= ~joints;
     player->joints &= ~joints;
-    player->next_joints &= ~joints;
+    player->next.joints &= ~joints;
 }

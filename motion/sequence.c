@@ -1,17 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * sequence.c - which page and step comes next: repetitions, links, pages without action; reads its positions. */
+ * sequence.c - repetitions, links and pages without action decide which step comes next. */
+#include "sequence.h"
+
 #include <stddef.h>
-#include "law.h"
 #include "shape_step.h"
 
 #define HEADER_BYTES 31u /* up to the checksum */
-
-/* --- which page --------------------------------------------------------------------------------------------------- */
-
-static void read_header(const page_source_t *source, uint8_t page, uint8_t header[HEADER_BYTES])
-{
-    source->read(source->context, page, 0, header, HEADER_BYTES);
-}
 
 static uint8_t fail(player_t *player, uint8_t page, uint8_t fault)
 {
@@ -28,17 +22,18 @@ static uint8_t follow(link_t *link, uint8_t page, const uint8_t header[HEADER_BY
     return page_is_there(named) ? named : 0;
 }
 
-/* The first page with action, starting with `page` and passing over pages with PLAY_COUNT 0 along their own links.
- * Leaves its header in `header`. 0: there is none, or a fault. */
+/* The first page with action: `page`, or else the one that the links of pages with PLAY_COUNT 0 lead to. Fills in its
+ * header. 0: there is none, or a fault. */
 static uint8_t resolve(player_t *player, link_t *link, uint8_t page, uint8_t header[HEADER_BYTES])
 {
+    const page_source_t *source = player->source;
     uint8_t passed_over[PAGE_COUNT / 8] = {0};
     while (page != 0) {
-        const uint8_t status = player->source->check(player->source->context, page);
+        const uint8_t status = source->check(source->context, page);
         if (status != PAGE_OK) {
             return fail(player, page, status);
         }
-        read_header(player->source, page, header);
+        source->read(source->context, page, 0, header, HEADER_BYTES);
         if (page_is_playable(header)) {
             return page;
         }
@@ -71,13 +66,12 @@ bool sequence_start(player_t *player, link_t *link, uint8_t page)
     player->fault = PAGE_OK;
     page = resolve(player, link, page, header);
     if (page != 0) {
-        player->named_page = page;
         enter_page(player, page, header);
     }
     return page != 0;
 }
 
-/* What follows the last step of a page: the same page again, or the page at the end of its link. NOINLINE, like shape_words:
+/* `next` becomes what follows the last step of a page: the same page again, or the page that its link leads to. NOINLINE:
  * else the header's 31 bytes lie on the stack while the step is read, on the deepest path of the program. */
 static NOINLINE uint8_t decide(player_t *player, link_t *link)
 {
@@ -89,9 +83,9 @@ static NOINLINE uint8_t decide(player_t *player, link_t *link)
     }
     uint8_t header[HEADER_BYTES];
     link_taken_t taken;
-    read_header(player->source, player->now.page, header);
+    player->source->read(player->source->context, player->now.page, 0, header, HEADER_BYTES);
     const uint8_t named = follow(link, player->now.page, header, &taken);
-    player->named_page = player->next_page = named;
+    player->next_page = named;
     player->link_taken = (uint8_t)taken;
     const uint8_t page = resolve(player, link, named, header);
     player->next.page = 0;
@@ -105,7 +99,6 @@ uint8_t sequence_advance(player_t *player, link_t *link)
 {
     uint8_t events = PLAYER_EV_STEP;
     player->now = player->next;
-    player->named_page = player->now.page;
     if (player->now.step == 1) {
         events |= PLAYER_EV_PAGE;
         player->repetition = player->next_repetition;
@@ -118,11 +111,8 @@ uint8_t sequence_advance(player_t *player, link_t *link)
     return events;
 }
 
-/* --- what the step contains --------------------------------------------------------------------------------------- */
-
-/* Reads the position words of a step and shapes them. */
-static void read_words(const page_source_t *source, const shape_t *shape, uint8_t page, uint8_t step,
-                       uint16_t words[PAGE_JOINTS])
+void sequence_read_words(const page_source_t *source, const shape_t *shape, uint8_t page, uint8_t step,
+                         uint16_t words[PAGE_JOINTS])
 {
     source->read(source->context, page, (uint16_t)(PAGE_STEP_BYTES * step), words, 2u * PAGE_JOINTS);
     if (shape != NULL) {
@@ -130,25 +120,11 @@ static void read_words(const page_source_t *source, const shape_t *shape, uint8_
     }
 }
 
-uint32_t player_first_pose(const page_source_t *source, const shape_t *shape, uint8_t page, uint16_t pose_pos[PAGE_JOINTS])
-{
-    uint16_t words[PAGE_JOINTS];
-    uint32_t joints = 0;
-    read_words(source, shape, page, 1, words);
-    for (uint8_t i = PAGE_JOINTS; i-- > 0;) {
-        const bool is_used = page_pos_is_used(words[i]);
-        joints = joints << 1 | is_used;
-        pose_pos[i] = is_used ? words[i] : pose_pos[i];
-    }
-    return joints;
-}
-
-/* Page 0: no joint is used. */
-static void look_at(player_t *player, uint8_t page, uint8_t step)
+uint32_t sequence_read_positions(player_t *player, uint8_t page, uint8_t step)
 {
     uint32_t used = 0, bit = 1;
     if (page != 0) {
-        read_words(player->source, player->shape, page, step, player->next_pos);
+        sequence_read_words(player->source, player->shape, page, step, player->next_pos);
     }
     for (uint8_t i = 0; i < PAGE_JOINTS; i++, bit <<= 1) {
         if (page != 0 && page_pos_is_used(player->next_pos[i])) {
@@ -157,10 +133,10 @@ static void look_at(player_t *player, uint8_t page, uint8_t step)
             player->next_pos[i] = player->joint[i].target_pos;
         }
     }
-    player->next_joints = used & player->present;
+    return used & player->present;
 }
 
-void sequence_look(player_t *player)
+void sequence_read_next(player_t *player)
 {
     player_step_t *next = &player->next;
     const shape_t *shape = player->shape;
@@ -174,15 +150,5 @@ void sequence_look(player_t *player)
         next->pause = pause_time[0];
         next->time = pause_time[1];
     }
-    look_at(player, next->page, next->step);
-}
-
-bool sequence_looks_elsewhere(const player_t *player)
-{
-    return player->named_page != player->next.page;
-}
-
-void sequence_look_at_named(player_t *player)
-{
-    look_at(player, player->named_page, 1);
+    next->joints = sequence_read_positions(player, next->page, next->step);
 }

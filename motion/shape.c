@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "shape.h"
 
-/* 90 % of 8.7 units a tick at 11.1 V (SHAPING.md): 0.9 * 8.7 / 111 * 16 = 1.1287 sixteenths of a unit for each 0.1 V. */
-#define TOP_SPEED_NUMERATOR 289u
-#define TOP_SPEED_DENOMINATOR 256u
-
 void shape_reset(shape_t *shape)
 {
     shape->rate_percent = SHAPE_NORMAL;
@@ -66,6 +62,7 @@ shape_status_t shape_set_centre(shape_t *shape, uint8_t page)
 
 void shape_set_voltage(shape_t *shape, uint8_t decivolts)
 {
-    uint16_t top = (uint16_t)((uint32_t)decivolts * TOP_SPEED_NUMERATOR / TOP_SPEED_DENOMINATOR);
+    /* 0.9 * 8.7 / 111 * 16 = 1.1287 sixteenths of a unit for each 0.1 V; 289 / 256 = 1.1289 */
+    uint16_t top = (uint16_t)(decivolts * 289ul / 256u);
     shape->top_speed_q4_4 = top > UINT8_MAX ? UINT8_MAX : (uint8_t)top;
 }

@@ -1,16 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * shape.h - how a motion is shaped while it plays: rate, amplitude, blend, limit (SHAPING.md).
- * A step is shaped once, when the player looks at it. So a change acts from the first step that has not been looked at, two
- * steps ahead at most. Only the main play is shaped; layers play as stored. Pure; caller-owned; main loop only.
- *
- *   blend      p1 = p + W (q - p)         q: the same step and joint of the partner page, right (W > 0) or left
- *   amplitude  p2 = c + A (p1 - c)        c: the joint in the centre pose
- *   clamp      0..1023, rounded once, here, halves away from c (from p where the joint has no centre)
- *   rate       ticks / R                  of the step and of its pause
- *   limit      a step in which a joint's mean speed is above the servo's top speed is made longer
- *
- * With nothing set (shape_is_neutral) every goal is the same as without this module, bit by
- * bit. */
+ * shape.h - the settings that shape a motion while it plays: rate, amplitude, blend, limit (SHAPING.md has their formulas).
+ * A step is shaped once, when the player reads it. So a change takes effect in the first step that has not been read, two
+ * steps ahead at most. Only the main play is shaped; layers play as stored. With nothing set (shape_is_neutral) every goal
+ * is as without this module. Pure; caller-owned; main loop only. */
 #ifndef SHAPE_H
 #define SHAPE_H
 
@@ -32,7 +24,7 @@ typedef enum {
 } shape_status_t;
 
 /* Read freely; write through the functions. */
-typedef struct shape {
+typedef struct {
     uint16_t rate_percent;                       /* 10..400 */
     int8_t blend_percent;                        /* -100..100 */
     uint8_t centre_page;                         /* 1..127; 0: no centre pose, no joint is scaled */
@@ -47,19 +39,17 @@ void shape_reset(shape_t *shape);
 /* Rate, amplitude and blend 100, 100, 0; centre page 1; no limit until the voltage is known. */
 void shape_init(shape_t *shape);
 
-/* percent: see the ranges above. joints: bit per joint; at least one. */
+/* The ranges are those of shape_t. joints: bit per joint; at least one. page: 0..127. */
 MUST_CHECK shape_status_t shape_set_rate(shape_t *shape, uint16_t percent);
 MUST_CHECK shape_status_t shape_set_amplitude(shape_t *shape, uint16_t percent, uint32_t joints) NOINLINE;
 MUST_CHECK shape_status_t shape_set_blend(shape_t *shape, int16_t percent);
-
-/* 0..127. */
 MUST_CHECK shape_status_t shape_set_centre(shape_t *shape, uint8_t page);
 
 /* Sets the limit from the battery's present voltage, 0.1 V (a servo's register 42): 90 % of the top speed of an AX-12, which
  * is 8.7 units a tick at 11.1 V, in proportion to the voltage (SHAPING.md). 0: not known, no limit. */
 void shape_set_voltage(shape_t *shape, uint8_t decivolts);
 
-/* true when rate, amplitude and blend are 100, 100, 0: then no limit acts either. */
+/* true when rate, amplitude and blend are 100, 100, 0: then there is no limit either. */
 static inline bool shape_is_neutral(const shape_t *shape)
 {
     return shape->rate_percent == SHAPE_NORMAL && shape->blend_percent == 0 && !shape->scales;

@@ -1,20 +1,15 @@
 /* SPDX-License-Identifier: MIT
- * shape_step.c - blend, amplitude and clamp of a step's position words (SHAPING.md). One rounding, at the end:
+ * shape_step.c - blend, amplitude and clamp of a step's position words (SHAPING.md). It rounds once, at the end:
  *
  *   p2 = c + A (p + W (q - p) - c)        as c + d / 10000,  d = A |100 p1 - 100 c|,  100 p1 = (100 - W) p + W q in percents
  *
- * Rounded half away from c, so that a mirrored motion stays mirrored. A joint without a centre is not scaled; c is p then.
+ * Halves are rounded away from c, so that a mirrored motion stays mirrored. A joint without a centre is not scaled: c is p.
  * Ranges: 100 p1, 100 c <= 102,300; d <= 150 * 102,300 = 15,345,000. */
 #include "shape_step.h"
-#include "fix.h"
+#include "mul.h"
 
 #define WHOLE 10000u
 #define AT_ONCE 8u /* joints whose words are read together: 32 bytes of stack */
-
-static void read_header(const page_source_t *source, uint8_t page, uint8_t at, uint8_t *to, uint8_t count)
-{
-    source->read(source->context, page, at, to, count);
-}
 
 /* The number of steps of a page; 0 if there is no such page or it is damaged. */
 static uint8_t steps_of(const page_source_t *source, uint8_t page)
@@ -23,7 +18,7 @@ static uint8_t steps_of(const page_source_t *source, uint8_t page)
     if (page == 0 || !page_is_there(page) || source->check(source->context, page) != PAGE_OK) {
         return 0;
     }
-    read_header(source, page, PAGE_AT_STEPS, &steps, 1);
+    source->read(source->context, page, PAGE_AT_STEPS, &steps, 1);
     return steps;
 }
 
@@ -31,7 +26,7 @@ static uint8_t steps_of(const page_source_t *source, uint8_t page)
 static uint8_t partner_of(const shape_t *shape, const page_source_t *source, uint8_t page)
 {
     uint8_t header[PAGE_AT_STEPS + 1u - PAGE_AT_BLEND_RIGHT];
-    read_header(source, page, PAGE_AT_BLEND_RIGHT, header, sizeof header);
+    source->read(source->context, page, PAGE_AT_BLEND_RIGHT, header, sizeof header);
     const uint8_t partner = header[shape->blend_percent > 0 ? 0 : PAGE_AT_BLEND_LEFT - PAGE_AT_BLEND_RIGHT];
     return steps_of(source, partner) == header[sizeof header - 1u] ? partner : 0;
 }
@@ -53,8 +48,8 @@ static uint16_t round_to_whole(uint32_t size)
 {
     size += WHOLE / 2;
     uint16_t quotient = mul_u16_high((uint16_t)(size >> 8), 1677u);
-    uint16_t rest = (uint16_t)((uint16_t)size - (uint16_t)(quotient * WHOLE)); /* below 2 * WHOLE: 16 bits will do */
-    return rest >= WHOLE ? (uint16_t)(quotient + 1u) : quotient;
+    uint16_t left = (uint16_t)((uint16_t)size - (uint16_t)(quotient * WHOLE)); /* below 2 * WHOLE */
+    return left >= WHOLE ? (uint16_t)(quotient + 1u) : quotient;
 }
 
 static uint16_t shaped(uint16_t p, uint16_t q, uint16_t c, uint8_t amplitude, uint8_t blend)
@@ -66,7 +61,7 @@ static uint16_t shaped(uint16_t p, uint16_t q, uint16_t c, uint8_t amplitude, ui
         distance = 0 - distance;
     }
     uint32_t size = mul_u16_u8((uint16_t)distance, amplitude);
-    if ((uint8_t)(distance >> 16) != 0) { /* it has 17 bits */
+    if ((uint8_t)(distance >> 16) != 0) { /* distance has 17 bits */
         size += (uint32_t)amplitude << 16;
     }
     uint16_t whole = round_to_whole(size);
@@ -83,7 +78,7 @@ typedef struct {
     uint8_t blend;           /* 0..100, toward the partner */
 } sources_t;
 
-/* NOINLINE: see sequence.c. */
+/* NOINLINE: see decide() in sequence.c. */
 static NOINLINE void shape_words(const shape_t *shape, const page_source_t *source, const sources_t *from, uint8_t step,
                                  uint16_t words[PAGE_JOINTS])
 {

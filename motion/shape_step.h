@@ -4,7 +4,6 @@
 #ifndef SHAPE_STEP_H
 #define SHAPE_STEP_H
 
-#include "page_source.h"
 #include "shape.h"
 
 /* Blends, scales and limits the position words of step 1..7 of `page`, in place, with the present settings. Words that

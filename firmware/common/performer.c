@@ -444,7 +444,7 @@ static void approach_tick(performer_t *performer)
         go_idle(performer, performer->end_reason);
     } else if ((events & PLAYER_EV_ENDED) != 0) {
         begin(performer);
-    } else if ((events & PLAYER_EV_STANDING) != 0) {
+    } else if ((events & PLAYER_EV_STOPPED) != 0) {
         performer_event_put(&performer->events, PERFORMER_EV_PAUSED, performer->page, 0, 0);
     }
 }
@@ -460,9 +460,9 @@ static void tell(performer_t *performer, uint8_t events)
     if ((events & PLAYER_EV_LINK) != 0) {
         performer_event_put(&performer->events, PERFORMER_EV_LINK, player->next_page, player->link_taken, 0);
     }
-    if ((events & PLAYER_EV_ENDED) != 0 || ((events & PLAYER_EV_STANDING) != 0 && performer->leaving)) {
+    if ((events & PLAYER_EV_ENDED) != 0 || ((events & PLAYER_EV_STOPPED) != 0 && performer->leaving)) {
         go_idle(performer, why_ended(performer));
-    } else if ((events & PLAYER_EV_STANDING) != 0) {
+    } else if ((events & PLAYER_EV_STOPPED) != 0) {
         performer_event_put(&performer->events, PERFORMER_EV_PAUSED, performer->page, 0, 0);
     }
 }

@@ -4,7 +4,7 @@
 #include "compiler.h"
 #include "page_store.h"
 #include "shape.h"
-#include "step_plan.h"
+#include "step_ticks.h"
 
 uint16_t page_facts_word(uint8_t page, uint8_t step, uint8_t joint)
 {
@@ -32,14 +32,14 @@ static void longest_way(uint8_t page, uint8_t step, page_facts_t *facts)
 void page_facts_step(uint8_t page, uint8_t step, page_facts_t *facts)
 {
     uint8_t header[PAGE_AT_SPEED + 1u], last[2];
-    uint16_t carry_q5_11 = STEP_PLAN_CARRY_START;
+    uint16_t carry_q5_11 = STEP_TICKS_CARRY_START;
     page_store_read(page, 0, header, sizeof header);
     page_store_read(page, (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * step + PAGE_STEP_AT_PAUSE), last, sizeof last);
     player_step_t plan = { .schedule = header[PAGE_AT_SCHEDULE], .page_speed = header[PAGE_AT_SPEED],
                            .pause = last[0], .time = last[1], .rate_percent = SHAPE_NORMAL };
     longest_way(page, step, facts);
-    facts->ticks = step_plan_exact_ticks(&plan, facts->distance_pos, &carry_q5_11);
-    facts->pause_ticks = step_plan_exact_hold(&plan, &carry_q5_11);
+    facts->ticks = step_ticks_exact(&plan, facts->distance_pos, &carry_q5_11);
+    facts->pause_ticks = step_ticks_exact_hold(&plan, &carry_q5_11);
 }
 
 uint32_t page_facts_ticks(uint8_t page)
@@ -49,7 +49,7 @@ uint32_t page_facts_ticks(uint8_t page)
     uint8_t steps = page_store_byte(page, PAGE_AT_STEPS);
     for (uint8_t step = 0; step < steps; step++) {
         page_facts_step(page, step, &facts);
-        ticks += (uint16_t)(facts.ticks + facts.pause_ticks);   /* each is STEP_PLAN_TICKS_MAX at most */
+        ticks += (uint16_t)(facts.ticks + facts.pause_ticks);   /* each is STEP_TICKS_MAX at most */
     }
     return ticks;
 }

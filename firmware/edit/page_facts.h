@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * page_facts.h - computes how long a page in flash takes and how fast it gets, without playing it.
- * Reads flash through page_store.h, a word at a time. Main loop only. No RAM. The law is motion/step_plan.c. */
+ * Reads flash through page_store.h, a word at a time. Main loop only. No RAM. The law is motion/step_ticks.c. */
 #ifndef PAGE_FACTS_H
 #define PAGE_FACTS_H
 

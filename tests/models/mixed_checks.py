@@ -14,7 +14,7 @@ from tests.models import (
 )
 from tests.models.mixed_cases import LAYER_ACTIONS, SHAPE_ACTIONS, TICKS, play
 from tests.models.mixed_facts import bits, dropped, ends_of, first_difference, halts_of, in_force, is_broken, lent, owners, paused_ticks
-from tests.models.played import CLASSIC, ENDED, EXACT, JOINTS, OUTPUT, STANDING
+from tests.models.played import CLASSIC, ENDED, EXACT, JOINTS, OUTPUT, STOPPED
 from tests.models.shaped import model_pose
 
 BYTES_PAGE, UNROLLED = 512, 109  # pages that an unrolled play may have
@@ -272,7 +272,7 @@ def stands_well(case, run):
         taken_back = k > 1 and halts[k - 1] == (tick, "resume") and halts[k - 2][1] == "pause"  # a resume that no tick has seen
         if name == "resume" or was or until <= tick or taken_back:
             continue
-        stand = next((at for at in range(tick, until) if run.events[at] & (STANDING | ENDED)), until - 1)
+        stand = next((at for at in range(tick, until) if run.events[at] & (STOPPED | ENDED)), until - 1)
         if stand - tick > most:
             return f"a {name} in front of tick {tick} does not stand in tick {stand}"
         for joint in range(JOINTS):

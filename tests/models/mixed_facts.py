@@ -8,10 +8,10 @@ from tests.models import (
     shaping,
 )
 from tests.models.mixed_cases import SHAPE_ACTIONS
-from tests.models.played import ENDED, JOINTS, OUTPUT, STANDING, STEP
+from tests.models.played import ENDED, JOINTS, OUTPUT, STEP, STOPPED
 from tests.models.shaped import apply
 
-TIMING = STEP | ENDED | STANDING | OUTPUT
+TIMING = STEP | ENDED | STOPPED | OUTPUT
 
 
 def in_force(case, run):

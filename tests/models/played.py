@@ -9,7 +9,7 @@ TOP = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ.get("M512_BUILD", TOP / "build"))
 EXACT, CLASSIC = 0, 1
 JOINTS = 31
-OUTPUT, STEP, PAGE, LINK, ENDED, STANDING = 1, 2, 4, 8, 32, 64  # PLAYER_EV_ bits
+OUTPUT, STEP, PAGE, LINK, ENDED, STOPPED = 1, 2, 4, 8, 32, 64  # PLAYER_EV_ bits
 GOALS = ctypes.c_uint16 * JOINTS
 
 library = ctypes.CDLL(str(BUILD / "host" / "tests" / "models" / "libplayed.so"))

@@ -10,7 +10,7 @@ import pytest
 from m512.files.formats import load
 from m512.files.text import read_text
 from m512.motion.speed import too_fast
-from tests.models.played import ENDED, EXACT, STANDING, TOP, Played
+from tests.models.played import ENDED, EXACT, STOPPED, TOP, Played
 
 LIBRARY = load(TOP / "tools" / "motions" / "motions.m512")
 LAYERS = {"wave_over", "look", "look_ahead"}
@@ -41,7 +41,7 @@ def fastest(image, number, ticks=1500, codes=(), shape=()):
             play.code(codes[tick])
         happened = play.tick()
         rows.append(play.goals()[1:19])
-        if happened & (ENDED | STANDING):
+        if happened & (ENDED | STOPPED):
             break
     return max(abs(now - then) for row, after in zip(rows, rows[WINDOW:]) for then, now in zip(row, after)) / WINDOW
 

@@ -399,7 +399,7 @@ def test_list_shows_every_field(r):
 
 
 def test_list_shows_times_above_512_s():
-    """Seven steps at the slowest speed, whose length is cut to 32,767 ticks of 1/128 s each (motion/step_plan.h)."""
+    """Seven steps at the slowest speed, whose length is cut to 32,767 ticks of 1/128 s each (motion/step_ticks.h)."""
     slow = page("slow", [(1, {1: 0 if step % 2 else 1023}) for step in range(7)], schedule=0, speed=1)
     with robot(pages={1: slow}) as r:
         r.line("list 1")

@@ -31,15 +31,6 @@ static void test_distance_of_a_ramp_for_every_speed_and_tick(void)
     }
 }
 
-static void test_distance_of_a_fall_for_every_speed_and_length(void)
-{
-    for (int16_t speed = -SPEED_MAX; speed <= SPEED_MAX; speed++) {
-        for (int32_t ramp = 0; ramp <= 255; ramp++) {
-            TEST_ASSERT_EQUAL_INT32(((int32_t)speed * ramp * 12 / 5) >> 8, fall_distance(speed, (uint8_t)ramp));
-        }
-    }
-}
-
 static void check_share(int16_t x, uint16_t c, uint16_t num)
 {
     TEST_ASSERT_EQUAL_INT32((int32_t)x * c / num, share_of(x, part_of(c, num)));
@@ -101,7 +92,6 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_distance_of_a_ramp_for_every_speed_and_tick);
-    RUN_TEST(test_distance_of_a_fall_for_every_speed_and_length);
     RUN_TEST(test_share_of_every_distance_over_few_ticks);
     RUN_TEST(test_share_over_many_ticks);
     RUN_TEST(test_speed_units_of_every_distance);

@@ -435,7 +435,7 @@ static void test_layers_that_stand_later_than_the_walk_resume_too(void)
 {
     sparse_pages[WAVE].accel = 60;
     pause_a_wave_over_the_walk();
-    while ((tick() & PLAYER_EV_STANDING) == 0) {
+    while ((tick() & PLAYER_EV_STOPPED) == 0) {
     }
     TEST_ASSERT_TRUE(player_is_paused(&layers.play));
     layers_resume(&layers);

@@ -117,16 +117,6 @@ static void test_page_words_are_little_endian_at_documented_places(void)
     TEST_ASSERT_EQUAL_HEX16(0x4000, page_pos(page, 6, 29));
 }
 
-static void test_page_slope_is_two_to_the_nibble(void)
-{
-    TEST_ASSERT_EQUAL_UINT8(2, page_slope(1));
-    TEST_ASSERT_EQUAL_UINT8(32, page_slope(5));
-    TEST_ASSERT_EQUAL_UINT8(128, page_slope(7));
-    TEST_ASSERT_EQUAL_UINT8(32, page_slope(0));
-    TEST_ASSERT_EQUAL_UINT8(32, page_slope(8));
-    TEST_ASSERT_EQUAL_UINT8(32, page_slope(15));
-}
-
 static void test_page_is_playable_needs_steps_and_a_count(void)
 {
     page[PAGE_AT_STEPS] = 1;
@@ -146,7 +136,6 @@ int main(void)
     RUN_TEST(test_page_check_ignores_positions_of_steps_not_used);
     RUN_TEST(test_page_position_flags_release_the_joint_whatever_is_below);
     RUN_TEST(test_page_words_are_little_endian_at_documented_places);
-    RUN_TEST(test_page_slope_is_two_to_the_nibble);
     RUN_TEST(test_page_is_playable_needs_steps_and_a_count);
     return UNITY_END();
 }

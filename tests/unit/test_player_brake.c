@@ -71,8 +71,8 @@ static uint8_t expect_braking(const uint16_t *before, uint8_t end_events)
             }
             last[i] = player_goal(&player, (uint8_t)i);
         }
-        if ((events & PLAYER_EV_STANDING) != 0) {
-            TEST_ASSERT_EQUAL_HEX8(end_events, events & (PLAYER_EV_STANDING | PLAYER_EV_ENDED));
+        if ((events & PLAYER_EV_STOPPED) != 0) {
+            TEST_ASSERT_EQUAL_HEX8(end_events, events & (PLAYER_EV_STOPPED | PLAYER_EV_ENDED));
             return ticks;
         }
         TEST_ASSERT_EQUAL_HEX8(PLAYER_EV_OUTPUT, events);
@@ -92,7 +92,7 @@ static void break_at_every_tick(player_law_t law)
         player_break(&player);
         TEST_ASSERT_TRUE(player_is_moving(&player));
         TEST_ASSERT_FALSE(player_is_paused(&player));
-        TEST_ASSERT_LESS_OR_EQUAL_UINT8(ACCEL, expect_braking(before, PLAYER_EV_STANDING | PLAYER_EV_ENDED));
+        TEST_ASSERT_LESS_OR_EQUAL_UINT8(ACCEL, expect_braking(before, PLAYER_EV_STOPPED | PLAYER_EV_ENDED));
         TEST_ASSERT_FALSE(player_is_moving(&player));
         TEST_ASSERT_EQUAL_HEX8(0, player_tick(&player, &l));
     }
@@ -116,7 +116,7 @@ static uint16_t pause_and_go_on(player_law_t law, uint8_t tick)
     uint16_t before[2] = {player_goal(&player, 0), player_goal(&player, 1)}, made = tick;
     player_pause(&player);
     TEST_ASSERT_TRUE(player_is_paused(&player));
-    made = (uint16_t)(made + expect_braking(before, PLAYER_EV_STANDING));
+    made = (uint16_t)(made + expect_braking(before, PLAYER_EV_STOPPED));
     for (uint8_t i = 0; i < 5; i++) {
         TEST_ASSERT_EQUAL_HEX8(0, player_tick(&player, &l));
     }
@@ -170,7 +170,7 @@ static void resume_while_slowing_down(player_law_t law)
         TEST_ASSERT_FALSE(player_is_paused(&player));
         while ((events & PLAYER_EV_ENDED) == 0 && ticks < 1000) {
             events = player_tick(&player, &l);
-            TEST_ASSERT_EQUAL_HEX8(0, events & PLAYER_EV_STANDING);
+            TEST_ASSERT_EQUAL_HEX8(0, events & PLAYER_EV_STOPPED);
             ticks++;
         }
         TEST_ASSERT_EQUAL_UINT16(after == 0 ? plain_ticks : paused_ticks, ticks);
@@ -196,7 +196,7 @@ static void test_player_pause_takes_back_a_resume(void)
     for (uint8_t i = 0; i < ACCEL; i++) {
         events |= player_tick(&player, &l);
     }
-    TEST_ASSERT_TRUE((events & PLAYER_EV_STANDING) != 0 && player_is_paused(&player));
+    TEST_ASSERT_TRUE((events & PLAYER_EV_STOPPED) != 0 && player_is_paused(&player));
     play_to(PLAYER_LAW_EXACT, 30);
     player_pause(&player);
     player_resume(&player);
@@ -212,12 +212,12 @@ static void test_player_break_while_paused_ends_the_play_where_it_stands(void)
     uint8_t events = 0;
     play_to(PLAYER_LAW_EXACT, 30);
     player_pause(&player);
-    while ((events & PLAYER_EV_STANDING) == 0) {
+    while ((events & PLAYER_EV_STOPPED) == 0) {
         events = player_tick(&player, &l);
     }
     uint16_t at = player_goal(&player, 0);
     player_break(&player);
-    TEST_ASSERT_EQUAL_HEX8(PLAYER_EV_STANDING | PLAYER_EV_ENDED, player_tick(&player, &l));
+    TEST_ASSERT_EQUAL_HEX8(PLAYER_EV_STOPPED | PLAYER_EV_ENDED, player_tick(&player, &l));
     TEST_ASSERT_EQUAL_UINT16(at, player_goal(&player, 0));
     player_resume(&player);
     TEST_ASSERT_EQUAL_HEX8(0, player_tick(&player, &l));
@@ -249,7 +249,7 @@ static void test_player_break_stops_on_half_the_way_that_its_speed_would_take(vo
     play_to(PLAYER_LAW_EXACT, 30);
     uint16_t before[2] = {player_goal(&player, 0), player_goal(&player, 1)};
     player_break(&player);
-    (void)expect_braking(before, PLAYER_EV_STANDING | PLAYER_EV_ENDED);
+    (void)expect_braking(before, PLAYER_EV_STOPPED | PLAYER_EV_ENDED);
     TEST_ASSERT_UINT16_WITHIN(1, before[0] + 39, player_goal(&player, 0));
 }
 
@@ -269,7 +269,7 @@ static void test_player_exact_goes_on_from_any_tick_of_short_steps(void)
             steps = (uint8_t)(steps + ((player_tick(&player, &l) & PLAYER_EV_STEP) != 0));
         }
         player_pause(&player);
-        while ((events & PLAYER_EV_STANDING) == 0) {
+        while ((events & PLAYER_EV_STOPPED) == 0) {
             events = player_tick(&player, &l);
             TEST_ASSERT_EQUAL_HEX8(0, events & PLAYER_EV_STEP);
         }

@@ -94,7 +94,7 @@ static void test_player_move_is_slow_at_both_ends(void)
         TEST_ASSERT_TRUE(tick());
     }
     TEST_ASSERT_LESS_OR_EQUAL_UINT16(512 + 2, goal[1]); /* 1.6 / 32 * 36 = 1.8 units after 8 ticks */
-    while (player.tick < player.step_ticks - 8) {
+    while (player.tick < player.now.ticks - 8) {
         TEST_ASSERT_TRUE(tick());
     }
     TEST_ASSERT_GREATER_OR_EQUAL_UINT16(912 - 2, goal[1]);
@@ -177,7 +177,7 @@ static void test_player_move_break_near_the_end_goes_on_to_it(void)
 {
     to[1] = 700;
     (void)start(60);
-    while (player.tick + 10 < player.step_ticks) {
+    while (player.tick + 10 < player.now.ticks) {
         (void)tick();
     }
     player_break(&player);

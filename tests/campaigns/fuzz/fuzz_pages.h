@@ -5,7 +5,7 @@
 
 #include "fuzz.h"
 #include "page.h"
-#include "page_source.h"
+#include "page.h"
 
 #define FUZZ_PAGES 6u
 

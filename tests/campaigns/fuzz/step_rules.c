@@ -14,8 +14,8 @@ void step_rules_before(step_rules_t *rules, const player_t *player)
         return;
     }
     ASSERT(!rules->hold || rules->made_ticks == rules->step.ticks);
-    rules->step.step_ticks = player->step_ticks;
-    rules->step.ticks = (uint32_t)player->step_ticks + player->hold_ticks;
+    rules->step.step_ticks = player->now.ticks;
+    rules->step.ticks = (uint32_t)player->now.ticks + player->now.hold_ticks;
     player_goals(player, UINT32_MAX, rules->step.from_pos);
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         rules->step.to_pos[joint] = player->joint[joint].target_pos;

@@ -82,7 +82,7 @@ static uint8_t joint_of(const servo_t *servo)
 
 static uint8_t slope(uint8_t nibble)
 {
-    return page_slope(nibble >= 1 && nibble <= 7 ? nibble : DEFAULT_NIBBLE);
+    return (uint8_t)(1u << (nibble >= 1 && nibble <= 7 ? nibble : DEFAULT_NIBBLE));
 }
 
 /* Slopes and goal, as the firmware's frames carry them: high nibble clockwise, low nibble counterclockwise. */

@@ -8,7 +8,7 @@
 #include "player.h"
 #include "remote.h"
 #include "shape.h"
-#include "step_plan.h"
+#include "step_ticks.h"
 
 static struct {
     uint8_t pages[PAGE_COUNT][PAGE_BYTES];
@@ -275,23 +275,23 @@ int motion_api_step_ticks(int page, int step, int law)
         return -1;
     }
     const uint8_t *bytes = api.pages[page];
-    uint16_t pose[PAGE_JOINTS], way = 0, carry = STEP_PLAN_CARRY_START;
+    uint16_t pose[PAGE_JOINTS], way = 0, carry = STEP_TICKS_CARRY_START;
     memcpy(pose, api.pose, sizeof pose);
     for (int i = 0; i <= step; i++) {
         way = go_to_step(pose, bytes, (uint8_t)i);
     }
     player_step_t asked = step_at(bytes, step);
     if (law == 0) {
-        return step_plan_exact_ticks(&asked, way, &carry);
+        return step_ticks_exact(&asked, way, &carry);
     }
-    uint16_t ticks = step_plan_classic_ticks(&asked, way, &carry);
-    (void)step_plan_classic_ramp(asked.accel_time, &ticks);
+    uint16_t ticks = step_ticks_classic(&asked, way, &carry);
+    (void)step_ticks_classic_ramp(asked.accel_time, &ticks);
     return ticks;
 }
 
 int motion_api_pause_ticks(int page, int step, int law)
 {
-    uint16_t carry = STEP_PLAN_CARRY_START;
+    uint16_t carry = STEP_TICKS_CARRY_START;
     if (!is_step(page, step)) {
         return -1;
     }
@@ -299,7 +299,7 @@ int motion_api_pause_ticks(int page, int step, int law)
     if (asked.page_speed == 0) {
         return -1;
     }
-    return law ? step_plan_classic_hold(&asked, &carry) : step_plan_exact_hold(&asked, &carry);
+    return law ? step_ticks_classic_hold(&asked, &carry) : step_ticks_exact_hold(&asked, &carry);
 }
 
 int motion_api_start(int page, int law, int mode, int code, uint32_t present)

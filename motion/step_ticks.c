@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-#include "step_plan.h"
-
-/* Nominal: 40 units at speed 1 take 40 * 40 / 3 ticks (720 degrees/s = 256 speed units; 1024 units = 300 deg). */
+#include "step_ticks.h"
 
 /* --- rate, limit, fractions -------------------------------------------------------------------------------------- */
 
 #define TICK_BITS 11 /* lengths are in 1/2048 tick */
 
-/* length / rate, floor; of a length above LENGTH_MAX that of LENGTH_MAX. */
+/* length / rate, floor. A length above LENGTH_MAX is taken for that. */
 #define LENGTH_MAX ((uint32_t)UINT16_MAX << TICK_BITS)
 static uint32_t at_rate(uint32_t length, uint16_t rate_percent)
 {
@@ -17,7 +15,7 @@ static uint32_t at_rate(uint32_t length, uint16_t rate_percent)
     if (length > LENGTH_MAX) {
         length = LENGTH_MAX;
     }
-    bool fits = length <= UINT32_MAX / SHAPE_NORMAL; /* longer ones lose 1/20 tick */
+    bool fits = length <= UINT32_MAX / SHAPE_NORMAL; /* a longer one loses 1/20 tick */
     uint32_t quotient = (fits ? length * SHAPE_NORMAL : length) / rate_percent;
     return fits ? quotient : quotient * SHAPE_NORMAL;
 }
@@ -31,9 +29,9 @@ static uint16_t whole_ticks(uint32_t length_q21_11, const player_step_t *step, u
     }
     length += *carry_q5_11;
     const uint32_t ticks = length >> TICK_BITS;
-    if (ticks > STEP_PLAN_TICKS_MAX) {
+    if (ticks > STEP_TICKS_MAX) {
         *carry_q5_11 = 0;
-        return STEP_PLAN_TICKS_MAX;
+        return STEP_TICKS_MAX;
     }
     *carry_q5_11 = (uint16_t)length & ((1u << TICK_BITS) - 1u);
     return (uint16_t)ticks;
@@ -64,7 +62,7 @@ static uint16_t stored_classic_ticks(const player_step_t *step, uint16_t longest
 /* The shortest step that rule 6 does not skip. */
 #define CLASSIC_SHORTEST 3u
 
-uint16_t step_plan_classic_ticks(const player_step_t *step, uint16_t longest_distance, uint16_t *carry_q5_11)
+uint16_t step_ticks_classic(const player_step_t *step, uint16_t longest_distance, uint16_t *carry_q5_11)
 {
     uint16_t stored = stored_classic_ticks(step, longest_distance), ticks = stored;
     uint16_t least = least_ticks(step, longest_distance);
@@ -75,13 +73,13 @@ uint16_t step_plan_classic_ticks(const player_step_t *step, uint16_t longest_dis
     if (ticks < least) {
         ticks = least;
     }
-    return ticks > STEP_PLAN_CLASSIC_MAX ? STEP_PLAN_CLASSIC_MAX : ticks;
+    return ticks > STEP_TICKS_CLASSIC_MAX ? STEP_TICKS_CLASSIC_MAX : ticks;
 }
 
-uint16_t step_plan_classic_hold(const player_step_t *step, uint16_t *carry_q5_11)
+uint16_t step_ticks_classic_hold(const player_step_t *step, uint16_t *carry_q5_11)
 {
     if (step->pause == 0) {
-        return 0; /* spares the usual case a division */
+        return 0; /* spares the usual case two divisions */
     }
     uint16_t pause = (uint16_t)((uint16_t)(step->pause << 5) / step->page_speed);
     if (step->rate_percent == SHAPE_NORMAL) {
@@ -90,7 +88,7 @@ uint16_t step_plan_classic_hold(const player_step_t *step, uint16_t *carry_q5_11
     return whole_ticks((uint32_t)pause << TICK_BITS, step, 0, carry_q5_11);
 }
 
-uint8_t step_plan_classic_ramp(uint8_t accel_time, uint16_t *ticks)
+uint8_t step_ticks_classic_ramp(uint8_t accel_time, uint16_t *ticks)
 {
     if (*ticks > 2u * accel_time) {
         return accel_time;
@@ -120,13 +118,13 @@ static uint32_t stored_exact_length(const player_step_t *step, uint16_t longest_
     return (longest_distance * (uint32_t)(1280ul << TICK_BITS)) / ((uint32_t)3 * product);
 }
 
-uint16_t step_plan_exact_ticks(const player_step_t *step, uint16_t longest_distance, uint16_t *carry_q5_11)
+uint16_t step_ticks_exact(const player_step_t *step, uint16_t longest_distance, uint16_t *carry_q5_11)
 {
     const uint16_t least = least_ticks(step, longest_distance);
     return whole_ticks(stored_exact_length(step, longest_distance), step, least != 0 ? least : 1u, carry_q5_11);
 }
 
-uint16_t step_plan_exact_hold(const player_step_t *step, uint16_t *carry_q5_11)
+uint16_t step_ticks_exact_hold(const player_step_t *step, uint16_t *carry_q5_11)
 {
     if (step->pause == 0) {
         return 0;

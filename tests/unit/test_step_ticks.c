@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT
- * test_step_plan.c - how long a step and its pause take (PAGE_FORMAT.md; LAWS.md, section 1 rules 3 and 5, section 2 rule
+ * test_step_ticks.c - how long a step and its pause take (PAGE_FORMAT.md; LAWS.md, section 1 rules 3 and 5, section 2 rule
  * 1): lengths by hand, and plays of the longest there are. */
 #include <stdlib.h>
 #include "sparse_pages.h"
-#include "step_plan.h"
+#include "step_ticks.h"
 #include "unity.h"
 
 #define BASE_TIME PAGE_SCHEDULE_TIME
 #define BASE_SPEED PAGE_SCHEDULE_SPEED
-#define MOST STEP_PLAN_TICKS_MAX
+#define MOST STEP_TICKS_MAX
 
 /* A step of `way` units with its pause, and what it takes. */
 typedef struct {
@@ -31,7 +31,7 @@ static const length_t lengths[] = {
     {PLAYER_LAW_EXACT, BASE_SPEED, 1, 1, 255, 10, 1000, MOST, MOST},      /* 4,266,666 and 81,600 */
     {PLAYER_LAW_EXACT, BASE_SPEED, 1, 255, 255, 10, 2, 33, MOST},         /* 40 * 2 * 32 / (3 * 255) / 10 % */
     {PLAYER_LAW_CLASSIC, BASE_SPEED, 1, 1, 255, 100, 1000, 13333, 8160},
-    {PLAYER_LAW_CLASSIC, BASE_SPEED, 1, 1, 255, 10, 1000, STEP_PLAN_CLASSIC_MAX, MOST},
+    {PLAYER_LAW_CLASSIC, BASE_SPEED, 1, 1, 255, 10, 1000, STEP_TICKS_CLASSIC_MAX, MOST},
     {PLAYER_LAW_CLASSIC, BASE_TIME, 1, 255, 255, 10, 300, 70, MOST},      /* 255 / 32 = 7, / 10 % */
 };
 #define LENGTHS (sizeof lengths / sizeof lengths[0])
@@ -54,18 +54,18 @@ void tearDown(void)
 
 static uint16_t step_ticks(const length_t *length, const player_step_t *step)
 {
-    uint16_t carry = STEP_PLAN_CARRY_START;
-    return length->law == PLAYER_LAW_EXACT ? step_plan_exact_ticks(step, length->way, &carry)
-                                           : step_plan_classic_ticks(step, length->way, &carry);
+    uint16_t carry = STEP_TICKS_CARRY_START;
+    return length->law == PLAYER_LAW_EXACT ? step_ticks_exact(step, length->way, &carry)
+                                           : step_ticks_classic(step, length->way, &carry);
 }
 
 static uint16_t pause_ticks(const length_t *length, const player_step_t *step)
 {
-    uint16_t carry = STEP_PLAN_CARRY_START;
-    return length->law == PLAYER_LAW_EXACT ? step_plan_exact_hold(step, &carry) : step_plan_classic_hold(step, &carry);
+    uint16_t carry = STEP_TICKS_CARRY_START;
+    return length->law == PLAYER_LAW_EXACT ? step_ticks_exact_hold(step, &carry) : step_ticks_classic_hold(step, &carry);
 }
 
-static void test_step_plan_lengths_by_hand(void)
+static void test_step_ticks_lengths_by_hand(void)
 {
     for (const length_t *length = lengths; length < &lengths[LENGTHS]; length++) {
         const player_step_t step = {.schedule = length->schedule, .page_speed = length->page_speed, .pause = length->pause,
@@ -92,7 +92,7 @@ static uint32_t play_first_step(const length_t *length)
 }
 
 /* The second step is as slow, so a first one that is cut short shows as a leap or as a length. */
-static void test_step_plan_longest_steps_are_played_whole(void)
+static void test_step_ticks_longest_steps_are_played_whole(void)
 {
     for (const length_t *length = lengths; length < &lengths[LENGTHS]; length++) {
         setUp();
@@ -112,7 +112,7 @@ static void test_step_plan_longest_steps_are_played_whole(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_step_plan_lengths_by_hand);
-    RUN_TEST(test_step_plan_longest_steps_are_played_whole);
+    RUN_TEST(test_step_ticks_lengths_by_hand);
+    RUN_TEST(test_step_ticks_longest_steps_are_played_whole);
     return UNITY_END();
 }
