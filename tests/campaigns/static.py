@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What can be seen without running anything: in the sources, and in the images as they are shipped.
 
-Every check is a command of its own (tools/dev/lint, check_layers, check_spm, check_symbols, size_report), a ctest by its name,
+Every check is a command of its own (tools/dev/lint, check_layers, check_images, size_report), a ctest by its name,
 and has tests in tools/dev/tests that show that it bites.
 """
 
@@ -100,11 +100,11 @@ def circle_figure():
 def spm_figure():
     """Only the loader can write flash."""
     tests = [path for path in sorted((proof.BUILD / "firmware" / "tests").glob("*.elf")) if path.stem not in ("factory", "mailbox")]
-    kept, text = command(TOOLS / "check_spm", *IMAGES, *tests)
+    kept, text = command(TOOLS / "check_images", *IMAGES, *tests)
     count = {name: int(number) for name, number in re.findall(r"(boot-\w+)\.elf: (\d+) SPM", text)}
     return proof.Figure(
         "Only the boot loader can write flash, in one function",
-        "tools/dev/check_spm: every SPM instruction in the disassembly of every image",
+        "tools/dev/check_images: every SPM instruction in the disassembly of every image",
         f"{len(IMAGES) + len(tests)} images; "
         + ", ".join(f"{name}: {n}" for name, n in count.items())
         + " SPM, all in boot_write_page; none elsewhere"
@@ -116,11 +116,11 @@ def spm_figure():
 
 def symbol_figure():
     """Nothing that has no bound."""
-    kept, text = command(TOOLS / "check_symbols", *IMAGES)
+    kept, text = command(TOOLS / "check_images", *IMAGES)
     total = sum(int(number) for number in re.findall(r"(\d+) symbols", text))
     return proof.Figure(
         "No image has dynamic memory, floating point, formats, jumps out of functions, or string functions without a bound",
-        "tools/dev/check_symbols: the symbols of the linked images (malloc, __addsf3, printf, longjmp, strcpy, ...)",
+        "tools/dev/check_images: the symbols of the linked images (malloc, __addsf3, printf, longjmp, strcpy, ...)",
         f"{len(IMAGES)} images, {total} symbols: none" if kept else last_lines(text),
         kept,
     )
