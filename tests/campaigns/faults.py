@@ -28,7 +28,7 @@ TALKS_INTO_FRAMES = {"late", "late-2"}  # such an answer may spoil a frame on th
 LAST_STEP_MAX = 2  # before it stands
 POSE_ERROR_MAX = 4
 OUT_MS = 50  # between the sentence and the last goal that may still have been on its way
-SAMPLE = 30  # states, when only a sample is asked for
+SAMPLE = 12  # states, when only a sample is asked for
 PASSING = {"blink", "late", "late-2"}  # a servo with one of these may answer again by itself
 SITUATIONS = {
     f"{image}.{state}": (robot, words)
@@ -281,7 +281,7 @@ def run(options):
         laid = [name for name in names if name.startswith("play.layer")]
         others = [name for name in names if name not in laid]
         chance = random.Random(options.seed)
-        names = sorted(chance.sample(others, SAMPLE) + chance.sample(laid, SAMPLE // 10))
+        names = sorted(chance.sample(others, SAMPLE) + chance.sample(laid, 2))
     kept = proof.Kept("faults", options.keep and not options.sample)
     results = dict(zip(names, kept.each(work, names, "states", options.jobs)))
     kept.finish()
