@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * performer.c - the life of a play and of a move: start, approach, tick, stop, pause, end. performer_ready.c asks the servos
- * before it, performer_watch.c judges their faults, performer_shape.h has layers and driving by a program. */
+ * performer.c - the life of a play and of a move: start, approach, tick, stop, pause, end. performer_watch.c judges the faults
+ * of servos; performer_shape.h has layers and driving by a program. */
 #include "performer.h"
 
 #include <string.h>
 #include "bus.h"
-#include "performer_ready.h"
 #include "performer_shape.h"
 #include "performer_watch.h"
 #include "system.h"
@@ -77,6 +76,20 @@ static performer_status_t somebody_can_move(const performer_t *performer)
     return performer_usable(performer) == 0 ? PERFORMER_ERR_RELEASED : PERFORMER_OK;
 }
 
+/* Begins the state READY. */
+static void get_ready(performer_t *performer)
+{
+    performer->ready_left = performer_usable(performer);
+    performer->joints = 0;
+    performer->faulty = 0;
+    performer->leaving = false;
+    performer->battery_reported = false;
+    performer->heat_reported = false;
+    performer->since_stop_ticks = UINT8_MAX;
+    performer->end_reason = PERFORMER_END_DONE;
+    performer->state = PERFORMER_READY;
+}
+
 static performer_status_t refusal(performer_t *performer, player_status_t status)
 {
     performer->fault = performer->player.fault;
@@ -112,8 +125,7 @@ performer_status_t performer_start(performer_t *performer, uint8_t page, uint8_t
     call_link(performer, code);
     performer->page = page;
     performer->move_deg_s = 0;
-    performer->since_stop_ticks = UINT8_MAX;
-    performer_get_ready(performer);
+    get_ready(performer);
     return PERFORMER_OK;
 }
 
@@ -128,8 +140,7 @@ performer_status_t performer_move(performer_t *performer, const uint16_t to_pos[
     performer->page = 0;
     performer->move_deg_s = deg_s;
     performer->move_joints = joints;
-    performer->since_stop_ticks = UINT8_MAX;
-    performer_get_ready(performer);
+    get_ready(performer);
     return PERFORMER_OK;
 }
 
@@ -331,26 +342,73 @@ static void begin(performer_t *performer)
     performer_layers_plan(performer);
 }
 
+/* READY: asks one servo. false: it does not answer, and the rule for faults ends the play. */
+static bool ask_one_joint(performer_t *performer)
+{
+    const uint8_t id = servo_link_lowest(&performer->ready_left);
+    const uint32_t joint = servo_link_bit(id);
+    const bool of_layer = (performer_layers_joints(performer) & joint) != 0;
+    servo_link_put(&performer->ready_left, id, false);
+    if (!of_layer && servo_link_engage(performer->servos, joint) == 0) {
+        servo_link_put(&performer->faulty, id, true);
+        performer_event_put(&performer->events, PERFORMER_EV_SILENT, id, 0, 0);
+        return performer->settings->fault_rule == SETTINGS_FAULT_LIMP;
+    }
+    if (!of_layer) {   /* else its goal is its place */
+        performer->goal_pos[id] = performer->servos->present_pos[id];
+    }
+    servo_link_put(&performer->joints, id, true);
+    return true;
+}
+
+/* Puts the target of the approach into next_pos: the positions of the first step. (The pose of a move is there already.)
+ * Returns the joints that have one. */
+static uint32_t take_first_pose(performer_t *performer)
+{
+    uint16_t *to_pos = performer->player.next_pos;
+    uint32_t joints = performer->move_joints;
+    if (performer->move_deg_s == 0) {
+        joints = player_first_pose(performer->source, &performer->shape, performer->first_page, to_pos);
+    }
+    return joints & performer->joints & ~performer_layers_joints(performer);
+}
+
+/* false: there is no approach, or the joints are where it ends. */
+static bool plan_approach(performer_t *performer)
+{
+    const uint16_t limit_deg_s = performer->move_deg_s != 0 ? performer->move_deg_s
+                                                            : performer->settings->approach_deg_s;
+    if (limit_deg_s == 0) {
+        return false;
+    }
+    const uint32_t joints = take_first_pose(performer);
+    const uint16_t ticks = player_move(&performer->player, performer->goal_pos, joints, limit_deg_s);
+    if (ticks == 0) {
+        return false;
+    }
+    const uint16_t seconds = (uint16_t)((ticks + PLAYER_TICKS_PER_SECOND - 1) / PLAYER_TICKS_PER_SECOND);
+    performer_event_put(&performer->events, PERFORMER_EV_APPROACH, performer->page,
+                        (uint8_t)(seconds > UINT8_MAX ? UINT8_MAX : seconds), 0);
+    return true;
+}
+
 static void poll_ready(performer_t *performer)
 {
     if (performer->leaving) {
         go_idle(performer, performer->end_reason);
-        return;
-    }
-    switch (performer_ready_poll(performer)) {
-    case READY_SILENT:
+    } else if (performer->ready_left != 0) {
+        if (!ask_one_joint(performer)) {
+            go_idle(performer, PERFORMER_END_SERVO);
+        }
+    } else if (performer->joints == 0) {
         go_idle(performer, PERFORMER_END_SERVO);
-        break;
-    case READY_APPROACH:
+    } else {
         tick_forgive();   /* asking a servo may take long, and nothing has moved */
-        performer->state = PERFORMER_APPROACH;
-        break;
-    case READY_THERE:
-        tick_forgive();
-        begin(performer);
-        break;
-    default:
-        break;
+        if (plan_approach(performer)) {
+            performer->state = PERFORMER_APPROACH;
+        } else {
+            begin(performer);
+        }
     }
 }
 

@@ -3,7 +3,7 @@
  * (motion/SHAPING.md). Rate, amplitude and blend are set directly in performer.shape (shape.h).
  * Main loop only. RAM: layers_t, the image's.
  *
- * An image without layers links performer_layers_none.c, one without driving performer_drive_none.c. */
+ * An image without this links performer_shape_none.c. */
 #ifndef PERFORMER_SHAPE_H
 #define PERFORMER_SHAPE_H
 

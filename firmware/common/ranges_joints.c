@@ -9,25 +9,23 @@
 bool ranges_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joints)
 {
     for (uint8_t i = first; i < args->count; i++) {
-        char *dash = strchr(shell_word(args, i), '-');   /* the line is RAM of the caller: it may be cut here */
+        const char *first_id = shell_word(args, i), *last_id = first_id;
+        char *dash = strchr(first_id, '-');   /* the line is RAM of the caller: it may be cut here */
         uint16_t from, to;
         if (dash != NULL) {
             *dash = '\0';
+            last_id = dash + 1;
         }
-        if (!shell_take(args, i, RANGE_ID, &from)) {
+        if (!shell_take_word(first_id, args->hex, RANGE_ID, &from) || !shell_take_word(last_id, args->hex, RANGE_ID, &to)) {
             return false;
         }
-        to = from;
         if (dash != NULL) {
-            const shell_args_t last = {.words = dash + 1, .count = 1, .hex = args->hex};
-            if (!shell_take(&last, 0, RANGE_ID, &to)) {
-                return false;
-            }
             *dash = '-';   /* shell_word finds the words after it by counting NULs */
         }
-        servo_link_put(joints, (uint8_t)to, true);
-        for (; from != to; from = from < to ? from + 1u : from - 1u) {
-            servo_link_put(joints, (uint8_t)from, true);
+        for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
+            if ((id >= from && id <= to) || (id >= to && id <= from)) {
+                servo_link_put(joints, id, true);
+            }
         }
     }
     return true;

@@ -88,26 +88,23 @@ const char *report_board_P(const app_record_t *record)
 
 void report_joints(uint32_t joints)
 {
-    uint8_t run = 0; /* joints in a row so far: 0, 1, or 2 for two and more */
     if (joints == 0) {
         TEXT("none");
-        return;
     }
-    for (uint8_t id = 0; joints != 0 || run > 1; id++, joints >>= 1) {
-        if ((joints & 1u) != 0) {
-            if (run == 0) {
-                text_number(id);
-            }
-            run = run == 0 ? 1 : 2;
-            continue;
+    while (joints != 0) {
+        const uint8_t first = servo_link_lowest(&joints);
+        uint8_t last = first;
+        for (uint8_t id = first; servo_link_has(&joints, id); id++) {
+            servo_link_put(&joints, id, false);
+            last = id;
         }
-        if (run > 1) {
+        text_number(first);
+        if (last != first) {
             text_put('-');
-            text_number((uint16_t)(id - 1u));
+            text_number(last);
         }
-        if (run > 0 && joints != 0) {
+        if (joints != 0) {
             text_put(' ');
         }
-        run = 0;
     }
 }

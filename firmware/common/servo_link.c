@@ -57,19 +57,13 @@ uint16_t servo_link_to_page(const servo_link_t *link, uint8_t id, uint16_t servo
     return limited((int16_t)servo_pos - link->trim_pos[id]);
 }
 
-uint32_t servo_link_set_trim(servo_link_t *link, const int16_t trim_pos[SERVO_LINK_JOINTS])
+void servo_link_set_trim(servo_link_t *link, const int16_t trim_pos[SERVO_LINK_JOINTS])
 {
-    uint32_t refused = 0;
     memset(link->present_pos, 0xFF, sizeof link->present_pos);
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
-        int16_t trim = trim_pos == NULL ? 0 : trim_pos[id];
-        if (trim > SERVO_LINK_TRIM_MAX || trim < -SERVO_LINK_TRIM_MAX) {
-            servo_link_put(&refused, id, true);
-            trim = 0;
-        }
-        link->trim_pos[id] = trim;
+        const int16_t trim = trim_pos == NULL ? 0 : trim_pos[id];
+        link->trim_pos[id] = trim > SERVO_LINK_TRIM_MAX || trim < -SERVO_LINK_TRIM_MAX ? 0 : trim;
     }
-    return refused;
 }
 
 /* ---- goals and slopes ---- */

@@ -58,7 +58,6 @@ typedef struct {
     uint32_t no_sync;         /* present, but deaf to SYNC WRITE: served by REG WRITE and ACTION */
     uint32_t no_reply;        /* present, but answers READ only (status return level 1) */
     uint32_t slow;            /* answered at 57,142 bps: reported, not used (the monitor image makes them fast) */
-    uint32_t mute;            /* answers PING but no READ (status return level 0): reported, not used */
     uint8_t voltage_dv;       /* lowest voltage heard in the last full round, 0.1 V; 0: none yet */
     uint8_t hottest_degrees;  /* highest temperature heard in the last full round, and whose it was */
     uint8_t hottest_id;
@@ -116,9 +115,9 @@ void servo_link_quiet(servo_link_t *link);
 uint16_t servo_link_to_servo(const servo_link_t *link, uint8_t id, uint16_t pos);
 uint16_t servo_link_to_page(const servo_link_t *link, uint8_t id, uint16_t servo_pos);
 
-/* Sets the offsets added to each goal (page_store_trim); NULL: none. An offset beyond +-SERVO_LINK_TRIM_MAX is taken for 0;
- * returns the joints with such an offset. Drops all poses read before. */
-uint32_t servo_link_set_trim(servo_link_t *link, const int16_t trim_pos[SERVO_LINK_JOINTS]);
+/* Sets the offsets added to each goal (page_store_trim); NULL: none. An offset beyond +-SERVO_LINK_TRIM_MAX is taken for 0.
+ * Drops all poses read before. */
+void servo_link_set_trim(servo_link_t *link, const int16_t trim_pos[SERVO_LINK_JOINTS]);
 
 /* Writes `count` (1..4) bytes from address `at` on to a servo that is present; blocks 0.4..0.9 ms. Call servo_link_quiet
  * first. For the RAM area (address 24 on). false: no answer, or the servo answered that it did not obey, or, if it does not
@@ -154,8 +153,8 @@ uint32_t servo_link_torque_on(servo_link_t *link, uint32_t ids);
  * did; the others count as off as well, until a poll tells otherwise. */
 uint32_t servo_link_torque_off(servo_link_t *link, uint32_t ids);
 
-/* Sets the moving speed to 0, which means full speed. Call it after moves with a speed of their own. Returns those that have
- * taken it. */
-uint32_t servo_link_full_speed(servo_link_t *link, uint32_t ids);
+/* Makes servos ready for goals that come a tick apart: switches torque on as above, reads the pose, and sets the moving speed
+ * to 0, which means full speed (a single move may have set a slow one). 4 ms a servo. Returns those of `ids` that are ready. */
+uint32_t servo_link_engage(servo_link_t *link, uint32_t ids);
 
 #endif

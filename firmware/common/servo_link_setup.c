@@ -139,9 +139,7 @@ void servo_link_scan(servo_link_t *link)
     bus_set_rate(BUS_RATE_57142);
     link->slow = for_each(link, SERVO_LINK_ALL, ping);
     bus_set_rate(BUS_RATE_1M);
-    uint32_t found = for_each(link, SERVO_LINK_ALL, ping);
-    link->present = for_each(link, found, look_at_level);
-    link->mute = found & ~link->present;
+    link->present = for_each(link, for_each(link, SERVO_LINK_ALL, ping), look_at_level);
     sync_write(link->present, DXL_AT_LED, 1);
     link->no_sync = for_each(link, link->present, is_led_dark);
     sync_write(link->present, DXL_AT_LED, 0);
@@ -228,12 +226,12 @@ uint32_t servo_link_torque_off(servo_link_t *link, uint32_t ids)
     return for_present(link, ids, torque_off);
 }
 
-static bool full_speed(servo_link_t *link, uint8_t id)
+static bool engage(servo_link_t *link, uint8_t id)
 {
-    return write_one(link, id, DXL_AT_SPEED, 0, 2);
+    return torque_on(link, id) && write_one(link, id, DXL_AT_SPEED, 0, 2);
 }
 
-uint32_t servo_link_full_speed(servo_link_t *link, uint32_t ids)
+uint32_t servo_link_engage(servo_link_t *link, uint32_t ids)
 {
-    return for_present(link, ids, full_speed);
+    return for_present(link, ids, engage);
 }

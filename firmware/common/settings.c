@@ -75,23 +75,27 @@ static bool is_sound(const settings_t *settings)
     return true;
 }
 
-/* Reads one copy. false: not a good record. *magic is its first byte in either case. */
-static bool load_copy(uint8_t copy, uint8_t *magic, uint8_t *sequence, settings_t *settings)
+/* Reads one copy; a setting that it lacks has its default. */
+static settings_status_t load_copy(uint8_t copy, uint8_t *sequence, settings_t *settings)
 {
-    uint8_t bytes[COPY_BYTES];
-    head_t head;
-    eeprom_read(copy_addr(copy), bytes, sizeof bytes);
-    memcpy(&head, bytes, sizeof head);
-    *magic = head.magic;
-    *sequence = head.sequence;
-    if (head.magic != MAGIC || head.layout != LAYOUT || head.body_bytes > BODY_BYTES_MAX) {
-        return false;
+    struct {
+        head_t head;
+        uint8_t rest[COPY_BYTES - sizeof(head_t)];
+    } record;
+    eeprom_read(copy_addr(copy), &record, sizeof record);
+    const uint8_t bytes = record.head.body_bytes;
+    if (record.head.magic == NO_MAGIC) {
+        return SETTINGS_EMPTY;
     }
-    const uint8_t crc_at = sizeof head + head.body_bytes;
-    const uint16_t crc = crc16_bytes(CRC16_START, bytes, crc_at);
+    if (record.head.magic != MAGIC || record.head.layout != LAYOUT || bytes > BODY_BYTES_MAX) {
+        return SETTINGS_DAMAGED;
+    }
+    const uint16_t crc = crc16_bytes(CRC16_START, &record, sizeof record.head + bytes);
+    *sequence = record.head.sequence;
     settings_defaults(settings);
-    memcpy(settings, bytes + sizeof head, head.body_bytes < sizeof *settings ? head.body_bytes : sizeof *settings);
-    return bytes[crc_at] == (uint8_t)crc && bytes[crc_at + 1u] == (uint8_t)(crc >> 8) && is_sound(settings);
+    memcpy(settings, record.rest, bytes < sizeof *settings ? bytes : sizeof *settings);
+    return crc == (record.rest[bytes] | (uint16_t)record.rest[bytes + 1u] << 8) && is_sound(settings) ? SETTINGS_OK
+                                                                                                     : SETTINGS_DAMAGED;
 }
 
 settings_status_t settings_load(settings_store_t *store, settings_t *settings)
@@ -103,17 +107,14 @@ settings_status_t settings_load(settings_store_t *store, settings_t *settings)
     settings_defaults(settings);
     for (uint8_t copy = 0; copy < 2u; copy++) {
         settings_t loaded;
-        uint8_t magic, sequence;
-        if (load_copy(copy, &magic, &sequence, &loaded)) {
-            if (status != SETTINGS_OK || (int8_t)(sequence - store->sequence) > 0) {
-                *settings = loaded;
-                store->copy = copy;
-                store->sequence = sequence;
-            }
-            status = SETTINGS_OK;
-        } else if (status == SETTINGS_EMPTY && magic != NO_MAGIC) {
-            status = SETTINGS_DAMAGED;
+        uint8_t sequence;
+        const settings_status_t of_copy = load_copy(copy, &sequence, &loaded);
+        if (of_copy == SETTINGS_OK && (status != SETTINGS_OK || (int8_t)(sequence - store->sequence) > 0)) {
+            *settings = loaded;
+            store->copy = copy;
+            store->sequence = sequence;
         }
+        status = status == SETTINGS_EMPTY || of_copy == SETTINGS_OK ? of_copy : status;
     }
     return status;
 }
@@ -212,25 +213,16 @@ bool settings_set(settings_t *settings, const settings_item_t *item, uint16_t va
     return true;
 }
 
-static void unpair(settings_t *settings, uint8_t joint)
+void settings_pair(settings_t *settings, uint8_t a, uint8_t b)
 {
-    uint8_t partner = settings->pair[joint];
-    if (partner < SETTINGS_JOINTS) {
-        settings->pair[partner] = SETTINGS_NO_PARTNER;
+    for (uint8_t joint = 0; joint < SETTINGS_JOINTS; joint++) {
+        const uint8_t partner = settings->pair[joint];
+        if (joint == a || joint == b || partner == a || partner == b) {
+            settings->pair[joint] = SETTINGS_NO_PARTNER;
+        }
     }
-    settings->pair[joint] = SETTINGS_NO_PARTNER;
-}
-
-bool settings_pair(settings_t *settings, uint8_t a, uint8_t b)
-{
-    if (a >= SETTINGS_JOINTS || b >= SETTINGS_JOINTS) {
-        return false;
-    }
-    unpair(settings, a);
-    unpair(settings, b);
     if (a != b) {
         settings->pair[a] = b;
         settings->pair[b] = a;
     }
-    return true;
 }

@@ -109,7 +109,7 @@ uint8_t settings_value(const settings_t *settings, const settings_item_t *item);
 /* false: out of range (low..high), nothing changed. */
 MUST_CHECK bool settings_set(settings_t *settings, const settings_item_t *item, uint16_t value);
 
-/* Makes a and b (0..30) partners; a == b: no partner. Former partners are left without one. false: out of range. */
-MUST_CHECK bool settings_pair(settings_t *settings, uint8_t a, uint8_t b);
+/* Makes a and b (0..30) partners; a == b: no partner. Former partners are left without one. */
+void settings_pair(settings_t *settings, uint8_t a, uint8_t b);
 
 #endif

@@ -96,6 +96,7 @@ void shell_print_range(const char *what_P, int16_t min, int16_t max, bool hex);
 /* Parses word `index` as a number within shell_range_P(range); with a minus if the range has negative numbers. Prints
  * nothing. false: *value is untouched; the handler returns SHELL_ERR_RANGE, and shell_print_range_error prints the range. */
 MUST_CHECK bool shell_take(const shell_args_t *args, uint8_t index, uint8_t range, uint16_t *value);
+MUST_CHECK bool shell_take_word(const char *word, bool hex, uint8_t range, uint16_t *value);
 void shell_print_range_error(void);
 
 #define SHELL_ANY_ARGS 15u

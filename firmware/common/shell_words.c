@@ -103,13 +103,17 @@ void shell_print_range(const char *what_P, int16_t min, int16_t max, bool hex)
 
 bool shell_take(const shell_args_t *args, uint8_t index, uint8_t range, uint16_t *value)
 {
+    return shell_take_word(shell_word(args, index), args->hex, range, value);
+}
+
+bool shell_take_word(const char *word, bool hex, uint8_t range, uint16_t *value)
+{
     uint16_t size;
     const shell_range_t *range_P = shell_range_P(range);
-    const char *word = shell_word(args, index);
     const bool negative = *word == '-';
     checked.range_P = range_P;
-    checked.hex = args->hex;
-    if (!shell_parse(word + negative, args->hex, &size) || size > INT16_MAX) {
+    checked.hex = hex;
+    if (!shell_parse(word + negative, hex, &size) || size > INT16_MAX) {
         return false;
     }
     const int16_t number = negative ? -(int16_t)size : (int16_t)size;

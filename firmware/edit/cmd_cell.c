@@ -100,10 +100,8 @@ static void toggle_pose(void)
     uint16_t word = session_pose(joint);
     if (!robot_has(joint)) {
         session_set_pose(joint, word ^ PAGE_POS_TORQUE_OFF);
-    } else if (cell_is_off(word)) {
-        robot_on(servo_link_bit(joint));
     } else {
-        robot_off(servo_link_bit(joint));
+        robot_switch(servo_link_bit(joint), cell_is_off(word));
     }
 }
 

@@ -101,7 +101,7 @@ COMMAND(cmd_pairs)
         if (!shell_take(args, 1, RANGE_ID, &a) || !shell_take(args, 2, RANGE_ID, &b)) {
             return SHELL_ERR_RANGE;
         }
-        (void)!settings_pair(&the_settings, (uint8_t)a, (uint8_t)b);
+        settings_pair(&the_settings, (uint8_t)a, (uint8_t)b);
     }
     if (args->count > 1) {
         settings_save_start(&the_settings_store);
@@ -112,34 +112,24 @@ COMMAND(cmd_pairs)
 
 /* ---- torque ---- */
 
-/* The joints that the line names; without any, all present joints. */
-static bool take_joints(const shell_args_t *args, uint32_t *joints)
+/* Switches the joints that the line names; without any, all present joints. */
+static uint8_t switch_named(const shell_args_t *args, bool on)
 {
-    uint32_t there = the_servos.present;
-    *joints = args->count > 1 ? 0 : there;
-    if (!ranges_take_joints(args, 1, joints)) {
-        return false;
+    uint32_t joints = args->count > 1 ? 0 : the_servos.present;
+    if (!ranges_take_joints(args, 1, &joints)) {
+        return SHELL_ERR_RANGE;
     }
-    dialog_tell_joints(TEXT_P("Not there"), *joints & ~there);
-    return true;
+    dialog_tell_joints(TEXT_P("Not there"), joints & ~the_servos.present);
+    robot_switch(joints, on);
+    return SHELL_OK;
 }
 
 COMMAND(cmd_on)
 {
-    uint32_t joints;
-    if (!take_joints(args, &joints)) {
-        return SHELL_ERR_RANGE;
-    }
-    robot_on(joints);
-    return SHELL_OK;
+    return switch_named(args, true);
 }
 
 COMMAND(cmd_off)
 {
-    uint32_t joints;
-    if (!take_joints(args, &joints)) {
-        return SHELL_ERR_RANGE;
-    }
-    robot_off(joints);
-    return SHELL_OK;
+    return switch_named(args, false);
 }

@@ -24,8 +24,8 @@ static uint16_t share_of(uint16_t whole, uint8_t percent)
 
 uint16_t page_edit_between(uint16_t a, uint16_t b, uint8_t percent)
 {
-    return b > a ? (uint16_t)(a + share_of((uint16_t)(b - a), percent))
-                 : (uint16_t)(a - share_of((uint16_t)(a - b), percent));
+    const uint16_t distance = share_of((uint16_t)(b > a ? b - a : a - b), percent);
+    return (uint16_t)(b > a ? a + distance : a - distance);
 }
 
 uint8_t page_edit_time_split(uint8_t *time, uint8_t percent)

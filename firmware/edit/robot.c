@@ -161,23 +161,15 @@ uint32_t robot_send(const uint8_t step[PAGE_STEP_BYTES])
         }
     }
     if (off != 0) {
-        robot_off(off);
+        robot_switch(off, false);
     }
     return missing;
 }
 
-void robot_on(uint32_t joints)
+void robot_switch(uint32_t joints, bool on)
 {
-    uint32_t wanted = joints & the_servos.present & ~the_servos.torque;
-    servo_link_quiet(&the_servos);
-    the_robot.failed |= wanted & ~performer_on(&the_performer, wanted);
-    robot_read();
-}
-
-void robot_off(uint32_t joints)
-{
-    servo_link_quiet(&the_servos);
     joints &= the_servos.present;
-    the_robot.failed |= joints & ~performer_off(&the_performer, joints);
+    const uint32_t done = on ? performer_on(&the_performer, joints) : performer_off(&the_performer, joints);
+    the_robot.failed |= joints & ~done;
     robot_read();
 }

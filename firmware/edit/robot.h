@@ -54,8 +54,7 @@ void robot_move(uint8_t joint, uint16_t pos);
  * present joints with such other words. */
 uint32_t robot_send(const uint8_t step[PAGE_STEP_BYTES]);
 
-/* Switch torque. On keeps the present pose. */
-void robot_on(uint32_t joints);
-void robot_off(uint32_t joints);
+/* Switches the torque of the joints that are present. On keeps the present pose. */
+void robot_switch(uint32_t joints, bool on);
 
 #endif

@@ -137,20 +137,30 @@ void screen_sync(void)
     uint8_t turned = flags ^ the_screen.shown_flags;
     uint8_t fault = session_check();
     screen_follow();
-    if (the_session.x != the_screen.shown_x || the_session.y != the_screen.shown_y || (turned & SHOWN_HEX) != 0) {
-        the_screen.items |= ITEM_XYA;
+    uint8_t items = 0;
+    if (the_session.x != the_screen.shown_x || the_session.y != the_screen.shown_y) {
+        items |= ITEM_XYA;
     }
     if ((turned & SHOWN_HEX) != 0) {
         session_mark_all();
         for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
             the_session.marks[joint] |= MARK_LABEL;   /* its live position */
         }
-        the_screen.items |= ITEM_GO;
+        items |= ITEM_XYA | ITEM_GO;
     }
-    the_screen.items |= (turned & SHOWN_PAGE0) != 0 ? ITEM_LABELS | ITEM_GO : 0;
-    the_screen.items |= (turned & SHOWN_UNSAVED) != 0 ? ITEM_UNSAVED : 0;
-    the_screen.items |= the_session.go_step != the_screen.shown_go ? ITEM_GO : 0;
-    the_screen.items |= fault != the_screen.shown_fault ? ITEM_FAULT : 0;
+    if ((turned & SHOWN_PAGE0) != 0) {
+        items |= ITEM_LABELS | ITEM_GO;
+    }
+    if ((turned & SHOWN_UNSAVED) != 0) {
+        items |= ITEM_UNSAVED;
+    }
+    if (the_session.go_step != the_screen.shown_go) {
+        items |= ITEM_GO;
+    }
+    if (fault != the_screen.shown_fault) {
+        items |= ITEM_FAULT;
+    }
+    the_screen.items |= items;
     the_screen.shown_x = the_session.x;
     the_screen.shown_y = the_session.y;
     the_screen.shown_go = the_session.go_step;

@@ -32,7 +32,7 @@ typedef enum {
 
 typedef struct {
     uint32_t present;        /* joints on the bus */
-    uint16_t items;          /* single items to send */
+    uint8_t items;           /* single items to send */
     uint8_t rows;            /* of the terminal, 24..35 */
     uint8_t top;             /* rows that are scrolled out above */
     uint8_t at_row, at_column; /* where the terminal's cursor is; row 0 = not known */

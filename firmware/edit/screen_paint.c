@@ -212,7 +212,7 @@ static void paint_fault(void)
     ansi_erase_line();
 }
 
-static void paint_item(uint16_t item)
+static void paint_item(uint8_t item)
 {
     switch (item) {
     case ITEM_CLEAR:
@@ -246,9 +246,9 @@ static void paint_item(uint16_t item)
     }
 }
 
-static bool paint_next_item(uint16_t among)
+static bool paint_next_item(uint8_t among)
 {
-    for (uint16_t item = ITEM_CLEAR; item < ITEM_ALL; item <<= 1) {
+    for (uint8_t item = ITEM_CLEAR; item != 0; item <<= 1) {
         if ((the_screen.items & among & item) != 0) {
             the_screen.items &= ~item;
             paint_item(item);

@@ -8,32 +8,6 @@
 #include "text.h"
 #include "views.h"
 
-/* ---- what views.h prints ---- */
-
-static uint8_t do_list(const shell_args_t *args)
-{
-    views_print_list();
-    return REQUEST_OK;
-}
-
-static uint8_t do_status(const shell_args_t *args)
-{
-    views_print_status();
-    return REQUEST_OK;
-}
-
-static uint8_t do_faults(const shell_args_t *args)
-{
-    views_print_faults();
-    return REQUEST_OK;
-}
-
-static uint8_t do_version(const shell_args_t *args)
-{
-    views_print_version();
-    return REQUEST_OK;
-}
-
 static uint8_t do_servos(const shell_args_t *args)
 {
     if (args->count == 1) {
@@ -59,7 +33,7 @@ static void save(void)
 }
 
 /* Sets 0, 1, ... by one of several words (settings_word_P). Prints the present word if the line has none. */
-static uint8_t choose(const shell_args_t *args, uint8_t *setting, const char *words_P)
+static uint8_t choose(const shell_args_t *args, uint8_t *setting, const char *words_P, const char *refusal_P)
 {
     const char *word_P;
     if (args->count == 1) {
@@ -74,24 +48,17 @@ static uint8_t choose(const shell_args_t *args, uint8_t *setting, const char *wo
             return REQUEST_OK;
         }
     }
-    TEXT("Say ");
-    for (word_P = words_P; pgm_read_byte(word_P) != '\0'; word_P = settings_word_P(word_P, 1)) {
-        if (word_P != words_P) {
-            TEXT(" or ");
-        }
-        text_P(word_P);
-    }
-    return SHELL_ERR_REPORTED;
+    return requests_refuse(REQUEST_ERR_RANGE, refusal_P);
 }
 
 static uint8_t do_law(const shell_args_t *args)
 {
-    return choose(args, &the_play.settings.law, settings_laws_P);
+    return choose(args, &the_play.settings.law, settings_laws_P, TEXT_P("Say exact or classic"));
 }
 
 static uint8_t do_remote(const shell_args_t *args)
 {
-    return choose(args, &the_play.settings.remote_mode, settings_remotes_P);
+    return choose(args, &the_play.settings.remote_mode, settings_remotes_P, TEXT_P("Say latch or hold or drive"));
 }
 
 static uint8_t set_one(const shell_args_t *args)
@@ -186,14 +153,14 @@ static const shell_command_t typed[] PROGMEM = {
     { word_code, commands_do_code, SHELL_ARGS(1, 1), RANGE_ANY_CODE },
     { word_on, request_on, SHELL_ARGS(0, SHELL_ANY_ARGS), 0 },
     { word_off, request_off, SHELL_ARGS(0, SHELL_ANY_ARGS), 0 },
-    { word_list, do_list, SHELL_ARGS(0, 0), 0 },
-    { word_status, do_status, SHELL_ARGS(0, 0), 0 },
+    { word_list, views_list, SHELL_ARGS(0, 0), 0 },
+    { word_status, views_status, SHELL_ARGS(0, 0), 0 },
     { word_servos, do_servos, SHELL_ARGS(0, 1), 0 },
-    { word_faults, do_faults, SHELL_ARGS(0, 0), 0 },
+    { word_faults, views_faults, SHELL_ARGS(0, 0), 0 },
     { word_law, do_law, SHELL_ARGS(0, 1), 0 },
     { word_remote, do_remote, SHELL_ARGS(0, 1), 0 },
     { word_settings, do_settings, SHELL_ARGS(0, 2), 0 },
-    { word_version, do_version, SHELL_ARGS(0, 0), 0 },
+    { word_version, views_version, SHELL_ARGS(0, 0), 0 },
     { word_help, do_help, SHELL_ARGS(0, 1), 0 },
 };
 

@@ -169,7 +169,7 @@ static void greet(settings_status_t settings)
 {
     text_line_end();
     report_failed_assert();
-    views_print_version();
+    (void)views_version(NULL);
     if (journal_is_pending()) { /* our loader would have completed it; Play cannot write flash */
         TEXT("A save was cut off: start Edit once, it completes the page");
         text_line_end();

@@ -59,7 +59,7 @@ void play_find_servos(void)
     console_xoff();
     servo_link_scan(&the_play.servos);
     (void)page_store_trim(&the_play.pages, trim_pos);
-    (void)servo_link_set_trim(&the_play.servos, trim_pos);
+    servo_link_set_trim(&the_play.servos, trim_pos);
     console_xon();
     tick_forgive();
 }

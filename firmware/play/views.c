@@ -41,7 +41,7 @@ static void print_page_line(uint8_t page, const uint8_t *header)
     text_line_end();
 }
 
-void views_print_list(void)
+uint8_t views_list(const shell_args_t *args)
 {
     uint8_t used = 0, damaged = 0;
     for (uint16_t number = 1; number < PAGE_COUNT; number++) {
@@ -67,6 +67,7 @@ void views_print_list(void)
     text_P_number(TEXT_P(" pages, "), damaged);
     TEXT(" damaged");
     text_line_end();
+    return SHELL_OK;
 }
 
 /* ---- state ---- */
@@ -100,7 +101,7 @@ static void print_state(void)
     text_line_end();
 }
 
-void views_print_status(void)
+uint8_t views_status(const shell_args_t *args)
 {
     print_state();
     if (!shape_is_neutral(&the_play.performer.shape) || performer_layers_joints(&the_play.performer) != 0) {
@@ -129,6 +130,7 @@ void views_print_status(void)
         TEXT(" C");
     }
     text_line_end();
+    return SHELL_OK;
 }
 
 /* ---- shape ---- */
@@ -199,7 +201,7 @@ static const char *reset_text_P(uint8_t cause)
     return cause & SYSTEM_RESET_JTAG ? TEXT_P("JTAG") : TEXT_P("unknown");
 }
 
-void views_print_version(void)
+uint8_t views_version(const shell_args_t *args)
 {
     app_record_t record;
     TEXT("Motion512 Play ");
@@ -212,6 +214,7 @@ void views_print_version(void)
     TEXT(", last reset: ");
     text_P(reset_text_P(system_reset_cause()));
     text_line_end();
+    return SHELL_OK;
 }
 
 void views_print_refusal(const inputs_refusal_t *refusal)

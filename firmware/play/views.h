@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: MIT
- * views.h - prints lists and states, for Play's commands. Changes nothing. */
+ * views.h - prints lists and states. Changes nothing. */
 #ifndef VIEWS_H
 #define VIEWS_H
 
 #include "play.h"
 
-void views_print_list(void);
-void views_print_status(void);
+/* Handlers of commands (shell.h). */
+uint8_t views_list(const shell_args_t *args);
+uint8_t views_status(const shell_args_t *args);
+uint8_t views_faults(const shell_args_t *args);
+uint8_t views_version(const shell_args_t *args);
+
 void views_print_servos(void);
-void views_print_faults(void);
 void views_print_settings(void);
-void views_print_version(void);
 
 /* Rate, blend, amplitude (two hexadecimal digits a joint when they differ), layer, joints moved by code, as ` field=value`;
  * without a line end. */

@@ -90,7 +90,7 @@ static void print_servo_faults(const servo_link_t *servos)
     }
 }
 
-void views_print_faults(void)
+uint8_t views_faults(const shell_args_t *args)
 {
     print_servo_faults(&the_play.servos);
     bus_counts_t bus;
@@ -119,4 +119,5 @@ void views_print_faults(void)
     text_P_number(TEXT_P(" missed "), tick_missed());
     text_P_number(TEXT_P(" goals late "), the_play.servos.late);
     text_line_end();
+    return SHELL_OK;
 }

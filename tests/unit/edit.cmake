@@ -14,8 +14,7 @@ m512_unit_test(test_edit_session
 if(NOT M512_AVR)
     file(GLOB stage CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/firmware/edit/*.c ${CMAKE_SOURCE_DIR}/firmware/common/*.c)
     list(REMOVE_ITEM stage ${CMAKE_SOURCE_DIR}/firmware/edit/main.c
-        ${CMAKE_SOURCE_DIR}/firmware/common/page_service.c ${CMAKE_SOURCE_DIR}/firmware/common/performer_drive.c
-        ${CMAKE_SOURCE_DIR}/firmware/common/performer_layers.c)
+        ${CMAKE_SOURCE_DIR}/firmware/common/page_service.c ${CMAKE_SOURCE_DIR}/firmware/common/performer_shape.c)
     list(TRANSFORM M512_PLAYER_SMALL PREPEND ${CMAKE_SOURCE_DIR}/ OUTPUT_VARIABLE player)
     list(APPEND stage ${player})
     foreach(source hal/bus_call hal/debounce hal/dxl_packet tests/fake/fake_bus tests/fake/fake_console tests/fake/fake_eeprom tests/fake/fake_flash

@@ -93,11 +93,10 @@ void servo_link_slopes(servo_link_t *link, const uint8_t compliance[SERVO_LINK_J
     memcpy(fake_servo_link.compliance, compliance, sizeof fake_servo_link.compliance);
 }
 
-uint32_t servo_link_full_speed(servo_link_t *link, uint32_t ids)
+uint32_t servo_link_engage(servo_link_t *link, uint32_t ids)
 {
-    (void)link;
-    fake_servo_link.full_speeds++;
-    return ids;
+    fake_servo_link.engagements++;
+    return servo_link_torque_on(link, ids);
 }
 
 void servo_link_poll(servo_link_t *link)

@@ -13,7 +13,7 @@ typedef struct {
     uint16_t ticks;                       /* servo_link_tick */
     uint16_t slopes;                      /* servo_link_slopes */
     uint8_t compliance[SERVO_LINK_JOINTS];
-    uint16_t full_speeds;
+    uint16_t engagements;                 /* calls of servo_link_engage */
     uint32_t mute;                        /* joints that answer neither a pose nor a torque-on */
     uint16_t pose_pos[SERVO_LINK_JOINTS]; /* where the servos stand */
 } fake_servo_link_t;

@@ -12,7 +12,7 @@ foreach(test test_inputs test_steer)
         SOURCES firmware/play/inputs.c firmware/play/steer.c motion/shape.c hal/remote.c hal/debounce.c tests/unit/inputs_stage.c
                 tests/fake/fake_console.c tests/fake/fake_panel.c tests/fake/fake_time.c)
 endforeach()
-set(performer_sources performer.c performer_event.c performer_ready.c performer_watch.c performer_drive.c performer_layers.c
+set(performer_sources performer.c performer_event.c performer_watch.c performer_shape.c
     servo_link_masks.c)
 list(TRANSFORM performer_sources PREPEND firmware/common/)
 list(APPEND performer_sources tests/unit/fake_servo_link.c tests/unit/performer_stage.c

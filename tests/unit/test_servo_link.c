@@ -48,7 +48,6 @@ static void test_scan_finds_the_deaf_and_the_taciturn(void)
     servo_link_scan(&servos);
     TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(1), servos.no_sync);
     TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(2), servos.no_reply);
-    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(3), servos.mute);
     TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(1) | SERVO_LINK_BIT(2) | SERVO_LINK_BIT(4), servos.present);
 }
 
@@ -106,11 +105,11 @@ static void test_torque_off_reaches_the_deaf_too(void)
     TEST_ASSERT_EQUAL_HEX32(0, servos.torque);
 }
 
-static void test_full_speed_takes_back_a_speed_limit(void)
+static void test_engage_takes_back_a_speed_limit(void)
 {
     robot(2);
     fake_bus_set_word(1, DXL_AT_SPEED, 100);
-    servo_link_full_speed(&servos, SERVO_LINK_BIT(1));
+    servo_link_engage(&servos, SERVO_LINK_BIT(1));
     TEST_ASSERT_EQUAL(0, fake_bus_word(1, DXL_AT_SPEED));
 }
 
@@ -163,13 +162,13 @@ static void test_servo_that_answers_no_write_is_read_back(void)
     TEST_ASSERT_FALSE(servo_link_write(&servos, 1, DXL_AT_SPEED, goal, 2));
 }
 
-static void test_torque_off_and_full_speed_name_who_did_not_obey(void)
+static void test_torque_off_and_engage_name_who_did_not_obey(void)
 {
     robot(2);
     fake_bus_servo(2)->mishear_next = 3;
     TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(1), servo_link_torque_off(&servos, SERVO_LINK_ALL));
     fake_bus_servo(1)->mishear_next = 3;
-    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(2), servo_link_full_speed(&servos, SERVO_LINK_ALL));
+    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(2), servo_link_engage(&servos, SERVO_LINK_ALL));
 }
 
 int main(void)
@@ -183,10 +182,10 @@ int main(void)
     RUN_TEST(test_torque_on_leaves_those_alone_that_hold_already);
     RUN_TEST(test_servo_that_does_not_tell_its_pose_stays_off);
     RUN_TEST(test_torque_off_reaches_the_deaf_too);
-    RUN_TEST(test_full_speed_takes_back_a_speed_limit);
+    RUN_TEST(test_engage_takes_back_a_speed_limit);
     RUN_TEST(test_torque_stays_off_when_the_goal_cannot_be_set);
     RUN_TEST(test_goal_that_arrives_at_the_second_try_is_enough);
     RUN_TEST(test_servo_that_answers_no_write_is_read_back);
-    RUN_TEST(test_torque_off_and_full_speed_name_who_did_not_obey);
+    RUN_TEST(test_torque_off_and_engage_name_who_did_not_obey);
     return UNITY_END();
 }

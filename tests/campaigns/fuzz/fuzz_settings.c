@@ -41,10 +41,9 @@ static void change(settings_t *settings, fuzz_t *fuzz)
     const uint16_t value = fuzz_word(fuzz);
     const bool done = settings_set(settings, &item, value);
     ASSERT(settings_value(settings, &item) == (done ? value : before));
-    const uint8_t a = fuzz_byte(fuzz), b = fuzz_byte(fuzz);
-    if (settings_pair(settings, a, b)) {
-        ASSERT(a == b ? settings->pair[a] == SETTINGS_NO_PARTNER : settings->pair[a] == b && settings->pair[b] == a);
-    }
+    const uint8_t a = fuzz_byte(fuzz) % SETTINGS_JOINTS, b = fuzz_byte(fuzz) % SETTINGS_JOINTS;
+    settings_pair(settings, a, b);
+    ASSERT(a == b ? settings->pair[a] == SETTINGS_NO_PARTNER : settings->pair[a] == b && settings->pair[b] == a);
     must_be_sound(settings);
 }
 

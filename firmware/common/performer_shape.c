@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * performer_layers.c - a second page over the play. */
+ * performer_shape.c - a second page over the play, joints moved by code, driving by a program. */
 #include "performer_shape.h"
 
 void performer_set_layers(performer_t *performer, layers_t *layers)
@@ -56,8 +56,7 @@ layers_status_t performer_take_for_code(performer_t *performer, uint8_t id)
     if (!performer_is_idle(performer)) {
         return LAYERS_ERR_BUSY;
     }
-    if ((performer_usable(performer) & joint) == 0 || servo_link_torque_on(servos, joint) == 0 ||
-        servo_link_full_speed(servos, joint) == 0) {
+    if ((performer_usable(performer) & joint) == 0 || servo_link_engage(servos, joint) == 0) {
         return LAYERS_ERR_JOINTS;
     }
     performer->goal_pos[id] = servos->present_pos[id];
@@ -134,5 +133,48 @@ void performer_layers_pause(performer_t *performer, bool pause)
         layers_pause(performer->layers);
     } else {
         layers_resume(performer->layers);
+    }
+}
+
+/* ---- driving by a program: when it falls silent, the play stops ---- */
+
+bool performer_drive(performer_t *performer, int16_t blend, uint16_t rate, uint16_t amplitude)
+{
+    shape_t *shape = &performer->shape;
+    const int8_t blend_before = shape->blend_percent;
+    const uint16_t rate_before = shape->rate_percent;
+    if (shape_set_blend(shape, blend) != SHAPE_OK || shape_set_rate(shape, rate) != SHAPE_OK ||
+        shape_set_amplitude(shape, amplitude, SERVO_LINK_ALL) != SHAPE_OK) {
+        shape->blend_percent = blend_before;
+        shape->rate_percent = rate_before;
+        return false;
+    }
+    /* Tenths of a second. */
+    performer->drive_left_ticks = (uint16_t)(performer->settings->drive_ds * (PLAYER_TICKS_PER_SECOND / 2) / 5);
+    performer->is_driven = true;
+    return true;
+}
+
+bool performer_drive_is_lost(performer_t *performer)
+{
+    return performer->drive_left_ticks != 0 && --performer->drive_left_ticks == 0;
+}
+
+void performer_drive_end(performer_t *performer)
+{
+    if (performer->is_driven) {
+        shape_reset(&performer->shape);
+    }
+    performer->is_driven = false;
+    performer->drive_left_ticks = 0;
+}
+
+void performer_shape_follow(performer_t *performer)
+{
+    const uint8_t now_dv = performer->servos->voltage_dv;
+    (void)!shape_set_centre(&performer->shape, performer->settings->centre_page);
+    if (now_dv != performer->shape_voltage_dv) {
+        performer->shape_voltage_dv = now_dv;
+        shape_set_voltage(&performer->shape, now_dv);
     }
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * performer_layers_none.c - for images without layers: the functions of performer_shape.h about layers, empty. */
+ * performer_shape_none.c - for images whose plays are not shaped from outside: the functions for performer*.c, empty. */
 #include "performer_shape.h"
 
 uint32_t performer_layers_joints(const performer_t *performer)
@@ -46,7 +46,15 @@ void performer_layers_pause(performer_t *performer, bool pause)
 {
 }
 
-uint8_t performer_layer_page(const performer_t *performer)
+bool performer_drive_is_lost(performer_t *performer)
 {
-    return 0;
+    return false;
+}
+
+void performer_drive_end(performer_t *performer)
+{
+}
+
+void performer_shape_follow(performer_t *performer)
+{
 }
