@@ -53,7 +53,8 @@ static layers_status_t check_page(layers_t *layers, uint8_t page)
     return page_is_playable(header) ? LAYERS_OK : refuse(layers, page, PAGE_EMPTY, LAYERS_ERR_EMPTY);
 }
 
-static uint32_t joints_of_first_step(const layers_t *layers, uint8_t page)
+/* NOINLINE: else the pose lies on the stack while a refusal is printed. */
+static NOINLINE uint32_t joints_of_first_step(const layers_t *layers, uint8_t page)
 {
     uint16_t pose_pos[PAGE_JOINTS];
     return player_first_pose(layers->main->source, NULL, page, pose_pos);

@@ -81,23 +81,12 @@ static void check_reach(uint8_t page)
     text_line_end();
 }
 
-/* The supply in 0.1 V, from the first servo that answers; that of a CM-5's battery if none does. */
-static uint8_t supply_dv(void)
-{
-    uint8_t supply = PAGE_FACTS_BATTERY_DV;
-    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        if (robot_has(joint) && bus_call_read(joint, DXL_AT_VOLTAGE, &supply, 1, NULL) == BUS_OK) {
-            return supply;
-        }
-    }
-    return PAGE_FACTS_BATTERY_DV;
-}
-
 static void check_speed(uint8_t page)
 {
     page_facts_t facts;
     uint8_t steps = page_store_byte(page, PAGE_AT_STEPS);
-    uint16_t fastest_deg_s = PAGE_FACTS_FASTEST_DEG_S(supply_dv());
+    uint8_t supply_dv = the_servos.voltage_dv != 0 ? the_servos.voltage_dv : PAGE_FACTS_BATTERY_DV;
+    uint16_t fastest_deg_s = PAGE_FACTS_FASTEST_DEG_S(supply_dv);
     for (uint8_t step = 0; step < steps; step++) {
         page_facts_step(page, step, &facts);
         uint16_t deg_s = page_facts_deg_s(&facts);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * cmd_list.c - HELP, LIST, FIND. Lists take the whole terminal: one item a line, a screen at a time. */
 #include "commands.h"
+
+#include <string.h>
 #include "page_facts.h"
 #include "pgm.h"
 #include "report.h"
@@ -124,19 +126,10 @@ COMMAND(cmd_list)
     return dialog_list(list_page_item, list_title);
 }
 
-static char lower(char character)
-{
-    return character >= 'A' && character <= 'Z' ? character - 'A' + 'a' : character;
-}
-
 static bool contains(const char *name, const char *part)
 {
     for (; *name != '\0'; name++) {
-        uint8_t i = 0;
-        while (part[i] != '\0' && lower(name[i]) == lower(part[i])) {
-            i++;
-        }
-        if (part[i] == '\0') {
+        if (strncasecmp(name, part, strlen(part)) == 0) {
             return true;
         }
     }

@@ -93,21 +93,20 @@ COMMAND(cmd_new)
 static void clear_off_marks(void)
 {
     uint8_t count = 0;
-    for (uint16_t address = PAGE_AT_STEP0; address < PAGE_BYTES; address += 2u) {
-        if ((the_session.cells[address + 1u] & PAGE_POS_TORQUE_OFF >> 8) == 0) {
-            continue;   /* nearly all words, so without calls: 0.6 ms of SAVE's 60 */
-        }
-        uint16_t word = cell_word(the_session.cells, address);
-        if (!cell_is_off(word)) {
-            continue;
-        }
-        bool is_word = address % PAGE_STEP_BYTES < PAGE_STEP_AT_PAUSE;
-        bool is_trim = the_session.page == 0 && address / PAGE_STEP_BYTES == CELL_X_OFFSET;
-        if (is_word && !is_trim) {
+    for (uint8_t step = 0; step < PAGE_STEPS; step++) {
+        const uint16_t at = session_step_at(step);
+        for (uint8_t place = 0; place < PAGE_STEP_AT_PAUSE; place += 2u) {
+            if ((the_session.cells[at + place + 1u] & PAGE_POS_TORQUE_OFF >> 8) == 0) {
+                continue;   /* nearly all words, so without calls: 0.6 ms of SAVE's 60 */
+            }
+            const uint16_t word = cell_word(the_session.cells, at + place);
+            if (!cell_is_off(word) || (the_session.page == 0 && step == CELL_X_OFFSET - CELL_X_STEP0)) {
+                continue;
+            }
             if (count++ == 0) {
                 session_begin();
             }
-            session_set_word(address, PAGE_POS_UNUSED | (word & PAGE_POS_MAX));
+            session_set_word(at + place, PAGE_POS_UNUSED | (word & PAGE_POS_MAX));
         }
     }
     if (count != 0) {

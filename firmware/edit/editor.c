@@ -51,7 +51,6 @@ void editor_init(const char *notice_P)
     screen_init();
     performer_set_source(&the_performer, &source);
     robot_init();
-    screen_set_present(the_servos.present);
     screen_ask_size();
     screen_sync();
 }

@@ -32,7 +32,7 @@ static bool read_pos(uint8_t joint, uint8_t at, uint16_t *pos)
 
 bool robot_has(uint8_t joint)
 {
-    return joint < PAGE_JOINTS && servo_link_has(&the_servos.present, joint);
+    return servo_link_has(&the_servos.present, joint);
 }
 
 static bool is_held(uint8_t joint)

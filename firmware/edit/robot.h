@@ -28,7 +28,7 @@ void robot_serve(void);
 /* Reads trim and all joints that answered the last search. */
 void robot_init(void);
 
-/* Whether this joint is present. Any number. */
+/* Whether this joint is present. */
 bool robot_has(uint8_t joint);
 
 /* Reads the work pose anew: the goal of joints with torque, the present position and the ???? mark of the others. */

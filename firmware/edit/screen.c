@@ -33,7 +33,8 @@ uint8_t screen_command_row(void)
 
 bool screen_has_row(uint8_t joint)
 {
-    return screen_is_full() || the_screen.present == 0 || joint >= PAGE_JOINTS || (the_screen.present >> joint & 1u) != 0;
+    return screen_is_full() || the_servos.present == 0 || joint >= PAGE_JOINTS ||
+           servo_link_has(&the_servos.present, joint);
 }
 
 uint8_t screen_rows_before(uint8_t joint)
@@ -201,17 +202,6 @@ void screen_set_rows(uint8_t rows)
     }
     if (usable != the_screen.rows) {
         the_screen.rows = usable;
-        the_screen.top = 0;
-        screen_redraw();
-        screen_follow();
-    }
-}
-
-void screen_set_present(uint32_t present)
-{
-    bool layout = present != the_screen.present && !screen_is_full();
-    the_screen.present = present;
-    if (layout) {
         the_screen.top = 0;
         screen_redraw();
         screen_follow();

@@ -31,7 +31,6 @@ typedef enum {
 } screen_sink_t;
 
 typedef struct {
-    uint32_t present;        /* joints on the bus */
     uint8_t items;           /* single items to send */
     uint8_t rows;            /* of the terminal, 24..35 */
     uint8_t top;             /* rows that are scrolled out above */
@@ -53,9 +52,6 @@ void screen_redraw(void);
 
 /* Sets the number of rows of the terminal. Redraws if that changes the layout. */
 void screen_set_rows(uint8_t rows);
-
-/* Sets the present joints. Redraws if that changes the layout. */
-void screen_set_present(uint32_t present);
 
 /* Clears the screen for plain text, and shows it again. */
 void screen_hide(void);
