@@ -12,6 +12,7 @@ def test_check_knows_how_fast_a_servo_is_at_this_battery():
     for volts, too_fast in ((9.6, True), (12, False)):
         with robot(pages=pages) as r:
             r.board.battery(volts)
+            r.board.run(ms=600)  # CHECK knows the supply from a whole round over the servos
             r.line("check", ms=3000)
             assert ("Page   1: step 1 ID 5 too fast" in r.show()) == too_fast, r.show()
 
@@ -21,6 +22,7 @@ def test_check_counts_units_as_the_servo_does(units, said):
     """An AX-12 does 59 rpm at 12 V, 300 degrees are 1024 units: 283.2 degrees/s = 90.6 units in 12 ticks at 9.6 V."""
     with robot(pages={1: page("fast", [(30, {5: 400}), (12, {5: 400 + units})], code=1)}) as r:
         r.board.battery(9.6)
+        r.board.run(ms=600)
         r.line("check", ms=3000)
         assert ("too fast" in r.show()) == (said is not None), r.show()
         assert said is None or f"step 1 ID 5 too fast, {said} degrees/s" in r.show(), r.show()
