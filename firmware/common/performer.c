@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * performer.c - the life of a play and of a move: start, approach, tick, stop, pause, end. performer_watch.c judges the faults
- * of servos; performer_shape.h has layers and driving by a program. */
+ * performer.c - the life of a play and of a move: start, approach, tick, stop, pause, end. performer_watch.c judges the
+ * faults of servos; performer_shape.h has layers and driving by a program. */
 #include "performer.h"
 
 #include <string.h>
@@ -403,12 +403,12 @@ static void poll_ready(performer_t *performer)
     } else if (performer->joints == 0) {
         go_idle(performer, PERFORMER_END_SERVO);
     } else {
-        tick_forgive();   /* asking a servo may take long, and nothing has moved */
         if (plan_approach(performer)) {
             performer->state = PERFORMER_APPROACH;
         } else {
             begin(performer);
         }
+        tick_forgive();   /* asking servos and planning take long, and nothing has moved: the first goals leave on time */
     }
 }
 

@@ -153,8 +153,8 @@ uint32_t servo_link_torque_on(servo_link_t *link, uint32_t ids);
  * did; the others count as off as well, until a poll tells otherwise. */
 uint32_t servo_link_torque_off(servo_link_t *link, uint32_t ids);
 
-/* Makes servos ready for goals that come a tick apart: switches torque on as above, reads the pose, and sets the moving speed
- * to 0, which means full speed (a single move may have set a slow one). 4 ms a servo. Returns those of `ids` that are ready. */
+/* Makes servos ready for goals that come a tick apart: switches torque on as above, reads the pose, and sets the moving
+ * speed to 0, which means full speed (a single move may have set a slow one). 4 ms a servo. Returns those that are ready. */
 uint32_t servo_link_engage(servo_link_t *link, uint32_t ids);
 
 #endif
