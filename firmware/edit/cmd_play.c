@@ -132,9 +132,7 @@ static void play_ended(const performer_event_t *event)
     the_dialog.step_due = false;
     shape_reset(&the_performer.shape);   /* the next @play has the stored rate */
     robot_read();
-    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        the_session.marks[joint] |= MARK_LABEL;   /* no live position any more */
-    }
+    session_mark_labels();   /* no live positions any more */
     if (the_dialog.mode != DIALOG_PLAY) {
         return;
     }

@@ -157,9 +157,7 @@ COMMAND(cmd_move)
     copy_step(from, to);
     if (to == POSE_STEP) {
         TEXT(" (shown only)");
-        for (uint8_t y = 0; y < PAGE_JOINTS; y++) {
-            the_session.marks[y] |= MARK_LABEL;
-        }
+        session_mark_labels();
     } else {
         the_screen.lead = true;
         update_trim(to);

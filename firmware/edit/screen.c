@@ -144,9 +144,7 @@ void screen_sync(void)
     }
     if ((turned & SHOWN_HEX) != 0) {
         session_mark_all();
-        for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-            the_session.marks[joint] |= MARK_LABEL;   /* its live position */
-        }
+        session_mark_labels();   /* live positions */
         items |= ITEM_XYA | ITEM_GO;
     }
     if ((turned & SHOWN_PAGE0) != 0) {

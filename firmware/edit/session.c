@@ -50,6 +50,13 @@ void session_mark_all(void)
     }
 }
 
+void session_mark_labels(void)
+{
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        the_session.marks[joint] |= MARK_LABEL;
+    }
+}
+
 /* Marks the cell of a changed byte, and the label that depends on it. */
 static void mark_byte(uint16_t address)
 {

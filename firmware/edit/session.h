@@ -105,9 +105,10 @@ void session_saved(void);
 /* Call when bytes of the page were changed from outside: empties the undo history. */
 void session_replaced(void);
 
-/* Marks. */
+/* Mark a cell, all cells, the labels of all joints. */
 void session_mark(uint8_t x, uint8_t y);
 void session_mark_all(void);
+void session_mark_labels(void);
 
 /* Moves the cursor one cell (ORIGINAL.md section 4), unless there is none. */
 typedef enum { SESSION_UP, SESSION_DOWN, SESSION_RIGHT, SESSION_LEFT } session_way_t;
