@@ -12,10 +12,12 @@ import { PageFormat } from './model/page-format.ts';
 import { AppShell } from './view/app-shell.ts';
 import { BrowserStorage, PassingStorage } from './view/document-storage.ts';
 import { make } from './view/element.ts';
-import { TEXTS } from './view/texts/robot.ts';
+import { useLanguage } from './view/texts/languages.ts';
+import { TEXTS } from './view/texts/texts.ts';
 
 async function start(): Promise<void> {
-    if (typeof WebAssembly === 'undefined') return fail(TEXTS.noWebAssembly);
+    await useLanguage(); // before any text is looked up
+    if (typeof WebAssembly === 'undefined') return fail(TEXTS.page.noWebAssembly);
     const [body, parts, storage] = await Promise.all([robotBody(), editorParts(), documentStorage()]);
     const session = new RobotSession(body, parts, fileFormats(), storage);
     await Promise.all([session.start(), show(session, parts)]); // the robot starts in its worker while the page is built
@@ -42,7 +44,7 @@ async function editorParts(): Promise<EditorParts> {
     return {
         format: new PageFormat(scratch),
         player,
-        document: documentFrom(motions, 'My motions'),
+        document: documentFrom(motions, TEXTS.document.mine),
         library: documentFrom(library, '').pages,
     };
 }
@@ -70,4 +72,4 @@ function fail(text: string): void {
     document.body.prepend(make('p', { role: 'alert', class: 'start-failed' }, text));
 }
 
-start().catch((error: unknown) => fail(`The page could not start: ${error instanceof Error ? error.message : String(error)}. Reload it.`));
+start().catch((error: unknown) => fail(TEXTS.page.couldNotStart(error instanceof Error ? error.message : String(error))));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes motions.html and its pictures, from what start/record.ts has seen the robot do.
+// Writes motions.html in every language, and its pictures, from what start/record.ts has seen the robot do.
 
 import { readFileSync } from 'node:fs';
 import { readFile } from 'node:fs/promises';
@@ -12,10 +12,19 @@ import { PageFormat } from './model/page-format.ts';
 import { readPage } from './model/page.ts';
 import { START_MOTIONS } from './start/motions.ts';
 import type { Outline } from './start/outline.ts';
-import { startPage } from './start/page.ts';
+import { startFile, startPage } from './start/page.ts';
 import type { Card } from './start/page.ts';
 import { picture } from './start/picture.ts';
+import DE from './view/texts/de.ts';
+import { EN } from './view/texts/en.ts';
+import ES from './view/texts/es.ts';
+import JA from './view/texts/ja.ts';
+import KO from './view/texts/ko.ts';
+import { LANGUAGES } from './view/texts/languages.ts';
+import type { Language } from './view/texts/languages.ts';
+import type { Texts } from './view/texts/texts.ts';
 
+const TEXTS: Readonly<Record<Language, Texts>> = { en: EN, de: DE, es: ES, ja: JA, ko: KO };
 const BUILD = new URL('../../build/', import.meta.url);
 
 async function cards(): Promise<Card[]> {
@@ -28,7 +37,7 @@ async function cards(): Promise<Card[]> {
     return Promise.all(
         START_MOTIONS.map(async motion => ({
             ...motion,
-            address: `./${HASH}${await encodeMotion(pagesToSend(format, library, numberOf(motion.name)))}`,
+            address: `${HASH}${await encodeMotion(pagesToSend(format, library, numberOf(motion.name)))}`,
         })),
     );
 }
@@ -43,7 +52,11 @@ export function start(): Plugin {
                 this.emitFile({ type: 'asset', fileName: `motions/${name}.svg`, source: picture(frames, true) });
                 this.emitFile({ type: 'asset', fileName: `motions/${name}-still.svg`, source: picture(frames, false) });
             }
-            this.emitFile({ type: 'asset', fileName: 'motions.html', source: startPage(await cards()) });
+            const all = await cards();
+            for (const [language, texts] of Object.entries(TEXTS)) {
+                const others = new Map(Object.entries(LANGUAGES).filter(([code]) => code !== language));
+                this.emitFile({ type: 'asset', fileName: startFile(language), source: startPage(all, language, texts, others) });
+            }
         },
     };
 }

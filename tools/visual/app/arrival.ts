@@ -5,7 +5,7 @@ import type { ConnectionState } from '../robot/connection-table.ts';
 import { askList, askPose } from '../robot/protocol.ts';
 import type { SessionState } from '../view/session/session.ts';
 import type { Store } from '../view/store.ts';
-import { TEXTS } from '../view/texts/robot.ts';
+import { TEXTS } from '../view/texts/texts.ts';
 import type { DocumentEditor } from './editor.ts';
 import type { RobotSources } from './sources.ts';
 import type { Status } from './status.ts';
@@ -57,15 +57,15 @@ export class Arrival {
         const pages = editor.state.get().robot.filter(bytes => bytes !== null);
         await transfer.keep(pages).catch(messages.fail);
         if (state.get().source === 'servos') return this.tellServos().catch(messages.fail);
-        messages.say({ text: TEXTS.robotKept, tone: 'calm' });
+        messages.say({ text: TEXTS.robot.isBackedUp, tone: 'calm' });
     }
 
     /** Who answers of servos that nobody knows yet, and who should. */
     private async tellServos(): Promise<void> {
         const { messages, sources } = this.parts;
         const ids = (await askPose(sources.connection.requests)).map(({ id }) => id);
-        if (ids.length === 0) return messages.say({ text: TEXTS.noServos, tone: 'bad' });
+        if (ids.length === 0) return messages.say({ text: TEXTS.robot.noServos, tone: 'bad' });
         const missing = Array.from({ length: Math.max(...ids) }, (_, i) => i + 1).filter(id => !ids.includes(id));
-        messages.say({ text: TEXTS.servosFound(ids.length, missing), tone: missing.length > 0 ? 'bad' : 'good' });
+        messages.say({ text: TEXTS.robot.servosFound(ids.length, missing), tone: missing.length > 0 ? 'bad' : 'good' });
     }
 }

@@ -11,6 +11,7 @@ import { NO_HISTORY } from '../model/history.ts';
 import type { Backup, DocumentStorage, KeptDocument } from '../view/document-storage.ts';
 import type { Documents, DocumentsState } from '../view/session/documents.ts';
 import { Store } from '../view/store.ts';
+import { TEXTS } from '../view/texts/texts.ts';
 
 /** Where a document is shown. */
 export interface Shown {
@@ -97,7 +98,7 @@ export class KeptDocuments implements Documents {
         this.state.set({ documents: left });
         const [next] = [...left].sort(NEWEST_FIRST);
         if (next) await this.open(next.id);
-        else await this.create('My motions');
+        else await this.create(TEXTS.document.mine);
         await this.parts.storage.removeDocument(openId).catch((error: unknown) => this.parts.failed(error));
     }
 
@@ -143,6 +144,7 @@ export class KeptDocuments implements Documents {
             const name = copyName(
                 kept.name,
                 this.state.get().documents.map(one => one.name),
+                TEXTS.document.copyWord,
             );
             this.parts.copied(name);
             const id = this.begin(name, document);

@@ -7,7 +7,7 @@ import { remotePacket } from '../robot/remote.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import type { SessionState } from '../view/session/session.ts';
 import type { Store } from '../view/store.ts';
-import { TEXTS } from '../view/texts/robot.ts';
+import { TEXTS } from '../view/texts/texts.ts';
 import { REPEAT_MS, RemoteKeys } from './remote-keys.ts';
 import type { SimulatedSource } from './simulated-source.ts';
 import { StickDrive } from './stick.ts';
@@ -39,7 +39,7 @@ export class Driving {
 
     remote(held: ReadonlySet<RemoteButton>): void {
         if (held.size > 0 && this.state.source !== 'yours' && !this.hears) this.keep(held);
-        if (held.size > 0 && this.isYoursWithEdit) this.parts.messages.complain(TEXTS.editNoRemote, 'robot');
+        if (held.size > 0 && this.isYoursWithEdit) this.parts.messages.complain(TEXTS.robot.editNoRemote, 'robot');
         this.keys.hold(held);
     }
 

@@ -8,7 +8,7 @@ import { MOST_BYTES } from '../model/file-formats.ts';
 import type { FileFormats, NoRoom, Opened, Refused, Suffix } from '../model/file-formats.ts';
 import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
 import { readPage } from '../model/page.ts';
-import { FILE_TEXTS } from '../view/texts/files.ts';
+import { TEXTS } from '../view/texts/texts.ts';
 import type { ChosenFile, Files, FilesState, LookedAt, SavedFile } from '../view/session/files.ts';
 import { Store } from '../view/store.ts';
 import type { DocumentEditor } from './editor.ts';
@@ -16,15 +16,15 @@ import type { DocumentEditor } from './editor.ts';
 const NOTHING: FilesState = { busy: null, opened: null, tooLarge: null, sent: null, trouble: null };
 
 function noPython(error: unknown): string {
-    return FILE_TEXTS.noPython(error instanceof Error ? error.message : String(error));
+    return TEXTS.files.noPython(error instanceof Error ? error.message : String(error));
 }
 
 /** A sentence: why it cannot be read. */
 function bytesOf(file: ChosenFile): Promise<Uint8Array | string> {
-    if (file.size > MOST_BYTES) return Promise.resolve(FILE_TEXTS.tooManyBytes(file.name));
+    if (file.size > MOST_BYTES) return Promise.resolve(TEXTS.files.tooManyBytes(file.name));
     return file.arrayBuffer().then(
         buffer => new Uint8Array(buffer),
-        () => FILE_TEXTS.unreadable(file.name),
+        () => TEXTS.files.unreadable(file.name),
     );
 }
 
@@ -59,7 +59,7 @@ export class DocumentFiles implements Files {
 
     async look(file: ChosenFile): Promise<LookedAt> {
         const cancelled = new Promise<LookedAt>(resolve => (this.endLook = () => resolve({ kind: 'cancelled' })));
-        this.state.set({ busy: FILE_TEXTS.reading(file.name) });
+        this.state.set({ busy: TEXTS.files.reading(file.name) });
         try {
             return await Promise.race([this.lookAt(file), cancelled]);
         } finally {
@@ -88,7 +88,7 @@ export class DocumentFiles implements Files {
         if (!opened) return;
         const pages = new Map(Array.from({ length: PAGE_COUNT - 1 }, (_, i) => [i + 1, this.pageIn(opened.image, i + 1)] as const));
         for (const [page, bytes] of pages) if (!this.holdsSteps(bytes) || this.editor.format.fault(bytes) !== null) pages.delete(page);
-        if (pages.size === 0) this.state.set({ ...NOTHING, trouble: FILE_TEXTS.nothingWhole });
+        if (pages.size === 0) this.state.set({ ...NOTHING, trouble: TEXTS.files.nothingWhole });
         else if (this.adopt(pages) !== 0) this.dismiss();
     }
 
@@ -116,7 +116,7 @@ export class DocumentFiles implements Files {
     async save(suffix: Suffix): Promise<SavedFile | null> {
         const { document } = this.editor.state.get();
         const name = `${document.name.replaceAll(/[^\p{L}\p{N} _-]/gu, '_')}${suffix}`;
-        const saved = await this.busy(FILE_TEXTS.writing(name), () => this.formats.save(name, imageOf(document)));
+        const saved = await this.busy(TEXTS.files.writing(name), () => this.formats.save(name, imageOf(document)));
         if (saved?.kind === 'refused') this.state.set({ trouble: saved.text });
         return saved?.kind === 'saved' ? { name, bytes: saved.file, losses: saved.losses } : null;
     }
@@ -125,12 +125,12 @@ export class DocumentFiles implements Files {
         const { document, page } = this.editor.state.get();
         const pages = pagesToSend(this.editor.format, document, page);
         if (pages.size === 0) {
-            this.state.set({ trouble: FILE_TEXTS.nothingToSend });
+            this.state.set({ trouble: TEXTS.files.nothingToSend });
             return null;
         }
         const text = HASH + (await encodeMotion(pages));
         const isTooLong = text.length > MOST_CHARACTERS;
-        this.state.set({ trouble: isTooLong ? FILE_TEXTS.linkTooLong : null });
+        this.state.set({ trouble: isTooLong ? TEXTS.files.linkTooLong : null });
         return isTooLong ? null : text;
     }
 
@@ -141,10 +141,10 @@ export class DocumentFiles implements Files {
         const { format } = this.editor;
         const first = pages && [...pages.values()][0];
         if (!pages || !first || [...pages.values()].some(bytes => format.fault(bytes) !== null)) {
-            this.state.set({ trouble: FILE_TEXTS.badLink });
+            this.state.set({ trouble: TEXTS.files.badLink });
             return;
         }
-        this.state.set({ sent: { name: readPage(format, first).name || FILE_TEXTS.nameless, pages } });
+        this.state.set({ sent: { name: readPage(format, first).name || TEXTS.files.nameless, pages } });
     }
 
     addSent(): number {
@@ -169,14 +169,14 @@ export class DocumentFiles implements Files {
         try {
             const answer = await this.formats.open(file.name, bytes, true);
             if (answer.kind === 'opened') return { kind: 'read', image: answer.image };
-            return answer.kind === 'refused' ? answer : { kind: 'refused', text: FILE_TEXTS.tooLarge(answer.pages) };
+            return answer.kind === 'refused' ? answer : { kind: 'refused', text: TEXTS.files.tooLarge(answer.pages) };
         } catch (error) {
             return { kind: 'refused', text: noPython(error) };
         }
     }
 
     private async read(name: string, bytes: Uint8Array, leaveOut: boolean): Promise<void> {
-        const answer = await this.busy(FILE_TEXTS.reading(name), () => this.formats.open(name, bytes, leaveOut));
+        const answer = await this.busy(TEXTS.files.reading(name), () => this.formats.open(name, bytes, leaveOut));
         if (answer) this.state.set(this.judged(name, answer));
     }
 
@@ -194,7 +194,7 @@ export class DocumentFiles implements Files {
                 );
                 const damaged = pages.filter(bytes => format.fault(bytes) !== null).length;
                 const hasTrim = !format.isEmpty(this.pageIn(image, 0));
-                if (pages.length === 0 && !hasTrim) return { tooLarge: null, trouble: FILE_TEXTS.noMotions(name) };
+                if (pages.length === 0 && !hasTrim) return { tooLarge: null, trouble: TEXTS.files.noMotions(name) };
                 return { tooLarge: null, opened: { name, image, notes, losses, count: pages.length, damaged, hasTrim } };
             }
             default:

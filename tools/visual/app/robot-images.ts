@@ -6,7 +6,7 @@ import type { PageFormat } from '../model/page-format.ts';
 import { hasUnsavedEdits } from '../robot/page-requests.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { SessionState, ImageName, Notice } from '../view/session/session.ts';
-import { PLAY_TEXTS } from '../view/texts/steps.ts';
+import { TEXTS } from '../view/texts/texts.ts';
 import type { Store } from '../view/store.ts';
 import type { SimulatedSource } from './simulated-source.ts';
 
@@ -45,7 +45,7 @@ export class RobotImages {
     /** Only Edit saves pages. The robot starts anew with it, stands up, and stays so until somebody drives it. */
     async becomeEdit(): Promise<void> {
         if (this.state.image !== 'edit') {
-            this.parts.say({ text: PLAY_TEXTS.startsEdit, tone: 'calm' });
+            this.parts.say({ text: TEXTS.robot.startsEdit, tone: 'calm' });
             await this.restart('edit');
         }
         await this.untilReady();
@@ -77,7 +77,7 @@ export class RobotImages {
             if (!connection) throw new RobotError('not-connected');
             if (await hasUnsavedEdits(connection.requests, this.parts.format)) throw new RobotError('page-unsaved');
         }
-        this.parts.say({ text: PLAY_TEXTS.startsPlay, tone: 'calm' });
+        this.parts.say({ text: TEXTS.robot.startsPlay, tone: 'calm' });
         await this.restart('play');
     }
 

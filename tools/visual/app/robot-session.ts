@@ -13,11 +13,12 @@ import type { RemoteButton } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { RobotState } from '../robot/robot-state.ts';
 import type { Overlay, Session, SessionState, ImageName, Notice, Tab, TerminalSize } from '../view/session/session.ts';
-import { EDITOR_TEXTS, refusalText } from '../view/texts/editor.ts';
+import { refusalText } from '../view/texts/editor.ts';
+import { ROBOT_IN_PAGE } from '../view/document-storage.ts';
 import { Store } from '../view/store.ts';
 import { DocumentEditor } from './editor.ts';
 import type { EditorParts } from './editor.ts';
-import { TEXTS } from '../view/texts/robot.ts';
+import { TEXTS } from '../view/texts/texts.ts';
 import { Arrival } from './arrival.ts';
 import { watchCauses } from './causes.ts';
 import { makeDocuments, makeTransfer } from './document-parts.ts';
@@ -43,9 +44,9 @@ import { StatusMessages } from './status-messages.ts';
 
 /** A robot that has the motion already plays it before this, and nothing has to be shown in its place. */
 const SHOWN_MS = 160;
-const ROBOT_IN_PAGE = 'robot in the page';
 
-const START: SessionState = {
+/** As the page begins. */
+const startState = (): SessionState => ({
     source: 'simulated',
     connection: 'closed',
     portName: '',
@@ -56,7 +57,7 @@ const START: SessionState = {
     physics: 'loading',
     speed: 1,
     stopped: null,
-    doing: { text: 'Starting …', tone: 'calm' },
+    doing: { text: TEXTS.status.starting, tone: 'calm' },
     message: null,
     faultNames: [],
     tab: 'remote',
@@ -64,11 +65,11 @@ const START: SessionState = {
     shownPage: null,
     isPowered: true,
     isLate: false,
-};
+});
 
 export class RobotSession implements Session {
     readonly body: Body;
-    readonly state = new Store<SessionState>(START);
+    readonly state = new Store<SessionState>(startState());
     readonly editor: DocumentEditor;
     readonly files: DocumentFiles;
     readonly documents: KeptDocuments;
@@ -116,8 +117,8 @@ export class RobotSession implements Session {
         });
         this.trials = new MotionTrials(this.editor, () => trialClient(body));
         this.documents = makeDocuments(this.editor, storage, {
-            failed: () => this.messages.complain(TEXTS.workNotKept, 'storage'),
-            copied: name => this.say({ text: EDITOR_TEXTS.secondTab(name), tone: 'calm' }),
+            failed: () => this.messages.complain(TEXTS.document.couldNotSave, 'storage'),
+            copied: name => this.say({ text: TEXTS.document.secondTab(name), tone: 'calm' }),
         });
         this.transfer = makeTransfer(this.editor, this.documents, {
             name: () => (this.isSimulated ? ROBOT_IN_PAGE : this.state.get().portName),

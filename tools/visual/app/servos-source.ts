@@ -10,7 +10,7 @@ import type { FromServos, PortHint } from '../servos/messages.ts';
 import { ServosClient } from '../servos/servos-client.ts';
 import type { ImageName } from '../view/session/session.ts';
 import { forgetServos, loadServos, saveServos } from '../view/robot-store.ts';
-import { TEXTS } from '../view/texts/robot.ts';
+import { TEXTS } from '../view/texts/texts.ts';
 import { motionLibrary, servosModule } from './assets.ts';
 import { FollowedRobot } from './followed-robot.ts';
 import { rememberAdapter, withPort } from './serial-ports.ts';
@@ -67,7 +67,7 @@ export class ServosSource {
     /** The same with the memories of a new robot. */
     forget(image: ImageName): Promise<void> {
         return this.inTurn(async () => {
-            await this.again(image, () => forgetServos().catch(() => this.say(TEXTS.notKept, 'bad')));
+            await this.again(image, () => forgetServos().catch(() => this.say(TEXTS.robot.notKept, 'bad')));
         });
     }
 
@@ -141,9 +141,9 @@ export class ServosSource {
             case 'adapter':
                 return this.events.change({ adapter: message.isThere ? 'back' : 'out' });
             case 'ended': // a restart, as a board does it
-                return void this.restart(this.image).catch(() => this.stop(TEXTS.servosCrashed));
+                return void this.restart(this.image).catch(() => this.stop(TEXTS.robot.servosCrashed));
             case 'crashed':
-                return this.stop(`${TEXTS.servosCrashed} (${message.text})`);
+                return this.stop(`${TEXTS.robot.servosCrashed} (${message.text})`);
             case 'started':
             case 'refused':
             case 'bytes':
@@ -173,7 +173,7 @@ export class ServosSource {
             await saveServos(memories);
             return true;
         } catch {
-            this.say(TEXTS.notKept, 'bad');
+            this.say(TEXTS.robot.notKept, 'bad');
             return false;
         }
     }

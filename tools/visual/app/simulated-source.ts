@@ -15,7 +15,7 @@ import { SimulatedRobot } from '../sim/robot-client.ts';
 import type { SessionState, ImageName } from '../view/session/session.ts';
 import { forgetRobot, loadRobot, saveRobot } from '../view/robot-store.ts';
 import type { KeptRobot } from '../view/robot-store.ts';
-import { TEXTS, violationText } from '../view/texts/robot.ts';
+import { TEXTS } from '../view/texts/texts.ts';
 import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
 import { holdRobot } from './hold-document.ts';
 import { boardModule, motionLibrary, physics, robotImages } from './assets.ts';
@@ -99,7 +99,7 @@ export class SimulatedSource {
             const parts = await this.parts(image);
             await this.end();
             if (await this.mayKeep)
-                await forgetRobot(KEY).catch(() => this.events.change({ message: { text: TEXTS.notKept, tone: 'bad' } }));
+                await forgetRobot(KEY).catch(() => this.events.change({ message: { text: TEXTS.robot.notKept, tone: 'bad' } }));
             this.begin(parts, null);
         });
     }
@@ -215,7 +215,7 @@ export class SimulatedSource {
             const { bodyXml, wasm } = await physics();
             robot.post({ kind: 'physics', bodyXml, wasm }, [wasm]);
         } catch {
-            this.events.change({ physics: 'off', message: { text: TEXTS.noPhysics, tone: 'bad' } });
+            this.events.change({ physics: 'off', message: { text: TEXTS.robot.noPhysics, tone: 'bad' } });
         }
     }
 
@@ -232,14 +232,14 @@ export class SimulatedSource {
                 return this.events.change(
                     message.error === null
                         ? { physics: 'on' }
-                        : { physics: 'off', message: { text: `${TEXTS.noPhysics} (${message.error})`, tone: 'bad' } },
+                        : { physics: 'off', message: { text: `${TEXTS.robot.noPhysics} (${message.error})`, tone: 'bad' } },
                 );
             case 'memories':
                 return void this.keep(message.memories);
             case 'violation':
-                return this.stop(violationText(message.violation, message.text));
+                return this.stop(TEXTS.robot.violation(message.violation, message.text));
             case 'crashed':
-                return this.stop(TEXTS.crashed);
+                return this.stop(TEXTS.robot.crashed);
             case 'bytes':
                 return; // the port has them
             default:
@@ -264,7 +264,7 @@ export class SimulatedSource {
         try {
             return await loadRobot(KEY);
         } catch {
-            this.events.change({ message: { text: TEXTS.notKept, tone: 'bad' } });
+            this.events.change({ message: { text: TEXTS.robot.notKept, tone: 'bad' } });
             return null;
         }
     }
@@ -275,12 +275,12 @@ export class SimulatedSource {
         try {
             await saveRobot(KEY, memories);
         } catch {
-            this.events.change({ message: { text: TEXTS.notKept, tone: 'bad' } });
+            this.events.change({ message: { text: TEXTS.robot.notKept, tone: 'bad' } });
         }
     }
 
     private tellSecond(): void {
-        if (!this.isSecondShown) this.events.change({ message: { text: TEXTS.secondRobot, tone: 'bad' } });
+        if (!this.isSecondShown) this.events.change({ message: { text: TEXTS.robot.second, tone: 'bad' } });
         this.isSecondShown = true;
     }
 }

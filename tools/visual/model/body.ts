@@ -73,11 +73,6 @@ export function jointPairs(body: Body): (readonly [right: number, left: number])
     });
 }
 
-/** "right_hip_pitch" as people read it. */
-export function jointTitle(joint: Joint): string {
-    return joint.name.replaceAll('_', ' ');
-}
-
 export type Side = 'right' | 'left';
 
 /** Radians by servo. */

@@ -38,11 +38,11 @@ export function isSamePage(a: Uint8Array, b: Uint8Array): boolean {
     return a === b || (a.length === b.length && a.every((byte, i) => byte === b[i]));
 }
 
-/** The name of a copy that none of these documents has yet: "walk (copy)", "walk (copy 2)" ... */
-export function copyName(name: string, taken: readonly string[]): string {
-    const base = name.replace(/ \(copy( \d+)?\)$/, '');
+/** The name of a copy that none of these documents has yet: "walk (copy)", "walk (copy 2)" ... word: "copy" in somebody's language. */
+export function copyName(name: string, taken: readonly string[], word: string): string {
+    const base = name.replace(new RegExp(` \\(${word}( \\d+)?\\)$`), '');
     for (let count = 1; ; count++) {
-        const copy = `${base} (copy${count === 1 ? '' : ` ${count}`})`;
+        const copy = `${base} (${word}${count === 1 ? '' : ` ${count}`})`;
         if (!taken.includes(copy)) return copy;
     }
 }

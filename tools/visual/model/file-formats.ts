@@ -40,9 +40,9 @@ export interface Difference {
     readonly text: string;
 }
 
-/** Suffixes that can be written, and what they are for. */
-export const SUFFIXES = { '.m512': 'text', '.bin': 'image', '.hex': 'Intel HEX', '.mtn': 'RoboPlus' } as const;
-export type Suffix = keyof typeof SUFFIXES;
+/** Suffixes that can be written. */
+export const SUFFIXES = ['.m512', '.bin', '.hex', '.mtn'] as const;
+export type Suffix = (typeof SUFFIXES)[number];
 
 /** No motion file is larger: m512's own bound (files/storage.py). */
 export const MOST_BYTES = 4 << 20;

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
 // motions.html: a card for each motion, with its picture; each is one link, and the robot does it when the page opens.
 
+import type { Texts } from '../view/texts/texts.ts';
 import type { StartMotion } from './motions.ts';
 
+/** Its file in that language. */
+export function startFile(language: string): string {
+    return language === 'en' ? 'motions.html' : `motions.${language}.html`;
+}
+
 export interface Card extends StartMotion {
-    /** Of the robot's page, with the motion in it. */
+    /** With the motion in it, behind the address of the robot's page. */
     readonly address: string;
 }
 
@@ -25,20 +31,24 @@ b, span { display: block; padding: 0 12px }
 b { font-size: 17px }
 span { color: var(--soft) }`;
 
-export function startPage(cards: readonly Card[]): string {
-    const items = cards.map(
-        ({ name, title, text, address }) =>
-            `<li><a href="${address}"><picture><source media="(prefers-reduced-motion: reduce)" srcset="./motions/${name}-still.svg"><img src="./motions/${name}.svg" alt="" width="320" height="320"></picture><b>${title}</b><span>${text}</span></a></li>`,
-    );
+/** others: the same page in other languages, by their names. */
+export function startPage(cards: readonly Card[], language: string, { start }: Texts, others: ReadonlyMap<string, string>): string {
+    const query = language === 'en' ? '' : `?lang=${language}`;
+    const items = cards.map(({ name, address }) => {
+        const [title = '', text = ''] = start.cards[name] ?? [];
+        return `<li><a href="./${query}${address}"><picture><source media="(prefers-reduced-motion: reduce)" srcset="./motions/${name}-still.svg"><img src="./motions/${name}.svg" alt="" width="320" height="320"></picture><b>${title}</b><span>${text}</span></a></li>`;
+    });
+    const languages = [...others].map(([code, name]) => `<a href="${startFile(code)}" lang="${code}" hreflang="${code}">${name}</a>`);
     return `<!doctype html>
-<html lang="en">
-<head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><link rel="icon" href="./icon.svg"><title>Motion512: ten motions</title>
+<html lang="${language}">
+<head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><link rel="icon" href="./icon.svg"><title>${start.title}</title>
 <style>${STYLE}</style></head>
-<body><header><h1>A humanoid with real firmware, in your browser</h1><a href="./">To the robot</a></header>
-<p>Ten of its motions. Choose one, and the robot does it.</p>
+<body><header><h1>${start.heading}</h1><a href="./${query}">${start.toRobot}</a></header>
+<p>${start.choose}</p>
 <ul>
 ${items.join('\n')}
 </ul>
+<nav>${languages.join(' · ')}</nav>
 </body></html>
 `;
 }

@@ -43,7 +43,7 @@ test('12 s of walking are two sentences: that it begins, and that it ends', asyn
         await vi.advanceTimersByTimeAsync(300);
     }
     announcer.look(at('idle', 0, 0), '');
-    expect(message.map(([, text]) => text)).toEqual(['Plays page 20 (walk).', 'The robot stands and waits.']);
+    expect(message.map(([, text]) => text)).toEqual(['Plays motion 20 (walk).', 'The robot stands and waits.']);
 });
 
 test('a fall and what went wrong are said, at most one sentence a second, the newest two', async () => {
@@ -53,7 +53,7 @@ test('a fall and what went wrong are said, at most one sentence a second, the ne
     announcer.look(at('idle', 0, 0), 'The robot lies on the floor.');
     announcer.look({ ...at('idle', 0, 0), message: { text: 'The robot refused.', tone: 'bad' } }, 'The robot lies on the floor.');
     await vi.advanceTimersByTimeAsync(5000);
-    expect(message.map(([, text]) => text)).toEqual(['Plays page 20 (walk).', 'The robot stands and waits.', 'The robot refused.']);
+    expect(message.map(([, text]) => text)).toEqual(['Plays motion 20 (walk).', 'The robot stands and waits.', 'The robot refused.']);
     const times = message.map(([ms]) => ms);
     for (const [i, ms] of times.slice(1).entries()) expect(ms - (times[i] ?? 0)).toBeGreaterThanOrEqual(1000);
 });

@@ -294,9 +294,9 @@ test('a copy that was not edited is no document to go back to', async () => {
 });
 
 test('copies are numbered: of a document, and of a copy', () => {
-    expect(copyName('walk', ['walk'])).toBe('walk (copy)');
-    expect(copyName('walk (copy)', ['walk', 'walk (copy)'])).toBe('walk (copy 2)');
-    expect(copyName('walk', ['walk (copy)', 'walk (copy 2)'])).toBe('walk (copy 3)');
+    expect(copyName('walk', ['walk'], 'copy')).toBe('walk (copy)');
+    expect(copyName('walk (copy)', ['walk', 'walk (copy)'], 'copy')).toBe('walk (copy 2)');
+    expect(copyName('walk', ['walk (copy)', 'walk (copy 2)'], 'copy')).toBe('walk (copy 3)');
 });
 
 test('it opens where somebody worked last, over a reload too; a document in which nobody did, on a new page', async () => {

@@ -75,7 +75,7 @@ test("every file of m512's tests: the same image, or one sentence that names fil
         } else if (no_room !== undefined) {
             expect([trouble, opened, tooLarge], where).toEqual([null, null, { name, pages: no_room }]);
         } else if (is_empty) {
-            expect([trouble, opened], where).toEqual([`${name} holds no motions: all its pages are empty. Nothing was changed.`, null]);
+            expect([trouble, opened], where).toEqual([`${name} holds no motions: all of them are empty. Nothing was changed.`, null]);
         } else {
             expect(trouble, where).toBeNull();
             expect(

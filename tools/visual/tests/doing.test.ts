@@ -20,6 +20,6 @@ const where = (now: PlayState): Where => ({ state: now, page: 2, step: 1 }) as W
 test('Edit says where its screen is, before its first answer and after it, until something plays', () => {
     const said = [null, where('idle'), where('ready')].map(now => doingText(state('edit'), now));
     expect(said).toEqual(Array(3).fill('Edit runs: its screen is in the terminal.'));
-    expect(doingText(state('edit'), where('playing'))).toBe('Playing page 2 (bow), step 1.');
+    expect(doingText(state('edit'), where('playing'))).toBe('Playing motion 2 (bow), step 1.');
     expect(doingText(state('play'), where('idle'))).toBe('The robot stands and waits.');
 });

@@ -8,7 +8,7 @@ import { imageOf, pageOf } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
 import type { FileFormats } from '../model/file-formats.ts';
 import { writePage } from '../model/page.ts';
-import { FILE_TEXTS } from '../view/texts/files.ts';
+import { TEXTS } from '../view/texts/texts.ts';
 import { libraryDocument, makeFormat, makeMotion, must } from './motion-bench.ts';
 
 const { format } = await makeFormat();
@@ -79,7 +79,7 @@ test('damaged pages are counted before, and a file of nothing else is refused wi
     const { editor, files } = await opened(new Map([[WALK, damaged]]));
     const { page } = editor.state.get();
     files.addOpened();
-    expect(files.state.get()).toMatchObject({ opened: null, trouble: expect.stringContaining('No page of the file is whole') });
+    expect(files.state.get()).toMatchObject({ opened: null, trouble: expect.stringContaining('No motion of the file is whole') });
     expect(editor.state.get().page).toBe(page);
 });
 
@@ -89,7 +89,7 @@ test('a file without motions is told so, whether its pages are empty or were nev
         expect(files.state.get()).toMatchObject({ opened: null, trouble: expect.stringMatching(/^found.mtn holds no motions/) });
     const trim = await opened(new Map([[0, renamed(WALK, 'trim')]]));
     expect(trim.files.state.get()).toMatchObject({ opened: { count: 0, hasTrim: true }, trouble: null });
-    expect(FILE_TEXTS.opened(0, 0)).toMatch(/^No motions, only the trim/);
+    expect(TEXTS.files.opened(0, 0)).toMatch(/^No motions, only the trim/);
 });
 
 test('as a new document it is one of its own; replacing takes every page but the trim', async () => {

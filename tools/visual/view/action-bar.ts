@@ -8,18 +8,19 @@ import type { Session, SessionState } from './session/session.ts';
 import { onChoice } from './choice.ts';
 import { define, keepFocus, make } from './element.ts';
 import { GetUp } from './get-up.ts';
+import { TEXTS } from './texts/texts.ts';
 import './action-bar.css';
 
-/** Names of the motion library that get a button, and what stands on it; the lesser ones only where there is room. */
-const BUTTONS: readonly (readonly [string, string, 'lesser'?])[] = [
-    ['walk', 'Walk'],
-    ['back', 'Back', 'lesser'],
-    ['left', 'Turn left', 'lesser'],
-    ['right', 'Turn right', 'lesser'],
-    ['wave', 'Wave'],
-    ['bow', 'Bow', 'lesser'],
-    ['dance', 'Dance', 'lesser'],
-];
+/** Names of the motion library that get a button; the lesser ones only where there is room. */
+const BUTTONS = [
+    ['walk', ''],
+    ['back', 'lesser'],
+    ['left', 'lesser'],
+    ['right', 'lesser'],
+    ['wave', ''],
+    ['bow', 'lesser'],
+    ['dance', 'lesser'],
+] as const;
 /** The page for a robot on its face, and the one for a robot on its back. */
 const GET_UP = { face: 'get_up', back: 'get_up_back' };
 
@@ -28,13 +29,13 @@ export class ActionBar extends HTMLElement {
     private shown = '';
     private readonly getUp = make(
         'button',
-        { class: 'get-up', title: 'From its face or its back, as it lies', onclick: () => this.standUp() },
-        'Get up',
+        { class: 'get-up', title: TEXTS.actions.getUpHint, onclick: () => this.standUp() },
+        TEXTS.actions.getUp,
     );
     private readonly letGo = make(
         'button',
-        { title: 'The hand that holds the robot lets go of it', onclick: () => this.session.sim.hold(false) },
-        'Let go',
+        { title: TEXTS.actions.letGoHint, onclick: () => this.session.sim.hold(false) },
+        TEXTS.actions.letGo,
     );
     private readonly gettingUp = new GetUp(motion => this.playNamed(GET_UP[motion]));
     private frame: RobotState | null = null;
@@ -42,7 +43,7 @@ export class ActionBar extends HTMLElement {
 
     connectedCallback(): void {
         this.setAttribute('role', 'toolbar');
-        this.setAttribute('aria-label', 'Motions');
+        this.setAttribute('aria-label', TEXTS.actions.actions);
         this.disposals.push(
             this.session.state.watch(state => this.render(state)),
             this.session.onFrame(frame => this.look(frame)),
@@ -65,12 +66,12 @@ export class ActionBar extends HTMLElement {
         };
         keepFocus(this, () =>
             this.replaceChildren(
-                this.button('Stop', isReady, () => this.stop(), 'stop'),
+                this.button(TEXTS.page.stop, isReady, () => this.stop(), 'stop'),
                 ...(state.source === 'simulated' ? [this.letGo] : []),
-                ...BUTTONS.flatMap(([name, title, kind]) => plays(name, title, kind)),
+                ...BUTTONS.flatMap(([name, kind]) => plays(name, TEXTS.actions[name], kind)),
                 ...(state.source === 'simulated'
                     ? this.oneGetUp(byName)
-                    : [...plays(GET_UP.face, 'Get up (face)'), ...plays(GET_UP.back, 'Get up (back)')]),
+                    : [...plays(GET_UP.face, TEXTS.actions.getUpFace), ...plays(GET_UP.back, TEXTS.actions.getUpBack)]),
                 this.list(state.pages, isReady),
             ),
         );
@@ -115,8 +116,8 @@ export class ActionBar extends HTMLElement {
         const options = playable.map(page => make('option', { value: page.page }, `${page.page} ${page.name}`));
         const list = make(
             'select',
-            { 'aria-label': 'Play a page', disabled: !isReady || playable.length === 0 },
-            make('option', { value: '' }, 'All pages …'),
+            { 'aria-label': TEXTS.actions.choose, disabled: !isReady || playable.length === 0 },
+            make('option', { value: '' }, TEXTS.actions.all),
             ...options,
         );
         onChoice(list, page => {

@@ -29,7 +29,8 @@ import { RobotView } from './robot-view.ts';
 import { StatusBar } from './status-bar.ts';
 import { Store } from './store.ts';
 import { TerminalPane } from './terminal-pane.ts';
-import { TEXTS } from './texts/robot.ts';
+import { LanguageChoice } from './language-choice.ts';
+import { TEXTS } from './texts/texts.ts';
 import './app-shell.css';
 
 /** Areas that show the document. */
@@ -42,20 +43,20 @@ export class AppShell extends HTMLElement {
     private readonly tabs = new AreaTabs();
     private readonly files = new FilesMenu();
     private readonly panels = new Map<Tab, HTMLElement>();
-    private readonly simulated = make('button', { onclick: () => this.session.useSimulated() }, 'Robot in this page');
-    private readonly yours = make('button', { onclick: () => void this.session.connectYours() }, 'Your robot …');
-    private readonly servos = make('button', { onclick: () => void this.session.connectServos() }, 'My servos …');
+    private readonly simulated = make('button', { onclick: () => this.session.useSimulated() }, TEXTS.menu.robotInPage);
+    private readonly yours = make('button', { onclick: () => void this.session.connectYours() }, TEXTS.menu.yourRobot);
+    private readonly servos = make('button', { onclick: () => void this.session.connectServos() }, TEXTS.menu.myServos);
     private readonly newVersion = make(
         'button',
-        { class: 'wanted', hidden: true, title: TEXTS.newVersion, onclick: () => this.session.takeNewVersion() },
-        'New version: reload',
+        { class: 'wanted', hidden: true, title: TEXTS.page.newVersion, onclick: () => this.session.takeNewVersion() },
+        TEXTS.page.reload,
     );
     private readonly editBar = new EditBar();
     private readonly keys = new KeysDialog();
     private readonly areas = make('div', { class: 'areas' });
     private readonly sheet = make('button', {
         class: 'sheet',
-        'aria-label': 'Areas',
+        'aria-label': TEXTS.areas.areas,
         'aria-expanded': 'true',
         onclick: () => this.foldSheet(!this.isFolded),
     });
@@ -129,24 +130,27 @@ export class AppShell extends HTMLElement {
     }
 
     private head(): HTMLElement {
-        const theme = make('button', { 'aria-label': 'Light or dark', title: 'Light or dark', onclick: () => this.changeTheme() }, '◐');
-        const keys = make('button', { 'aria-label': 'Keys', title: 'Keys (?)', onclick: () => this.keys.open() }, '?');
+        const theme = make('button', { 'aria-label': TEXTS.menu.theme, title: TEXTS.menu.theme, onclick: () => this.changeTheme() }, '◐');
+        const keys = make('button', { 'aria-label': TEXTS.keys.title, title: TEXTS.keys.hint, onclick: () => this.keys.open() }, '?');
         const sources = make(
             'div',
-            { class: 'sources', role: 'group', 'aria-label': 'Which robot' },
+            { class: 'sources', role: 'group', 'aria-label': TEXTS.menu.whichRobot },
             this.simulated,
             this.yours,
             this.servos,
         );
         const more = Object.assign(new MoreMenu(), {
-            content: [sources, this.give(this.files), make('a', { href: './licences.html' }, 'Licences'), keys, theme],
+            content: [
+                sources,
+                this.give(this.files),
+                make('a', { href: './licences.html' }, TEXTS.menu.licences),
+                new LanguageChoice(),
+                keys,
+                theme,
+            ],
         });
-        const tour = make(
-            'button',
-            { class: 'tour-start', title: 'Two minutes to the first motion', onclick: () => this.startTour() },
-            'Tour',
-        );
-        const skip = make('button', { class: 'skip', onclick: () => this.tabs.focusTab(this.session.state.get().tab) }, 'To the areas');
+        const tour = make('button', { class: 'tour-start', title: TEXTS.page.tourHint, onclick: () => this.startTour() }, TEXTS.tour.tour);
+        const skip = make('button', { class: 'skip', onclick: () => this.tabs.focusTab(this.session.state.get().tab) }, TEXTS.page.toAreas);
         return make('header', {}, skip, make('h1', {}, 'Motion512'), this.newVersion, tour, more);
     }
 
@@ -197,7 +201,7 @@ export class AppShell extends HTMLElement {
         this.simulated.setAttribute('aria-pressed', String(state.source === 'simulated'));
         this.yours.setAttribute('aria-pressed', String(state.source === 'yours'));
         this.servos.setAttribute('aria-pressed', String(state.source === 'servos'));
-        this.yours.textContent = state.source === 'yours' && state.connection !== 'closed' ? state.portName : 'Your robot …';
+        this.yours.textContent = state.source === 'yours' && state.connection !== 'closed' ? state.portName : TEXTS.menu.yourRobot;
     }
 }
 

@@ -4,7 +4,7 @@
 import type { Tab } from './session/session.ts';
 import { define, make } from './element.ts';
 import { isRemembered, remember } from './remembered.ts';
-import { AREA_TEXTS } from './texts/robot.ts';
+import { TEXTS } from './texts/texts.ts';
 import './area-tabs.css';
 
 const TABS: readonly Tab[] = ['remote', 'steps', 'curves', 'pages', 'links', 'checks', 'terminal', 'robot'];
@@ -16,17 +16,17 @@ export class AreaTabs extends HTMLElement {
     private readonly tabs = new Map<Tab, HTMLButtonElement>();
     private readonly more = make(
         'button',
-        { class: 'more-areas', title: AREA_TEXTS.moreHint, onclick: () => this.showMore() },
-        AREA_TEXTS.more,
+        { class: 'more-areas', title: TEXTS.areas.moreHint, onclick: () => this.showMore() },
+        TEXTS.areas.more,
     );
 
     connectedCallback(): void {
-        const list = make('div', { role: 'tablist', 'aria-label': AREA_TEXTS.areas });
+        const list = make('div', { role: 'tablist', 'aria-label': TEXTS.areas.areas });
         for (const name of TABS) {
             const tab = make(
                 'button',
                 { role: 'tab', id: `tab-${name}`, 'aria-controls': `area-${name}`, onclick: () => this.onChoose(name, true) },
-                AREA_TEXTS.titles[name],
+                TEXTS.areas.titles[name],
             );
             tab.addEventListener('keydown', event => this.move(event, name));
             this.tabs.set(name, tab);

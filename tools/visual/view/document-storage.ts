@@ -4,6 +4,7 @@
 
 import type { StepsChange } from '../model/history-log.ts';
 import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
+import { TEXTS } from './texts/texts.ts';
 
 /** A document as it is kept. */
 export interface KeptDocument {
@@ -41,6 +42,9 @@ export interface DocumentStorage {
     putBackup(backup: Backup): Promise<void>;
     removeDocument(id: string): Promise<void>;
 }
+
+/** Name of the robot in the page in backups. */
+export const ROBOT_IN_PAGE = 'robot in the page';
 
 const DATABASE = 'motion512-editor';
 const DOCUMENTS = 'documents';
@@ -81,7 +85,7 @@ export function sortKept(documents: readonly unknown[], backups: readonly unknow
     const readable = (entry: unknown): boolean => isImage((entry as { image?: unknown } | null)?.image);
     const nameOf = (entry: unknown): string => {
         const { name, robot, id } = (entry ?? {}) as Record<string, unknown>;
-        return String(name ?? robot ?? id ?? 'without a name');
+        return String(name ?? robot ?? id ?? TEXTS.document.nameless);
     };
     return {
         documents: documents.filter(readable) as KeptDocument[],

@@ -51,7 +51,7 @@ export function closesByItself(menu: HTMLElement & { open: boolean }): () => voi
         if (menu.open && event.target instanceof Node && !menu.contains(event.target)) menu.open = false;
     };
     const keyDown = (event: KeyboardEvent): void => {
-        if (event.key !== 'Escape' || !menu.open) return;
+        if (event.key !== 'Escape' || !menu.open || document.querySelector('dialog[open]')) return;
         event.preventDefault();
         menu.open = false;
         menu.querySelector<HTMLElement>('summary, [aria-expanded]')?.focus();

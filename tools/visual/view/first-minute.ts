@@ -7,7 +7,8 @@ import type { Session } from './session/session.ts';
 import { define, make } from './element.ts';
 import { pushRobot } from './push.ts';
 import { isRemembered, remember } from './remembered.ts';
-import { FIRST_TEXTS } from './texts/robot.ts';
+import { startPageAddress } from './texts/languages.ts';
+import { TEXTS } from './texts/texts.ts';
 import './first-minute.css';
 
 /** Keys that only lead to a button, or press it. */
@@ -23,19 +24,19 @@ export class FirstMinute extends HTMLElement {
         this.hidden = isRemembered('begun');
         if (this.hidden) return;
         this.setAttribute('role', 'region');
-        this.setAttribute('aria-label', FIRST_TEXTS.region);
+        this.setAttribute('aria-label', TEXTS.first.region);
         const button = (title: string, deed: () => void, kind = ''): HTMLButtonElement =>
             make('button', { class: kind, onclick: () => this.choose(deed) }, title);
         this.replaceChildren(
-            make('p', {}, FIRST_TEXTS.what),
+            make('p', {}, TEXTS.first.what),
             make(
                 'div',
                 { class: 'row' },
-                button(FIRST_TEXTS.walk, () => this.walk(), 'primary'),
-                button(FIRST_TEXTS.push, () => this.push()),
-                button(FIRST_TEXTS.teach, () => this.onTeach()),
+                button(TEXTS.first.walk, () => this.walk(), 'primary'),
+                button(TEXTS.first.push, () => this.push()),
+                button(TEXTS.first.teach, () => this.onTeach()),
             ),
-            make('a', { href: './motions.html' }, FIRST_TEXTS.motions),
+            make('a', { href: startPageAddress() }, TEXTS.first.motions),
         );
         const beside = (event: Event): void => {
             if (event.target instanceof Node && !this.contains(event.target)) this.close();
@@ -69,7 +70,7 @@ export class FirstMinute extends HTMLElement {
 
     /** As the key of the remote that is pressed once: one that comes too early is kept. */
     private walk(): void {
-        this.session.say({ text: FIRST_TEXTS.walks, tone: 'calm' });
+        this.session.say({ text: TEXTS.first.walks, tone: 'calm' });
         this.session.remote(new Set(['up']));
         this.session.remote(new Set());
     }
@@ -81,7 +82,7 @@ export class FirstMinute extends HTMLElement {
             stop();
             pushRobot(this.session, 1);
         });
-        this.session.say({ text: FIRST_TEXTS.pushes, tone: 'calm' });
+        this.session.say({ text: TEXTS.first.pushes, tone: 'calm' });
     }
 
     private mayBePushed({ isHeld, isPowered }: RobotState): boolean {

@@ -7,7 +7,7 @@ import type { KeyTarget } from '../model/key-targets.ts';
 import type { Session } from './session/session.ts';
 import { codeText } from './texts/editor.ts';
 import { define, make } from './element.ts';
-import { KEY_TEXTS } from './texts/robot.ts';
+import { TEXTS } from './texts/texts.ts';
 import './key-list.css';
 
 export class KeyList extends HTMLElement {
@@ -45,13 +45,13 @@ export class KeyList extends HTMLElement {
         const { format } = this.session.editor;
         const targets = !hears ? [] : page > 0 ? targetsFrom(format, robot, page) : targetsFromRest(format, robot);
         const name = this.session.state.get().pages.find(entry => entry.page === page)?.name ?? '';
-        this.heading.textContent = page > 0 ? KEY_TEXTS.plays(page, name) : targets.length > 0 ? KEY_TEXTS.keys : '';
+        this.heading.textContent = page > 0 ? TEXTS.remote.leadsOn(page, name) : targets.length > 0 ? TEXTS.remote.keysStart : '';
         this.classList.toggle('playing', page > 0);
         this.list.replaceChildren(...targets.map(target => this.item(target)));
     }
 
     private item({ kind, code, page, name }: KeyTarget): HTMLLIElement {
-        const keys = kind === 'stop' ? '6' : kind === 'then' ? KEY_TEXTS.atItsEnd : codeText(code).replaceAll(/B(\d)/g, '$1');
+        const keys = kind === 'stop' ? '6' : kind === 'then' ? TEXTS.remote.atItsEnd : codeText(code).replaceAll(/B(\d)/g, '$1');
         const content = [make('kbd', {}, keys), make('span', {}, name === '' ? String(page) : name)];
         return make(
             'li',

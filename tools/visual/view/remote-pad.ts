@@ -10,7 +10,8 @@ import { LayerBar } from './editor/layer-bar.ts';
 import { ShapeBar } from './editor/shape-bar.ts';
 import { define, make } from './element.ts';
 import type { Store } from './store.ts';
-import { REMOTE_TEXTS } from './texts/robot.ts';
+import { startPageAddress } from './texts/languages.ts';
+import { TEXTS } from './texts/texts.ts';
 import { WaveButton } from './wave-button.ts';
 import { KeyList } from './key-list.ts';
 import './remote-pad.css';
@@ -52,17 +53,17 @@ const PAD: readonly (readonly [number, RemoteButton])[] = [
     [9, 'b5'],
 ];
 const STICK_REST = 0.25;
-const BUTTONS: readonly (readonly [RemoteButton, string, string])[] = [
-    ['up', '▲', 'U: ahead'],
-    ['left', '◀', 'L: left'],
-    ['right', '▶', 'R: right'],
-    ['down', '▼', 'D: back'],
-    ['b1', '1', 'button 1'],
-    ['b2', '2', 'button 2'],
-    ['b3', '3', 'button 3'],
-    ['b4', '4', 'button 4'],
-    ['b5', '5', '5: pause'],
-    ['b6', '6', '6: stop'],
+const BUTTONS: readonly (readonly [RemoteButton, string])[] = [
+    ['up', '▲'],
+    ['left', '◀'],
+    ['right', '▶'],
+    ['down', '▼'],
+    ['b1', '1'],
+    ['b2', '2'],
+    ['b3', '3'],
+    ['b4', '4'],
+    ['b5', '5'],
+    ['b6', '6'],
 ];
 
 export class RemotePad extends HTMLElement {
@@ -75,18 +76,18 @@ export class RemotePad extends HTMLElement {
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
-        const pad = make('div', { class: 'pad', role: 'group', 'aria-label': REMOTE_TEXTS.title });
-        for (const [name, sign, title] of BUTTONS) pad.append(this.button(name, sign, title));
+        const pad = make('div', { class: 'pad', role: 'group', 'aria-label': TEXTS.remote.title });
+        for (const [name, sign] of BUTTONS) pad.append(this.button(name, sign, TEXTS.remote[name]));
         this.keyList.session = this.session;
         const give = <T extends HTMLElement & { session: Session }>(element: T): T => Object.assign(element, { session: this.session });
         const shape = Object.assign(give(new ShapeBar()), { shape: this.shape });
         this.replaceChildren(
-            make('h2', {}, REMOTE_TEXTS.title),
+            make('h2', {}, TEXTS.remote.title),
             make('div', { class: 'drive' }, pad, make('div', { class: 'goes' }, shape, give(new WaveButton()))),
-            make('p', { class: 'hint' }, REMOTE_TEXTS.keys),
+            make('p', { class: 'hint' }, TEXTS.remote.keys),
             this.keyList,
-            make('details', { class: 'overlay' }, make('summary', {}, REMOTE_TEXTS.beside), give(new LayerBar())),
-            make('p', { class: 'hint' }, make('a', { href: './motions.html' }, REMOTE_TEXTS.motions)),
+            make('details', { class: 'overlay' }, make('summary', {}, TEXTS.remote.layers), give(new LayerBar())),
+            make('p', { class: 'hint' }, make('a', { href: startPageAddress() }, TEXTS.remote.motions)),
         );
         this.listen();
     }

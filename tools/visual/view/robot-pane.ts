@@ -3,21 +3,16 @@
 
 import { NOMINAL_VOLTS, TICKS_PER_SECOND } from '../model/motion.ts';
 import type { Session, SessionState, ImageName, PanelButton } from './session/session.ts';
+import type { RobotState } from '../robot/robot-state.ts';
 import { ask } from './editor/ask-dialog.ts';
 import { define, make, setText } from './element.ts';
 import { pushRobot } from './push.ts';
 import { ServoTable } from './servo-table.ts';
-import { LAW_TEXTS, TEXTS } from './texts/robot.ts';
+import { TEXTS } from './texts/texts.ts';
 import './robot-pane.css';
 
-const SPEEDS: readonly (readonly [number, string])[] = [
-    [0.1, '0.1×'],
-    [0.25, '¼×'],
-    [0.5, '½×'],
-    [1, 'real time'],
-    [2, '2×'],
-    [4, '4×'],
-];
+/** Times the robot's own; without a sign: as fast as in the room. */
+const SPEEDS: readonly (readonly [number, string?])[] = [[0.1, '0.1×'], [0.25, '¼×'], [0.5, '½×'], [1], [2, '2×'], [4, '4×']];
 const PANEL: readonly (readonly [PanelButton, string])[] = [
     ['up', '▲'],
     ['down', '▼'],
@@ -26,7 +21,9 @@ const PANEL: readonly (readonly [PanelButton, string])[] = [
     ['start', 'START'],
     ['mode', 'MODE'],
 ];
+/** As they are printed on the board. */
 const LEDS = ['Power', 'TxD', 'RxD', 'Aux', 'Manage', 'Program', 'Play'];
+const SEEN_LATE_MS = 50;
 const RADIANS = Math.PI / 180;
 
 export class RobotPane extends HTMLElement {
@@ -34,7 +31,7 @@ export class RobotPane extends HTMLElement {
     /** Tells the picture to lean. */
     onTilt: (front: number, left: number) => void = () => undefined;
     private readonly speeds = new Map<number, HTMLButtonElement>();
-    private readonly leds = make('div', { class: 'leds', role: 'img', 'aria-label': 'Lamps' });
+    private readonly leds = make('div', { class: 'leds', role: 'img', 'aria-label': TEXTS.robotPane.lamps });
     private readonly clock = make('p', { class: 'clock' });
     private readonly floor = { tiltFront: 0, tiltLeft: 0, friction: 0.8 };
     private readonly disposals: (() => void)[] = [];
@@ -43,7 +40,7 @@ export class RobotPane extends HTMLElement {
         const servos = new ServoTable();
         servos.session = this.session;
         this.replaceChildren(
-            make('p', { class: 'only-simulated' }, TEXTS.onlyInPage),
+            make('p', { class: 'only-simulated' }, TEXTS.robotPane.onlyInPage),
             make(
                 'div',
                 { class: 'sections' },
@@ -58,10 +55,7 @@ export class RobotPane extends HTMLElement {
         this.disposals.push(
             this.session.state.watch(state => this.render(state)),
             this.session.onFrame(state => {
-                setText(
-                    this.clock,
-                    `${(state.ticks / TICKS_PER_SECOND).toFixed(1)} s${state.lateMs > 50 ? `, ${Math.round(state.lateMs)} ms late` : ''}`,
-                );
+                setText(this.clock, clockText(state));
                 this.showLeds(state.leds);
             }),
         );
@@ -81,7 +75,7 @@ export class RobotPane extends HTMLElement {
         this.leds.dataset.bits = String(bits);
         this.leds.replaceChildren(...LEDS.map((name, i) => make('span', { class: (bits >> i) & 1 ? 'lit' : '' }, name)));
         const lit = LEDS.filter((_, i) => (bits >> i) & 1);
-        this.leds.setAttribute('aria-label', `Lamps lit: ${lit.join(', ') || 'none'}`);
+        this.leds.setAttribute('aria-label', TEXTS.robotPane.lit(lit));
     }
 
     private section(title: string, ...children: (Node | string)[]): HTMLElement {
@@ -90,15 +84,15 @@ export class RobotPane extends HTMLElement {
 
     private timeSection(): HTMLElement {
         const row = make('div', { class: 'row' });
-        const pause = make('button', { onclick: () => this.session.sim.setSpeed(0) }, 'Pause');
+        const pause = make('button', { onclick: () => this.session.sim.setSpeed(0) }, TEXTS.robotPane.pause);
         this.speeds.set(0, pause);
-        row.append(pause, make('button', { onclick: () => this.session.sim.oneTick() }, 'One tick'));
+        row.append(pause, make('button', { onclick: () => this.session.sim.oneTick() }, TEXTS.robotPane.oneTick));
         for (const [speed, title] of SPEEDS) {
-            const button = make('button', { onclick: () => this.session.sim.setSpeed(speed) }, title);
+            const button = make('button', { onclick: () => this.session.sim.setSpeed(speed) }, title ?? TEXTS.robotPane.realTime);
             this.speeds.set(speed, button);
             row.append(button);
         }
-        const section = this.section('Time', row, this.clock);
+        const section = this.section(TEXTS.robotPane.time, row, this.clock);
         section.classList.add('time');
         return section;
     }
@@ -107,21 +101,21 @@ export class RobotPane extends HTMLElement {
         const row = make(
             'div',
             { class: 'row' },
-            make('button', { onclick: () => this.session.sim.setPower(true) }, 'Power on'),
-            make('button', { onclick: () => this.session.sim.setPower(false) }, 'Power off'),
-            make('button', { onclick: () => void this.session.setTorque(false) }, 'Torque off'),
+            make('button', { onclick: () => this.session.sim.setPower(true) }, TEXTS.robotPane.powerOn),
+            make('button', { onclick: () => this.session.sim.setPower(false) }, TEXTS.robotPane.powerOff),
+            make('button', { onclick: () => void this.session.setTorque(false) }, TEXTS.robotPane.torqueOff),
         );
         for (const [name, sign] of PANEL) row.append(this.panelButton(name, sign));
         return this.section(
-            'Power and panel',
+            TEXTS.robotPane.power,
             row,
             this.leds,
-            this.slider('Battery', 6, 12.6, 0.1, NOMINAL_VOLTS, ' V', volts => this.session.sim.setBattery(volts)),
+            this.slider(TEXTS.robotPane.battery, 6, 12.6, 0.1, NOMINAL_VOLTS, ' V', volts => this.session.sim.setBattery(volts)),
         );
     }
 
     private panelButton(name: PanelButton, sign: string): HTMLButtonElement {
-        const button = make('button', { 'aria-label': `panel button ${name}` }, sign);
+        const button = make('button', { 'aria-label': TEXTS.robotPane.panel[name] }, sign);
         button.addEventListener('pointerdown', () => this.session.sim.press(name, true));
         for (const end of ['pointerup', 'pointerleave'] as const) button.addEventListener(end, () => this.session.sim.press(name, false));
         const isPress = ({ key }: KeyboardEvent): boolean => key === 'Enter' || key === ' ';
@@ -138,17 +132,17 @@ export class RobotPane extends HTMLElement {
             this.onTilt(this.floor.tiltFront, this.floor.tiltLeft);
         };
         return this.section(
-            'Hand and floor',
+            TEXTS.robotPane.room,
             make(
                 'div',
                 { class: 'row' },
-                make('button', { onclick: () => this.session.sim.hold(true) }, 'Put on its feet'),
-                make('button', { onclick: () => pushRobot(this.session, 1) }, 'Push ahead'),
-                make('button', { onclick: () => pushRobot(this.session, -1) }, 'Push back'),
+                make('button', { onclick: () => this.session.sim.hold(true) }, TEXTS.robotPane.stand),
+                make('button', { onclick: () => pushRobot(this.session, 1) }, TEXTS.robotPane.pushAhead),
+                make('button', { onclick: () => pushRobot(this.session, -1) }, TEXTS.robotPane.pushBack),
             ),
-            this.slider('Slope to the front', -15, 15, 1, 0, '°', angle => set({ tiltFront: angle * RADIANS })),
-            this.slider('Slope to the left', -15, 15, 1, 0, '°', angle => set({ tiltLeft: angle * RADIANS })),
-            this.slider('Grip of the floor', 0, 1.5, 0.05, 0.8, '', friction => set({ friction })),
+            this.slider(TEXTS.robotPane.slopeFront, -15, 15, 1, 0, '°', angle => set({ tiltFront: angle * RADIANS })),
+            this.slider(TEXTS.robotPane.slopeLeft, -15, 15, 1, 0, '°', angle => set({ tiltLeft: angle * RADIANS })),
+            this.slider(TEXTS.robotPane.grip, 0, 1.5, 0.05, 0.8, '', friction => set({ friction })),
         );
     }
 
@@ -156,13 +150,13 @@ export class RobotPane extends HTMLElement {
         const image = (name: ImageName, title: string): HTMLButtonElement =>
             make('button', { onclick: () => this.session.runImage(name) }, title);
         return this.section(
-            'Firmware',
+            TEXTS.robotPane.firmware,
             make(
                 'div',
                 { class: 'row' },
-                image('play', 'Run Play'),
-                image('edit', 'Run Edit'),
-                make('button', { onclick: () => void this.askForget() }, 'Factory fresh'),
+                image('play', TEXTS.robotPane.runPlay),
+                image('edit', TEXTS.robotPane.runEdit),
+                make('button', { onclick: () => void this.askForget() }, TEXTS.robotPane.fresh),
             ),
         );
     }
@@ -170,18 +164,19 @@ export class RobotPane extends HTMLElement {
     private lawSection(): HTMLElement {
         const row = make('div', { class: 'row' });
         for (const [law, title, hint] of [
-            ['exact', LAW_TEXTS.exact, LAW_TEXTS.exactHint],
-            ['classic', LAW_TEXTS.classic, LAW_TEXTS.classicHint],
+            ['exact', TEXTS.robotPane.exact, TEXTS.robotPane.exactHint],
+            ['classic', TEXTS.robotPane.classic, TEXTS.robotPane.classicHint],
         ] as const) {
             const button = make('button', { title: hint, onclick: () => this.session.editor.select({ law }) }, title);
             this.disposals.push(this.session.editor.state.watch(state => button.setAttribute('aria-pressed', String(state.law === law))));
             row.append(button);
         }
-        return this.section(LAW_TEXTS.title, row, make('p', { class: 'hint' }, LAW_TEXTS.hint));
+        return this.section(TEXTS.robotPane.law, row, make('p', { class: 'hint' }, TEXTS.robotPane.lawHint));
     }
 
     private async askForget(): Promise<void> {
-        if ((await ask('Factory fresh?', TEXTS.factoryFresh, [['Forget everything', 'forget']])) !== null) await this.session.forget();
+        const { robotPane } = TEXTS;
+        if ((await ask(robotPane.askFresh, robotPane.freshMeans, [[robotPane.forget, 'forget']])) !== null) await this.session.forget();
     }
 
     private slider(
@@ -201,6 +196,12 @@ export class RobotPane extends HTMLElement {
         });
         return make('label', { class: 'slider' }, make('span', {}, title), input, output);
     }
+}
+
+/** The robot's time, and how much it is late, as far as one sees that. */
+function clockText({ ticks, lateMs }: RobotState): string {
+    const seconds = (ticks / TICKS_PER_SECOND).toFixed(1);
+    return lateMs > SEEN_LATE_MS ? TEXTS.robotPane.late(seconds, Math.round(lateMs)) : `${seconds} s`;
 }
 
 define('robot-pane', RobotPane);

@@ -3,7 +3,6 @@
 // edited, change the step (editor/pose-tool.ts). Two fingers are always the camera's. By keyboard: Shift and the arrows turn it,
 // Page Up and Down look from above and below, + and - go nearer and farther, P pushes.
 
-import { jointTitle } from '../model/body.ts';
 import type { Joint } from '../model/body.ts';
 import { limbTo } from '../model/ik.ts';
 import type { Touch } from '../model/trial.ts';
@@ -19,7 +18,8 @@ import { RobotScene } from './robot-scene.ts';
 import type { Picked } from './robot-scene.ts';
 import { Store } from './store.ts';
 import { pushRobot } from './push.ts';
-import { TEXTS } from './texts/robot.ts';
+import { jointTitle } from './texts/robot.ts';
+import { TEXTS } from './texts/texts.ts';
 import './robot-view.css';
 
 /** A mark in the browser's performance timeline: the robot is in the picture for the first time. */
@@ -46,8 +46,8 @@ export class RobotView extends HTMLElement {
     /** A hand has turned the camera while the robot was driven. */
     private isLookedRound = false;
     private readonly label = make('div', { class: 'joint-label', 'aria-hidden': 'true' });
-    private readonly spoken = make('p', { class: 'visually-hidden', role: 'status', 'aria-label': 'Chosen joint' });
-    private readonly canvas = make('canvas', { tabindex: 0, role: 'img', 'aria-label': 'The robot' });
+    private readonly spoken = make('p', { class: 'visually-hidden', role: 'status', 'aria-label': TEXTS.picture.chosenJoint });
+    private readonly canvas = make('canvas', { tabindex: 0, role: 'img', 'aria-label': TEXTS.picture.robot });
     private readonly fingers = new Fingers(this.canvas, () => this.endDrag());
     private readonly disposals: (() => void)[] = [];
 
@@ -56,7 +56,7 @@ export class RobotView extends HTMLElement {
         try {
             this.scene = new RobotScene(this.canvas, this.session.body);
         } catch {
-            this.replaceChildren(make('p', { class: 'no-picture' }, TEXTS.noWebGl));
+            this.replaceChildren(make('p', { class: 'no-picture' }, TEXTS.page.noWebGl));
             return;
         }
         this.quality = new PictureQuality(this.scene.isSoftware);
@@ -307,20 +307,23 @@ export class RobotView extends HTMLElement {
         if (!this.pose?.isPosing || joints.size === 0) return;
         const spoken = this.session.body.joints
             .filter(({ servo }) => joints.has(servo))
-            .map(joint => `${jointTitle(joint)}: ${this.standOf(joint)}`);
+            .map(joint => TEXTS.picture.spokenJoint(jointTitle(joint), this.positionOf(joint).position));
         setText(this.spoken, spoken.join(', '));
     }
 
     private showJoint(link: string | null): void {
         const joint = this.session.body.joints.find(one => one.body === link);
         this.label.hidden = !joint;
-        if (joint) this.label.textContent = `${joint.servo} ${jointTitle(joint)}: ${this.standOf(joint)}`;
+        if (!joint) return;
+        const { position, isLimp } = this.positionOf(joint);
+        const text = isLimp ? TEXTS.picture.limpJoint : TEXTS.picture.joint;
+        this.label.textContent = text(joint.servo, jointTitle(joint), position);
     }
 
-    private standOf(joint: Joint): string {
-        if (this.pose?.isPosing) return String(Math.round(this.pose.shownPose[joint.servo] ?? joint.zero));
+    private positionOf(joint: Joint): { readonly position: number; readonly isLimp: boolean } {
+        if (this.pose?.isPosing) return { position: Math.round(this.pose.shownPose[joint.servo] ?? joint.zero), isLimp: false };
         const servo = this.state?.servos.find(one => one.id === joint.servo);
-        return `${Math.round(servo?.position ?? joint.zero)}${servo?.torque ? '' : ', limp'}`;
+        return { position: Math.round(servo?.position ?? joint.zero), isLimp: servo?.torque !== true };
     }
 
     private key(event: KeyboardEvent): void {

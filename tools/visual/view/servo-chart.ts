@@ -4,6 +4,7 @@
 import { TICKS_PER_SECOND } from '../model/motion.ts';
 import type { RobotState } from '../robot/robot-state.ts';
 import { define, make } from './element.ts';
+import { TEXTS } from './texts/texts.ts';
 
 const TICKS = TICKS_PER_SECOND * 6;
 const MARGIN_UNITS = 12;
@@ -25,7 +26,7 @@ export class ServoChart extends HTMLElement {
     choose(servo: number): void {
         this.servo = servo;
         this.goals.length = this.positions.length = 0;
-        this.canvas.setAttribute('aria-label', `Goal and position of servo ${servo} over the last six seconds`);
+        this.canvas.setAttribute('aria-label', TEXTS.servos.chart(servo));
     }
 
     take(state: RobotState): void {

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 // All servos: goal, position, torque, alarms, and a fault for each. The chosen one is drawn over time.
 
-import { jointTitle } from '../model/body.ts';
 import type { RobotState, ServoState } from '../robot/robot-state.ts';
 import type { Session } from './session/session.ts';
 import { onChoice } from './choice.ts';
 import { define, make, setText } from './element.ts';
 import { ServoChart } from './servo-chart.ts';
-import { FAULT_TITLES } from './texts/robot.ts';
+import { jointTitle } from './texts/robot.ts';
+import { TEXTS } from './texts/texts.ts';
 
-const ALARMS = ['voltage', 'angle limit', 'hot', 'range', 'checksum', 'overload', 'instruction'];
 const FRAMES_A_SECOND = 60;
 const UPDATES_A_SECOND = 10;
 
@@ -28,19 +27,20 @@ export class ServoTable extends HTMLElement {
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
+        const { servos: texts } = TEXTS;
         const body = make('tbody');
         for (const joint of [...this.session.body.joints].sort((a, b) => a.servo - b.servo))
             body.append(this.row(joint.servo, jointTitle(joint)));
         const head = make(
             'tr',
             {},
-            ...['', 'Joint', 'Goal', 'Position', 'State', 'Fault'].map(title => make('th', { scope: 'col' }, title)),
+            ...['', texts.joint, texts.goal, texts.position, texts.state, texts.fault].map(title => make('th', { scope: 'col' }, title)),
         );
         this.replaceChildren(
             make(
                 'section',
-                { 'aria-label': 'Servos' },
-                make('h2', {}, 'Servos: goal (dashed) and position'),
+                { 'aria-label': texts.servos },
+                make('h2', {}, texts.title),
                 this.chart,
                 make('div', { class: 'scroll' }, make('table', {}, make('thead', {}, head), body)),
             ),
@@ -58,9 +58,9 @@ export class ServoTable extends HTMLElement {
 
     private row(servo: number, title: string): HTMLTableRowElement {
         const cells = { goal: make('td', { class: 'number' }), position: make('td', { class: 'number' }), state: make('td') };
-        const fault = make('select', { 'aria-label': `Fault of servo ${servo}` });
+        const fault = make('select', { 'aria-label': TEXTS.servos.faultOf(servo) });
         onChoice(fault, () => this.setFault(servo, fault));
-        const choice = make('input', { type: 'radio', name: 'charted', 'aria-label': `Draw servo ${servo}`, checked: servo === 13 });
+        const choice = make('input', { type: 'radio', name: 'charted', 'aria-label': TEXTS.servos.draw(servo), checked: servo === 13 });
         choice.addEventListener('change', () => this.chart.choose(servo));
         this.rows.set(servo, { ...cells, fault });
         return make(
@@ -79,8 +79,8 @@ export class ServoTable extends HTMLElement {
         for (const { fault } of this.rows.values()) {
             if (fault.options.length === names.length + 1) continue;
             fault.replaceChildren(
-                make('option', { value: '' }, 'none'),
-                ...names.map((name, i) => make('option', { value: i }, FAULT_TITLES[name] ?? name)),
+                make('option', { value: '' }, TEXTS.servos.noFault),
+                ...names.map((name, i) => make('option', { value: i }, TEXTS.servos.faults[name] ?? name)),
             );
         }
     }
@@ -100,8 +100,8 @@ export class ServoTable extends HTMLElement {
         if (!row) return;
         setText(row.goal, servo.torque && servo.goalPos !== null ? String(servo.goalPos) : '–');
         setText(row.position, servo.position.toFixed(0));
-        const alarms = ALARMS.filter((_, i) => (servo.alarms >> i) & 1);
-        setText(row.state, alarms.length > 0 ? alarms.join(', ') : servo.torque ? 'holds' : 'limp');
+        const alarms = TEXTS.servos.alarms.filter((_, i) => (servo.alarms >> i) & 1);
+        setText(row.state, alarms.length > 0 ? alarms.join(', ') : servo.torque ? TEXTS.servos.holds : TEXTS.servos.limp);
         row.state.classList.toggle('alarm', alarms.length > 0);
     }
 }

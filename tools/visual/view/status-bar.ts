@@ -4,15 +4,15 @@
 import { Announcer } from './announcer.ts';
 import type { Session, SessionState, Notice } from './session/session.ts';
 import { define, make, setText } from './element.ts';
-import { TEXTS } from './texts/robot.ts';
+import { TEXTS } from './texts/texts.ts';
 import './status-bar.css';
 
 export class StatusBar extends HTMLElement {
     session!: Session; // set before it is connected
-    private readonly doing = make('p', { class: 'doing', role: 'status', 'aria-live': 'off', 'aria-label': 'What the robot does' });
-    private readonly message = make('p', { class: 'message', role: 'log', 'aria-live': 'off', 'aria-label': 'Last message' });
+    private readonly doing = make('p', { class: 'doing', role: 'status', 'aria-live': 'off', 'aria-label': TEXTS.status.activity });
+    private readonly message = make('p', { class: 'message', role: 'log', 'aria-live': 'off', 'aria-label': TEXTS.status.message });
     /** The only part that is read aloud. */
-    private readonly spoken = make('p', { class: 'visually-hidden', 'aria-live': 'polite', 'aria-label': 'Announcements' });
+    private readonly spoken = make('p', { class: 'visually-hidden', 'aria-live': 'polite', 'aria-label': TEXTS.status.announcements });
     private readonly announcer = new Announcer({
         say: text => setText(this.spoken, text),
         after: (delayMs, call) => void setTimeout(call, delayMs),
@@ -26,7 +26,7 @@ export class StatusBar extends HTMLElement {
         this.disposals.push(
             this.session.state.watch(state => this.render(state)),
             this.session.onFrame(state => {
-                const fallen = state.hasFallen ? TEXTS.fallen : state.isHeld ? TEXTS.held : '';
+                const fallen = state.hasFallen ? TEXTS.status.fallen : state.isHeld ? TEXTS.status.held : '';
                 if (fallen === this.fallen) return;
                 this.fallen = fallen;
                 this.render(this.session.state.get());
@@ -39,10 +39,11 @@ export class StatusBar extends HTMLElement {
     }
 
     private render(state: SessionState): void {
-        const liesIdle = this.fallen === TEXTS.fallen && (state.doing.text === TEXTS.waits || state.doing.text === TEXTS.editRuns);
+        const liesIdle =
+            this.fallen === TEXTS.status.fallen && (state.doing.text === TEXTS.status.waits || state.doing.text === TEXTS.status.editRuns);
         this.write(this.doing, {
             ...state.doing,
-            text: liesIdle ? TEXTS.getUp : [state.doing.text, this.fallen].filter(Boolean).join(' '),
+            text: liesIdle ? TEXTS.status.getUp : [state.doing.text, this.fallen].filter(Boolean).join(' '),
         });
         this.announcer.look(state, this.fallen);
         this.write(this.message, state.message);
@@ -55,7 +56,11 @@ export class StatusBar extends HTMLElement {
                     ? `${version.image === 'edit' ? 'Edit' : version.image === 'play' ? 'Play' : version.image} ${version.version}`
                     : '',
                 where && where.batteryVolts > 0 ? `${where.batteryVolts.toFixed(1)} V` : '',
-                state.speed === 1 || state.source !== 'simulated' ? '' : state.speed === 0 ? 'time stands still' : `${state.speed}× time`,
+                state.speed === 1 || state.source !== 'simulated'
+                    ? ''
+                    : state.speed === 0
+                      ? TEXTS.status.timeStands
+                      : TEXTS.status.timeRuns(state.speed),
             ]
                 .filter(Boolean)
                 .join(' · '),

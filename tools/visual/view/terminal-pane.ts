@@ -3,6 +3,7 @@
 // are as large as the pane lets 80 columns be, but never too small to be read: then it scrolls, and there is the full screen.
 
 import { Terminal } from '@xterm/xterm';
+import { TEXTS } from './texts/texts.ts';
 import '@xterm/xterm/css/xterm.css';
 import type { Session } from './session/session.ts';
 import { define, make } from './element.ts';
@@ -24,7 +25,7 @@ export class TerminalPane extends HTMLElement {
     private readonly full = make(
         'button',
         { class: 'full-screen', 'aria-pressed': 'false', onclick: () => void this.fillScreen() },
-        'Full screen',
+        TEXTS.terminal.fullScreen,
     );
     private readonly disposals: (() => void)[] = [];
 
@@ -45,7 +46,7 @@ export class TerminalPane extends HTMLElement {
         });
         this.terminal = terminal;
         terminal.open(screen);
-        terminal.textarea?.setAttribute('aria-label', 'Terminal of the robot');
+        terminal.textarea?.setAttribute('aria-label', TEXTS.terminal.terminal);
         // Tab goes on to the next thing, as everywhere: no firmware wants it, and a keyboard must get out of here.
         terminal.attachCustomKeyEventHandler(event => event.key !== 'Tab');
         terminal.onData(text => this.session.type(new TextEncoder().encode(text)));

@@ -3,13 +3,13 @@
 
 import type { Session, SessionState } from './session/session.ts';
 import { define, make } from './element.ts';
-import { SHAPE_TEXTS } from './texts/robot.ts';
+import { TEXTS } from './texts/texts.ts';
 
 const WAVE = 'wave_over';
 
 export class WaveButton extends HTMLElement {
     session!: Session; // set before it is connected
-    private readonly button = make('button', { title: SHAPE_TEXTS.waveHint, onclick: () => this.press() }, SHAPE_TEXTS.wave);
+    private readonly button = make('button', { title: TEXTS.remote.waveHint, onclick: () => this.press() }, TEXTS.remote.wave);
     /** Asked for, and it does not walk yet. */
     private isWanted = false;
     private unwatch: () => void = () => undefined;

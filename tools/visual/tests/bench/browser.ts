@@ -14,11 +14,12 @@ interface Sample {
 }
 
 function weight(): void {
-    const { first, physics, python } = weights();
+    const { first, physics, python, languages } = weights();
     const line = (what: string, bytes: number): void => console.log(`${what.padEnd(42)}${(bytes / 1024).toFixed(0).padStart(6)} KB`);
     line('first load with both images, compressed', first);
     line('physics, after it', physics);
     line('Python, when m512 is asked', python);
+    line('a language, when it is chosen (mean)', languages / 4);
 }
 
 /** Time, lateness and how far time has come, told by the page itself. */
@@ -82,8 +83,8 @@ class Wire {
 
 /** Play of a motion that was just edited, which the robot does not have: to the first movement of the picture. */
 async function playLatency(visitor: Visitor): Promise<void> {
-    await visitor.open('Pages');
-    await visitor.page.getByRole('option', { name: /^page 3 wave/ }).dblclick();
+    await visitor.open('Motions');
+    await visitor.page.getByRole('option', { name: /^motion 3 wave/ }).dblclick();
     await visitor.page.getByLabel('Time of step 1').fill('0.9');
     await visitor.page.getByLabel('Time of step 1').press('Enter');
     await visitor.untilSeen();
@@ -104,7 +105,7 @@ async function playLatency(visitor: Visitor): Promise<void> {
             }),
     );
     console.log(`${'Play after an edit to the first movement'.padEnd(42)}${took.toFixed(0).padStart(6)} ms of 300 ms`);
-    await visitor.doing.filter({ hasText: 'Playing page 3' }).waitFor();
+    await visitor.doing.filter({ hasText: 'Playing motion 3' }).waitFor();
     await visitor.untilStanding();
     await visitor.open('Remote');
 }

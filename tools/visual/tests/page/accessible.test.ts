@@ -6,8 +6,8 @@ import { expect, test } from 'vitest';
 import { Visitor } from './page-bench.ts';
 import { SHOTS, pageSuite } from './page-suite.ts';
 
-const WIDE = { width: 1280, height: 800 };
-const AREAS = ['Remote', 'Steps', 'Curves', 'Pages', 'Links', 'Checks', 'Terminal', 'Robot'] as const;
+const WIDE = { width: 1440, height: 800 };
+const AREAS = ['Remote', 'Steps', 'Curves', 'Motions', 'Links', 'Checks', 'Terminal', 'Robot'] as const;
 const LIBRARY = new URL('../../../../build/motions/motions.bin', import.meta.url).pathname;
 const suite = pageSuite();
 
@@ -57,27 +57,30 @@ test('no serious finding in any area and any dialog; in the dark the contrast ho
     await person.open('Robot');
     await person.button('Pause').click(); // what is looked at stands still, and the robot leaves the processor to axe
     await page.evaluate(source);
-    await person.open('Pages');
-    await page.getByRole('option', { name: /^page 2 bow/ }).click();
+    await person.open('Motions');
+    await page.getByRole('option', { name: /^motion 2 bow/ }).click();
     await page.keyboard.press('F2');
     await page.keyboard.type('curtsy');
     await page.keyboard.press('Enter');
-    await page.getByRole('combobox', { name: 'Which pages' }).selectOption('changed'); // the other cards are made alike
+    await page.getByRole('combobox', { name: 'Which motions' }).selectOption('changed'); // the other cards are made alike
     for (const area of AREAS) {
         await person.open(area);
         await look(area, area === 'Remote' ? 'body' : 'main'); // the head is the same
     }
-    await person.button('Light or dark').click(); // by its button, too
+    await person.press('Light or dark'); // by its button, too
     expect(await page.evaluate(() => document.documentElement.dataset.theme)).toBe('dark');
     await paint('light');
 
     await person.open('Steps');
-    await page.getByRole('combobox', { name: 'Page', exact: true }).selectOption('3'); // else a new page, with nothing to send
+    await page.getByRole('combobox', { name: 'Motion', exact: true }).selectOption('3'); // else a new page, with nothing to send
     await page.getByText('View', { exact: true }).click();
     await person.button('Tour').click();
     await look('Tour and view', 'body');
     await person.button('End the tour').click();
-    await dialog('Keys', () => person.button('Keys').click());
+    await dialog('Keys', async () => {
+        await person.openMenu();
+        await person.button('Keys').click();
+    });
     await dialog('Link', () => person.button('Send as link').click());
     await dialog('File opened', () => page.getByLabel('Motion file').setInputFiles(LIBRARY));
     await dialog('File refused', () =>
@@ -87,18 +90,18 @@ test('no serious finding in any area and any dialog; in the dark the contrast ho
     const documents = page.getByRole('combobox', { name: 'Document', exact: true });
     await dialog('Document deleted', () => documents.selectOption({ label: 'Delete …' }));
     await dialog('Document named', () => documents.selectOption({ label: 'Rename …' }));
-    await person.open('Pages');
-    await page.getByRole('combobox', { name: 'Which pages' }).selectOption('all');
+    await person.open('Motions');
+    await page.getByRole('combobox', { name: 'Which motions' }).selectOption('all');
     await dialog('Page cleared', () => person.button('Clear …').click());
     await dialog('Page moved', async () => {
         await person.button('Copy or move …').click();
-        await page.getByRole('textbox', { name: 'To page' }).fill('2');
+        await page.getByRole('textbox', { name: 'To number' }).fill('2');
         await page.keyboard.press('Enter');
         await page.getByRole('dialog', { name: 'Copy or move', exact: true }).waitFor();
     });
     await person.open('Robot');
     await person.button('real time').click(); // the robot is asked what it has
-    await person.open('Pages');
+    await person.open('Motions');
     await dialog('Compare', async () => {
         await person.button('To the robot (1) …').click();
         await page.getByText('name "bow" -> "curtsy"').waitFor();

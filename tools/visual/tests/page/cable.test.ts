@@ -30,22 +30,22 @@ test('a cable pulled while four pages are written: each is told as old or new, "
     await person.open('Robot');
     await person.button('Run Edit').click();
     await person.page.getByText(/^Edit runs:/).waitFor();
-    await person.open('Pages');
+    await person.open('Motions');
     const card = (name: RegExp) => page.getByRole('option', { name });
-    await card(/^page 7 stand/).click();
+    await card(/^motion 7 stand/).click();
     for (const number of PAGES) {
         await person.button('Copy or move …').click();
-        await page.getByRole('textbox', { name: 'To page' }).fill(String(number));
+        await page.getByRole('textbox', { name: 'To number' }).fill(String(number));
         await page.keyboard.press('Enter');
         await page.getByRole('dialog').getByRole('button', { name: 'Copy', exact: true }).click();
-        await card(new RegExp(`^page ${number} stand`)).waitFor();
-        await card(/^page 7 stand/).click();
+        await card(new RegExp(`^motion ${number} stand`)).waitFor();
+        await card(/^motion 7 stand/).click();
     }
     await person.button(`To the robot (${PAGES.length}) …`).click();
-    const rows = page.getByRole('list', { name: 'Pages that differ' });
-    await rows.getByText(`page ${PAGES[0]} (stand)`).waitFor();
+    const rows = page.getByRole('list', { name: 'Motions that differ' });
+    await rows.getByText(`motion ${PAGES[0]} (stand)`).waitFor();
     await pullAtThirdSave(person);
-    await person.button(`Write ${PAGES.length} pages into the robot`).click();
+    await person.button(`Write ${PAGES.length} motions into the robot`).click();
     const status = page.getByRole('status', { name: 'Transfer' });
     await status.filter({ hasText: 'cable' }).waitFor();
     const accounts = await rows.getByRole('listitem').locator('.account').allTextContents();
@@ -66,6 +66,6 @@ test('a cable pulled while four pages are written: each is told as old or new, "
             },
             { timeout: 240_000, interval: 2000 },
         )
-        .toContain(`Written and verified: ${PAGES.length} pages.`);
+        .toContain(`Written and verified: ${PAGES.length} motions.`);
     await person.leave();
 }, 900_000);

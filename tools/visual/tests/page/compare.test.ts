@@ -18,7 +18,7 @@ test('a file to compare with: a reading that does not end is cancelled, by the b
     const { page } = person;
     await person.untilStanding();
     await person.open('Steps');
-    await page.getByRole('textbox', { name: 'Name of the page' }).fill('mine');
+    await page.getByRole('textbox', { name: 'Name of the motion' }).fill('mine');
     await page.keyboard.press('Enter');
     await person.button('To the robot (1) …').click();
     const dialog = page.getByRole('dialog', { name: 'Compare and write' });
@@ -27,7 +27,7 @@ test('a file to compare with: a reading that does not end is cancelled, by the b
         dialog
             .getByLabel('File to compare with')
             .setInputFiles({ name: 'theirs.m512', mimeType: '', buffer: Buffer.from('motion512 1\n') });
-    await dialog.getByRole('button', { name: /^Write 1 page/ }).waitFor();
+    await dialog.getByRole('button', { name: /^Write 1 motion/ }).waitFor();
 
     await choose();
     await status.filter({ hasText: 'Reading theirs.m512 …' }).waitFor();

@@ -94,7 +94,7 @@ test('a pupil, by the tour: teaches a page by hand, names it, the firmware plays
         await expect.poll(() => steps(pupil).count(), PATIENT).toBe(i + 1);
     }
     await said(pupil, 'Give it a name');
-    const name = pupil.page.getByRole('textbox', { name: 'Name of the page' });
+    const name = pupil.page.getByRole('textbox', { name: 'Name of the motion' });
     await name.fill('hello');
     await name.press('Enter');
     await said(pupil, 'Once is no waving');
@@ -106,7 +106,7 @@ test('a pupil, by the tour: teaches a page by hand, names it, the firmware plays
     const lifted = await arm(pupil);
     await said(pupil, 'Press "Play"');
     await pupil.button('▶ Play').click();
-    await pupil.doing.filter({ hasText: /Playing page \d+ \(hello\)/ }).waitFor(PATIENT);
+    await pupil.doing.filter({ hasText: /Playing motion \d+ \(hello\)/ }).waitFor(PATIENT);
     const begunS = await robotSeconds(pupil);
     await said(pupil, 'That is your first motion');
     await pupil.page.screenshot({ path: `${SHOTS}steps.png` });
@@ -127,6 +127,6 @@ test('a pupil, by the tour: teaches a page by hand, names it, the firmware plays
     await pupil.leave();
 
     const friend = await Visitor.come(suite.browser, link, { hasPicture: false });
-    await friend.doing.filter({ hasText: /Playing page \d+ \(hello\)/ }).waitFor(PATIENT);
+    await friend.doing.filter({ hasText: /Playing motion \d+ \(hello\)/ }).waitFor(PATIENT);
     await friend.leave();
 }, 900_000);

@@ -93,23 +93,23 @@ test('a hobbyist opens a RoboPlus file found on the net, sees where it is too fa
 
     await chooser.setInputFiles(join(folder, 'found.mtn'));
     const dialog = page.getByRole('dialog', { name: 'found.mtn' });
-    await dialog.getByText(/^[1-9]\d motion pages/).waitFor();
+    await dialog.getByText(/^[1-9]\d motions/).waitFor();
     await page.screenshot({ path: `${SHOTS}opened.png` });
     const isInside = await dialog.evaluate(box => {
         const left = box.getBoundingClientRect().left;
         return [...box.querySelectorAll('button')].every(button => button.getBoundingClientRect().left > left);
     });
     expect(isInside).toBe(true); // four buttons are wider than the dialog
-    await dialog.getByRole('button', { name: 'Replace all pages' }).click();
+    await dialog.getByRole('button', { name: 'Replace all motions' }).click();
     await dialog.waitFor({ state: 'hidden' });
 
     await person.open('Checks');
     const findings = page.getByRole('list', { name: 'Findings' }).getByRole('listitem').filter({ hasText: 'topple' });
     const fast = findings.filter({ hasText: /Step 2: the [a-z ]+ is asked for \d+\.\d\d times the speed/ });
-    await fast.getByRole('button', { name: `Show page ${PAGE} (topple), step 2` }).click();
+    await fast.getByRole('button', { name: `Show motion ${PAGE} (topple), step 2` }).click();
     expect(await person.button('Step 2').getAttribute('aria-current')).toBe('true');
     await person.open('Checks');
-    await person.button(`Try page ${PAGE} (topple)`).click();
+    await person.button(`Try motion ${PAGE} (topple)`).click();
     await findings.filter({ hasText: /Falls in step 2 after \d\.\d s, and stays on the floor/ }).waitFor();
     await person.open('Curves');
     const tooFast = page.getByRole('status', { name: 'Too fast' });
@@ -121,12 +121,13 @@ test('a hobbyist opens a RoboPlus file found on the net, sees where it is too fa
     await page.getByRole('spinbutton', { name: 'Time of step 2' }).fill('1.5');
     await page.keyboard.press('Enter');
     await person.button('Mirror ◂').click();
-    await person.button(`Undo: mirror (page ${PAGE})`).waitFor();
+    await person.button(`Undo: mirror (motion ${PAGE})`).waitFor();
     await person.open('Curves');
     await tooFast.and(page.locator('[data-tone=calm]')).waitFor();
     await expect.poll(() => redPixels(page), { timeout: 240_000 }).toBe(0);
 
     const wanted = changed(convert(join(folder, 'found.mtn'), 'found.bin'));
+    await person.openMenu();
     for (const suffix of ['.bin', '.mtn', '.m512', '.hex']) {
         const [download] = await Promise.all([page.waitForEvent('download'), page.getByLabel('Save as a file').selectOption(suffix)]);
         const saved = readFileSync(await download.path());
@@ -156,11 +157,12 @@ const doings = (page: Page): Promise<string[]> => page.evaluate(() => (window as
 
 test('a teacher sends a motion as a link; for the pupil it opens running, is told as an edit, and is played again by keyboard', async () => {
     const teacher = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
-    await teacher.open('Pages');
-    await teacher.page.getByRole('option', { name: /^page 2 bow/ }).click();
+    await teacher.open('Motions');
+    await teacher.page.getByRole('option', { name: /^motion 2 bow/ }).click();
     await teacher.open('Steps');
     await teacher.page.getByRole('spinbutton', { name: 'Time of step 1' }).fill('1.5'); // another bow than the pupil's own
     await teacher.page.keyboard.press('Enter');
+    await teacher.openMenu();
     await teacher.button('Send as link').click();
     const link = await teacher.page.getByRole('textbox', { name: 'Link' }).inputValue();
     expect(link.length).toBeLessThan(2000);
@@ -177,17 +179,17 @@ test('a teacher sends a motion as a link; for the pupil it opens running, is tol
     expect(await pupil.button('Walk it').isVisible()).toBe(false);
     expect(new URL(pupil.page.url()).hash).toBe('');
     const plays = async (): Promise<number> => {
-        const isPlaying = (await doings(pupil.page)).map(text => /^Playing page \d+ \(bow\)/.test(text));
+        const isPlaying = (await doings(pupil.page)).map(text => /^Playing motion \d+ \(bow\)/.test(text));
         return isPlaying.filter((plays, i) => plays && !isPlaying[i - 1]).length;
     };
     await expect.poll(plays).toBe(1);
     const [first] = (await doings(pupil.page)).filter(text => text.includes('(bow)'));
-    expect(first).toMatch(/^In the picture only: page \d+ \(bow\)/); // before the robot can
+    expect(first).toMatch(/^In the picture only: motion \d+ \(bow\)/); // before the robot can
     await pupil.untilStanding();
     const keys = new Keyboard(pupil);
     await keys.enter('▶ Play it again');
     await expect.poll(plays).toBe(2);
     await keys.enter('Look at its steps');
-    await pupil.page.getByRole('button', { name: /^Undo: .* \(page \d+\)/ }).waitFor();
+    await pupil.page.getByRole('button', { name: /^Undo: .* \(motion \d+\)/ }).waitFor();
     await pupil.leave();
 });

@@ -15,9 +15,9 @@ test('"Walk it" before the robot stands makes it walk; the buttons do not come b
     expect(await tabs(person)).toEqual(['Remote', 'Steps']);
     await person.button('Walk it').click();
     await first(person).waitFor({ state: 'hidden' });
-    await person.doing.filter({ hasText: /Playing page 2[0-2] \(walk/ }).waitFor();
+    await person.doing.filter({ hasText: /Playing motion 2[0-2] \(walk/ }).waitFor();
     await person.button('More').click();
-    expect(await tabs(person)).toEqual(['Remote', 'Steps', 'Curves', 'Pages', 'Links', 'Checks', 'Terminal', 'Robot']);
+    expect(await tabs(person)).toEqual(['Remote', 'Steps', 'Curves', 'Motions', 'Links', 'Checks', 'Terminal', 'Robot']);
     await person.page.reload();
     await person.untilStanding();
     expect(await first(person).isVisible()).toBe(false);
@@ -59,7 +59,7 @@ test('the start page has ten motions with moving pictures, and each of its links
     }
     await page.getByRole('link', { name: /^Wave/ }).click();
     await page.getByRole('region', { name: 'A motion for you' }).getByText('“wave”, a motion for you').waitFor();
-    await person.doing.filter({ hasText: /page 3 \(wave\)/ }).waitFor(); // the robot has it already: it is not added
-    await person.doing.filter({ hasText: /^Playing page 3 \(wave\)/ }).waitFor();
+    await person.doing.filter({ hasText: /motion 3 \(wave\)/ }).waitFor(); // the robot has it already: it is not added
+    await person.doing.filter({ hasText: /^Playing motion 3 \(wave\)/ }).waitFor();
     await person.leave();
 });

@@ -8,7 +8,7 @@ import { Visitor } from './page-bench.ts';
 import { SHOTS, pageSuite } from './page-suite.ts';
 
 const LIBRARY = new URL('../../../../build/motions/motions.bin', import.meta.url).pathname;
-const WIDE = { width: 1280, height: 800 };
+const WIDE = { width: 1440, height: 800 };
 const suite = pageSuite();
 const chosen = (person: Visitor) => person.page.getByRole('group', { name: 'Chosen joints' }).getByRole('spinbutton');
 const steps = (person: Visitor) => person.page.getByRole('button', { name: /^Step \d$/ });
@@ -26,7 +26,7 @@ test('a pupil: walks, looks round, pushes it over, gets up; teaches a page, name
     await pupil.untilStanding();
     await keys.to('The robot');
     await page.keyboard.down('ArrowUp');
-    await pupil.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor();
+    await pupil.doing.filter({ hasText: /Playing motion 2[12] \(walk_/ }).waitFor();
     await page.keyboard.up('ArrowUp');
     await keys.press('Space');
     await pupil.untilStanding();
@@ -43,11 +43,11 @@ test('a pupil: walks, looks round, pushes it over, gets up; teaches a page, name
     await pupil.untilStanding();
 
     await keys.open('Steps');
-    await keys.enter('New page');
-    await keys.at('Name of the page');
+    await keys.enter('New motion');
+    await keys.at('Name of the motion');
     await page.keyboard.type('nod');
     await keys.press('Enter');
-    await keys.at('Name of the page');
+    await keys.at('Name of the motion');
     await keys.enter('Right arm');
     const teaching = page.getByRole('status', { name: 'Teaching' });
     await teaching.filter({ hasText: 'Drag the limb' }).waitFor();
@@ -80,7 +80,7 @@ test('a pupil: walks, looks round, pushes it over, gets up; teaches a page, name
     await page.keyboard.type('2');
     await keys.press('Enter');
     await keys.enter('▶ Play', 'Shift+Tab');
-    await pupil.doing.filter({ hasText: /Playing page \d+ \(nod\)/ }).waitFor();
+    await pupil.doing.filter({ hasText: /Playing motion \d+ \(nod\)/ }).waitFor();
     await pupil.untilStanding();
     await page.screenshot({ path: `${SHOTS}keyboard.png` });
 
@@ -102,33 +102,33 @@ test('a hobbyist: opens a file, goes where it is faulty, renames, copies and cle
     await keys.enter('Open …');
     await (await chooser).setFiles(LIBRARY);
     await page.getByRole('dialog', { name: 'motions.bin' }).waitFor();
-    await keys.enter('Replace all pages');
+    await keys.enter('Replace all motions');
     await keys.at('Open …');
 
-    await keys.open('Pages');
-    await keys.to(/^page \d+, empty/); // a new page is chosen
+    await keys.open('Motions');
+    await keys.to(/^motion \d+, empty/); // a new page is chosen
     await keys.press('Home');
-    await keys.at(/^page 1 ready/);
+    await keys.at(/^motion 1 ready/);
     await keys.press('ArrowRight', 'F2'); // the bow
     await keys.at('Name');
     await page.keyboard.type('curtsy');
     await keys.press('Enter');
-    await card(/^page 2 curtsy/).waitFor();
+    await card(/^motion 2 curtsy/).waitFor();
     await keys.press('Control+c', 'End', 'ArrowLeft', 'Control+v'); // behind the last one stands the trim
     await keys.enter('Copy');
-    await card(/^page 127 curtsy/).waitFor();
-    await keys.at(/^page 127 curtsy/);
+    await card(/^motion 127 curtsy/).waitFor();
+    await keys.at(/^motion 127 curtsy/);
     await keys.press('Delete');
     await keys.enter('Clear');
-    await card(/^page 127, empty/).waitFor();
+    await card(/^motion 127, empty/).waitFor();
     await keys.press('Control+z');
-    await card(/^page 127 curtsy/).waitFor();
+    await card(/^motion 127 curtsy/).waitFor();
     await keys.press('Enter');
     await keys.at('Steps');
     await keys.press('ArrowRight', 'ArrowRight', 'ArrowRight');
     await keys.at('Links');
     await keys.choose('next', /^100 \(empty\)/);
-    await page.getByRole('button', { name: /^page 100, nothing to play here/ }).waitFor();
+    await page.getByRole('button', { name: /^motion 100, nothing to play here/ }).waitFor();
     await keys.at('next'); // the list is made anew, and the keyboard is where it was
     await page.screenshot({ path: `${SHOTS}links-dark.png` });
     await keys.open('Checks');
@@ -138,17 +138,17 @@ test('a hobbyist: opens a file, goes where it is faulty, renames, copies and cle
         .filter({ hasText: 'next leads to page 100, which has no action' });
     await dead.waitFor(); // in m512's words
     await page.screenshot({ path: `${SHOTS}checks-dark.png` });
-    await keys.enter('Show page 127 (curtsy)');
+    await keys.enter('Show motion 127 (curtsy)');
     await keys.at('Links');
-    await page.getByRole('heading', { name: 'Links of page 127 (curtsy)' }).waitFor();
+    await page.getByRole('heading', { name: 'Links of motion 127 (curtsy)' }).waitFor();
 
     await keys.press('ArrowLeft');
-    await keys.at('Pages');
+    await keys.at('Motions');
     await keys.enter(/^To the robot \(2\)/);
-    const rows = page.getByRole('list', { name: 'Pages that differ' });
-    await rows.getByText('page 127 (curtsy)').waitFor();
-    await keys.enter('Write 2 pages into the robot');
-    await page.getByRole('status', { name: 'Transfer' }).filter({ hasText: 'Written and verified: 2 pages.' }).waitFor();
+    const rows = page.getByRole('list', { name: 'Motions that differ' });
+    await rows.getByText('motion 127 (curtsy)').waitFor();
+    await keys.enter('Write 2 motions into the robot');
+    await page.getByRole('status', { name: 'Transfer' }).filter({ hasText: 'Written and verified: 2 motions.' }).waitFor();
     await keys.at('Close'); // what was pressed has nothing to do any more
     await keys.press('Escape');
     await keys.at(/^To the robot/);

@@ -19,7 +19,7 @@ test('physics that comes late, as over a slow line: the robot plays without it, 
     });
     await person.untilStanding();
     await person.button('Bow').click();
-    await person.doing.filter({ hasText: 'Playing page 2 (bow)' }).waitFor();
+    await person.doing.filter({ hasText: 'Playing motion 2 (bow)' }).waitFor();
     arrive();
     await person.doing.filter({ hasText: 'A hand holds the robot.' }).waitFor();
     await person.untilStanding();
@@ -48,11 +48,11 @@ test.each([
     });
     await person.untilStanding();
     isLost = true;
-    await person.button('My servos …').click();
+    await person.press('My servos …');
     const said = person.page.getByRole('log', { name: 'Last message' });
     await said.filter({ hasText: 'The firmware could not be loaded, so the robot goes on as it was.' }).waitFor();
     await person.button('Bow').click();
-    await person.doing.filter({ hasText: 'Playing page 2 (bow)' }).waitFor();
+    await person.doing.filter({ hasText: 'Playing motion 2 (bow)' }).waitFor();
     // What was refused above is in the console as well; nothing else is.
     expect(person.faults.splice(0).filter(fault => !fault.includes('ERR_FAILED'))).toEqual([]);
     await person.leave();
@@ -71,10 +71,10 @@ test('an old machine: no picture, no serial port, no physics', async () => {
         const said = person.page.getByRole('log', { name: 'Last message' });
         await said.filter({ hasText: 'Physics could not be loaded, so the robot cannot fall.' }).waitFor();
         await person.untilStanding();
-        await person.button('Your robot …').click();
+        await person.press('Your robot …');
         await said.filter({ hasText: /^This browser cannot reach a serial port\. It needs Web Serial/ }).waitFor();
         await person.button('Walk').click();
-        await person.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor();
+        await person.doing.filter({ hasText: /Playing motion 2[12] \(walk_/ }).waitFor();
         // What was refused above is in the console as well; nothing else is.
         expect(person.faults.splice(0).filter(fault => !/ERR_FAILED|WebGL/i.test(fault))).toEqual([]);
         await person.leave();

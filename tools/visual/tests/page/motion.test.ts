@@ -31,14 +31,14 @@ test('a hobbyist: stretches a step, takes steps to another page as text, drags a
     const { page } = person;
     await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
     await person.untilStanding();
-    await person.open('Pages');
-    await page.getByRole('option', { name: /^page 2 bow/ }).dblclick();
+    await person.open('Motions');
+    await page.getByRole('option', { name: /^motion 2 bow/ }).dblclick();
 
     const before = Number(await timeOf(page, 2).inputValue());
     const handle = await page.locator('time-line .handle.time').nth(1).boundingBox();
     await drag(page, { x: (handle?.x ?? 0) + 2, y: (handle?.y ?? 0) + 8 }, 40, 0);
     await expect.poll(async () => Number(await timeOf(page, 2).inputValue()), PATIENT).toBeGreaterThan(before + 0.1);
-    await button(page, 'Undo: time (page 2)').click();
+    await button(page, 'Undo: time (motion 2)').click();
     await expect.poll(async () => Number(await timeOf(page, 2).inputValue()), PATIENT).toBe(before);
 
     await button(page, 'Step 1').click();
@@ -46,8 +46,8 @@ test('a hobbyist: stretches a step, takes steps to another page as text, drags a
     await page.keyboard.press('Control+c');
     const text = await page.evaluate(() => navigator.clipboard.readText());
     expect(text).toMatch(/^step \d+ .*\| 1:\d+ .* 18:\d+\nstep \d+ .*\| 1:\d+ .*\n$/);
-    await button(page, 'New page').click();
-    await page.getByRole('textbox', { name: 'Name of the page' }).fill('reel');
+    await button(page, 'New motion').click();
+    await page.getByRole('textbox', { name: 'Name of the motion' }).fill('reel');
     await page.keyboard.press('Enter');
     await button(page, 'Paste').click();
     await expect.poll(() => button(page, /^Step \d$/).count(), PATIENT).toBe(2);
@@ -84,58 +84,58 @@ test('a hobbyist: stretches a step, takes steps to another page as text, drags a
     await page.screenshot({ path: `${SHOTS}curves.png` });
 
     await person.open('Checks');
-    await button(page, /^Try page \d+ \(reel\)/).click();
+    await button(page, /^Try motion \d+ \(reel\)/).click();
     const falls = verdicts(page).filter({ hasText: /Falls in step 2 after \d\.\d s, and stays on the floor/ });
     await falls.waitFor(PATIENT);
     await page.screenshot({ path: `${SHOTS}checks-physics.png` });
-    await falls.getByRole('button', { name: /^Show page \d+ \(reel\), step 2/ }).click();
+    await falls.getByRole('button', { name: /^Show motion \d+ \(reel\), step 2/ }).click();
     expect(await button(page, 'Step 2').getAttribute('aria-current')).toBe('true');
     await button(page, 'Delete').click();
     await person.open('Checks');
     await verdicts(page)
         .filter({ hasText: /Before the last change: Falls/ })
         .waitFor(PATIENT);
-    await button(page, /^Try page \d+ \(reel\)/).click();
+    await button(page, /^Try motion \d+ \(reel\)/).click();
     await page
         .getByRole('status', { name: 'What physics says' })
         .filter({ hasText: /^1 motion stands/ })
         .waitFor(PATIENT);
 
-    await person.open('Pages');
+    await person.open('Motions');
     await page.getByRole('combobox', { name: 'Document', exact: true }).selectOption({ label: 'Copy of this one …' });
     await page.getByRole('textbox', { name: 'Name' }).fill('second');
     await page.keyboard.press('Enter');
     const open = page.getByRole('combobox', { name: 'Document', exact: true }).locator('option:checked');
     await expect.poll(() => open.innerText(), PATIENT).toBe('second');
     for (const number of [2, 3]) {
-        await page.getByRole('option', { name: new RegExp(`^page ${number} `) }).press('Delete');
+        await page.getByRole('option', { name: new RegExp(`^motion ${number} `) }).press('Delete');
         await page.getByRole('dialog').getByRole('button', { name: 'Clear' }).press('Enter');
-        await page.getByRole('option', { name: new RegExp(`^page ${number}, empty`) }).waitFor();
+        await page.getByRole('option', { name: new RegExp(`^motion ${number}, empty`) }).waitFor();
     }
     await button(page, /^To the robot/).click();
-    const rows = page.getByRole('list', { name: 'Pages that differ' }).locator('> li');
+    const rows = page.getByRole('list', { name: 'Motions that differ' }).locator('> li');
     const compared = page.getByRole('combobox', { name: 'Compare with' });
     await compared.selectOption({ label: await compared.locator('option', { hasText: 'My motions' }).innerText() });
-    await button(page, 'Take over page 3 (wave)').click();
+    await button(page, 'Copy here motion 3 (wave)').click();
     await expect.poll(() => rows.count(), PATIENT).toBe(1);
     await page.getByLabel('File to compare with').setInputFiles(LIBRARY);
     await expect.poll(() => compared.inputValue(), PATIENT).toBe('file');
     await expect.poll(() => rows.count(), PATIENT).toBe(2); // the bow, and the page that is new here
-    await button(page, 'Take over page 2 (bow)').click();
+    await button(page, 'Copy here motion 2 (bow)').click();
     await expect.poll(() => rows.count(), PATIENT).toBe(1);
     await page.screenshot({ path: `${SHOTS}compare.png` });
     await button(page, 'Close').click();
-    for (const name of ['bow', 'wave']) await page.getByRole('option', { name: new RegExp(`^page \\d+ ${name},`) }).waitFor();
+    for (const name of ['bow', 'wave']) await page.getByRole('option', { name: new RegExp(`^motion \\d+ ${name},`) }).waitFor();
 
     await person.open('Curves');
-    const beside = page.getByRole('status', { name: 'Beside the play' });
+    const beside = page.getByRole('status', { name: 'Layers now' });
     await chooseJoints(page, [1]);
     await person.open('Remote');
-    await page.getByText('More beside what plays').click();
+    await page.getByText('Layers over the motion').click();
     await button(page, 'Aim').click();
     await beside.filter({ hasText: 'Moved by code: joint 1.' }).waitFor(PATIENT);
     await page.screenshot({ path: `${SHOTS}layers.png` });
     await button(page, 'Free').click();
-    await beside.filter({ hasText: 'Nothing goes on beside the play.' }).waitFor(PATIENT);
+    await beside.filter({ hasText: 'No layers.' }).waitFor(PATIENT);
     await person.leave();
 }, 900_000);

@@ -21,11 +21,12 @@ afterAll(async () => {
     for (const server of servers) await server.stop();
 });
 
-test('the first load is at most 1 MB, compressed, with both images; physics, Python and My servos come behind it', () => {
-    const { first, physics, python, servos } = weights();
+test('the first load is at most 1 MB, compressed, with both images; physics, Python, My servos and other languages come behind it', () => {
+    const { first, physics, python, servos, languages } = weights();
     expect(first).toBeLessThanOrEqual(1_000_000);
     expect(Math.min(physics, python)).toBeGreaterThan(1_000_000); // they are there, and not counted
     expect(servos).toBeGreaterThan(50_000);
+    expect(languages).toBeGreaterThan(40_000);
 });
 
 test('from a sub-path, and the second visit with the server stopped', async () => {
@@ -38,8 +39,8 @@ test('from a sub-path, and the second visit with the server stopped', async () =
         },
     });
     await visitor.untilStanding();
-    // What was asked for until then is what the first load is said to be: nothing of Python or My servos is in it, and every file is there.
-    expect(asked.filter(url => ['python', 'servos'].includes(comesLater(url, '') ?? ''))).toEqual([]);
+    // What was asked for until then is what the first load is said to be: nothing of Python, My servos or another language is in it, and every file is there.
+    expect(asked.filter(url => ['python', 'servos', 'languages'].includes(comesLater(url, '') ?? ''))).toEqual([]);
     expect(asked.every(url => url.startsWith(server.address))).toBe(true);
     await visitor.page.evaluate(async () => {
         await navigator.serviceWorker.ready;

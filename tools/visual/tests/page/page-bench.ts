@@ -173,9 +173,28 @@ export class Visitor {
         return this.page.getByRole('button', { name, exact: true });
     }
 
-    async open(tab: 'Remote' | 'Steps' | 'Curves' | 'Pages' | 'Links' | 'Checks' | 'Terminal' | 'Robot'): Promise<void> {
+    async open(tab: 'Remote' | 'Steps' | 'Curves' | 'Motions' | 'Links' | 'Checks' | 'Terminal' | 'Robot'): Promise<void> {
         await this.showAllAreas(tab);
         await this.page.getByRole('tab', { name: tab, exact: true }).click();
+    }
+
+    /** The menu of the head, where that has no room for all of it. */
+    async openMenu(): Promise<void> {
+        const toggle = this.page.locator('more-menu .toggle');
+        await this.page.locator('app-shell').waitFor();
+        if ((await toggle.isVisible()) && (await toggle.getAttribute('aria-expanded')) === 'false') await toggle.click();
+    }
+
+    async closeMenu(): Promise<void> {
+        const toggle = this.page.locator('more-menu .toggle');
+        if ((await toggle.isVisible()) && (await toggle.getAttribute('aria-expanded')) === 'true') await toggle.click();
+    }
+
+    /** A button of the head, or of its menu, that opens no dialog. */
+    async press(name: string): Promise<void> {
+        await this.openMenu();
+        await this.button(name).click();
+        await this.closeMenu();
     }
 
     /** "More", if this area has no tab yet. */

@@ -15,58 +15,58 @@ test('a hobbyist: renames and copies pages, sees what will change, writes with a
     const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false });
     const { page } = person;
     await person.untilStanding();
-    await person.open('Pages');
-    await card(page, /^page 2 bow/).click();
+    await person.open('Motions');
+    await card(page, /^motion 2 bow/).click();
     await button(page, 'Rename …').click();
     await page.getByRole('textbox', { name: 'Name' }).fill('curtsy');
     await page.keyboard.press('Enter');
-    await card(page, /^page 2 curtsy/).waitFor();
-    await button(page, /^Undo: name \(page 2\)/).click();
-    await card(page, /^page 2 bow/).waitFor();
-    await button(page, /^Redo: name \(page 2\)/).click();
-    await card(page, /^page 3 wave/).dragTo(card(page, /^page 2 curtsy/));
+    await card(page, /^motion 2 curtsy/).waitFor();
+    await button(page, /^Undo: name \(motion 2\)/).click();
+    await card(page, /^motion 2 bow/).waitFor();
+    await button(page, /^Redo: name \(motion 2\)/).click();
+    await card(page, /^motion 3 wave/).dragTo(card(page, /^motion 2 curtsy/));
     await button(page, 'Cancel').click(); // it was the wrong place
-    await page.getByRole('searchbox', { name: 'Search pages' }).fill('7'); // page 7 beside many that are empty
+    await page.getByRole('searchbox', { name: 'Search motions' }).fill('7'); // page 7 beside many that are empty
     await person.untilSeen();
-    await card(page, /^page 7 stand/).dragTo(card(page, /^page 70, empty/));
+    await card(page, /^motion 7 stand/).dragTo(card(page, /^motion 70, empty/));
     await page.getByRole('dialog').getByRole('button', { name: 'Copy' }).click();
-    await card(page, /^page 70 stand/).waitFor();
-    await page.getByRole('searchbox', { name: 'Search pages' }).fill('');
+    await card(page, /^motion 70 stand/).waitFor();
+    await page.getByRole('searchbox', { name: 'Search motions' }).fill('');
     await page.screenshot({ path: `${SHOTS}pages.png` });
 
     await button(page, 'To the robot (2) …').click();
-    const rows = page.getByRole('list', { name: 'Pages that differ' });
+    const rows = page.getByRole('list', { name: 'Motions that differ' });
     await rows.getByText('name "bow" -> "curtsy"').waitFor(); // m512's words: Python is loaded for them
-    await rows.getByText('page 70 (stand)').waitFor();
-    expect(await rows.getByRole('button', { name: "Take the robot's page 2 (curtsy)" }).count()).toBe(1); // what stands on it, and which page
+    await rows.getByText('motion 70 (stand)').waitFor();
+    expect(await rows.getByRole('button', { name: "Take the robot's motion 2 (curtsy)" }).count()).toBe(1); // what stands on it, and which page
     await page.screenshot({ path: `${SHOTS}to-the-robot.png` });
-    await button(page, 'Write 2 pages into the robot').click();
-    await page.getByRole('status', { name: 'Transfer' }).filter({ hasText: 'Written and verified: 2 pages.' }).waitFor();
+    await button(page, 'Write 2 motions into the robot').click();
+    await page.getByRole('status', { name: 'Transfer' }).filter({ hasText: 'Written and verified: 2 motions.' }).waitFor();
     await rows.getByText('Nothing differs.').waitFor();
     const compared = page.getByRole('combobox', { name: 'Compare with' });
     await compared.selectOption({ index: 1 }); // the backup that was kept before
-    await button(page, 'Take over page 2 (bow)').click();
+    await button(page, 'Copy here motion 2 (bow)').click();
     await button(page, 'Close').click();
-    await card(page, /^page 2 bow/).waitFor();
+    await card(page, /^motion 2 bow/).waitFor();
 
     const context = page.context();
     let tab = page;
     for (const name of ['one', 'two']) {
-        await card(tab, /^page 2 /).press('F2');
+        await card(tab, /^motion 2 /).press('F2');
         await tab.getByRole('textbox', { name: 'Name' }).fill(name);
         await tab.keyboard.press('Enter');
-        await card(tab, new RegExp(`^page 2 ${name}`)).waitFor(); // the edit is finished; at this moment the tab goes
+        await card(tab, new RegExp(`^motion 2 ${name}`)).waitFor(); // the edit is finished; at this moment the tab goes
         await tab.close();
         tab = await context.newPage();
         await tab.goto(suite.address);
-        await tab.getByRole('tab', { name: 'Pages' }).click();
-        await card(tab, new RegExp(`^page 2 ${name}`)).waitFor();
+        await tab.getByRole('tab', { name: 'Motions' }).click();
+        await card(tab, new RegExp(`^motion 2 ${name}`)).waitFor();
     }
     await button(tab, /^To the robot \(1\)/).waitFor(); // and the robot kept what was written
     for (const name of ['one', 'bow']) {
         // undo goes back over both closed tabs
-        await button(tab, /^Undo: name \(page 2\)/).click();
-        await card(tab, new RegExp(`^page 2 ${name}`)).waitFor();
+        await button(tab, /^Undo: name \(motion 2\)/).click();
+        await card(tab, new RegExp(`^motion 2 ${name}`)).waitFor();
     }
     await person.leave();
 }, 600_000);

@@ -24,14 +24,14 @@ test('a pupil: it stands, walks while the keys light up, is pushed over, gets up
     await pupil.untilStanding();
     expect(await pupil.button('Get up').isDisabled()).toBe(true); // it stands
     await pupil.page.keyboard.down('ArrowUp');
-    await pupil.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor();
+    await pupil.doing.filter({ hasText: /Playing motion 2[12] \(walk_/ }).waitFor();
     await pupil.page.keyboard.up('ArrowUp');
     await pupil.page.getByText(/walk_[rl] plays/).waitFor();
     await pupil.page.screenshot({ path: `${SHOTS}page.png`, scale: 'css' }); // stands in the README
     await pupil.button('Stop').click();
     await pupil.untilStanding();
     await gamePad(pupil, 12);
-    await pupil.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor();
+    await pupil.doing.filter({ hasText: /Playing motion 2[12] \(walk_/ }).waitFor();
     await gamePad(pupil, null); // pulled out while it was pressed
     await expect.poll(() => pupil.button('U: ahead').getAttribute('aria-pressed')).toBe('false');
     await pupil.button('Stop').click();
@@ -88,7 +88,7 @@ test('somebody leaves the terminal while Edit waits for a name: the robot plays 
     await person.type('salu');
     await person.open('Remote');
     await person.button('Bow').click();
-    await person.doing.filter({ hasText: /^Playing page/ }).waitFor();
+    await person.doing.filter({ hasText: /^Playing motion/ }).waitFor();
     await runs.waitFor();
     await person.open('Terminal');
     await person.untilScreenSays('name:salu');
@@ -106,14 +106,14 @@ test('somebody leaves the terminal while Edit waits for a name: the robot plays 
     await person.untilScreenSays('salute'); // it was a no
     await person.open('Remote');
     await person.page.keyboard.press('ArrowUp'); // only Play hears it, and would start with an empty RAM
-    await said.filter({ hasText: /^The page in Edit's memory has edits that are not saved/ }).waitFor();
+    await said.filter({ hasText: /^The motion in Edit's memory has edits that are not saved/ }).waitFor();
     await person.open('Terminal');
     await person.untilScreenSays('salute');
     await person.type('save\r');
     await expect.poll(async () => (await person.screen()).includes('* unsaved')).toBe(false);
     await person.open('Remote');
     await person.page.keyboard.press('ArrowUp'); // it brings Play, and is carried out there
-    await person.doing.filter({ hasText: /^Playing page 2[012] \(walk/ }).waitFor();
+    await person.doing.filter({ hasText: /^Playing motion 2[012] \(walk/ }).waitFor();
     await person.leave();
 });
 
@@ -237,7 +237,7 @@ test('somebody who debugs breaks servos, lowers the battery, tilts the floor: th
     }
     await said.filter({ hasText: 'Servo 5 answers again' }).waitFor();
     await person.button('Bow').click();
-    await person.doing.filter({ hasText: 'Playing page 2 (bow)' }).waitFor();
+    await person.doing.filter({ hasText: 'Playing motion 2 (bow)' }).waitFor();
     await person.untilStanding(); // whole again
 
     await page.getByLabel('Battery').fill('6.5');

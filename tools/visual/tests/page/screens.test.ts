@@ -12,7 +12,7 @@ const TABLET = { width: 1024, height: 768, hasTouch: true };
 const DESKTOP = { width: 1440, height: 900 };
 const DESKTOP_AT_200 = { width: 720, height: 450 };
 const SCREENS = { PHONE, LYING, TABLET, DESKTOP, DESKTOP_AT_200 };
-const AREAS = ['Remote', 'Steps', 'Curves', 'Pages', 'Links', 'Checks', 'Terminal', 'Robot'] as const;
+const AREAS = ['Remote', 'Steps', 'Curves', 'Motions', 'Links', 'Checks', 'Terminal', 'Robot'] as const;
 /** A row of buttons that are 40 px for a finger, with its edges. */
 const ROW_PX = 64;
 const TOUR_PX = 64;
@@ -150,8 +150,8 @@ test('nothing over the picture covers the hand that is dragged, wherever it goes
     const person = await Visitor.come(suite.browser, suite.address, { screen: DESKTOP, hasPhysics: false });
     const { page } = person;
     await person.untilStanding();
-    await person.open('Pages');
-    await page.getByRole('option', { name: /^page 2 bow/ }).click();
+    await person.open('Motions');
+    await page.getByRole('option', { name: /^motion 2 bow/ }).click();
     await person.open('Steps');
     const view = page.locator('robot-view');
     const hand = await view.evaluate(element =>

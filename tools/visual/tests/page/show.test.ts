@@ -20,8 +20,8 @@ const figure = (visitor: Visitor) =>
 test('Play after an edit: within 0.3 s the solid figure moves, no ghost is seen while anything plays, and the robot follows by itself', async () => {
     const person = await Visitor.come(suite.browser, suite.address, { screen: { width: 1280, height: 800 } });
     await person.untilStanding();
-    await person.open('Pages');
-    await person.page.getByRole('option', { name: /^page 3 wave/ }).dblclick();
+    await person.open('Motions');
+    await person.page.getByRole('option', { name: /^motion 3 wave/ }).dblclick();
     await person.page.getByLabel('Time of step 1').fill('0.9');
     await person.page.getByLabel('Time of step 1').press('Enter');
     await person.untilSeen();
@@ -37,7 +37,7 @@ test('Play after an edit: within 0.3 s the solid figure moves, no ghost is seen 
         );
     });
     await person.button('▶ Play').click();
-    await person.doing.filter({ hasText: /^In the picture only: page 3 \(wave\)\./ }).waitFor();
+    await person.doing.filter({ hasText: /^In the picture only: motion 3 \(wave\)\./ }).waitFor();
     const tookMs = await person.page.evaluate(() => {
         const at = (name: string): number => performance.getEntriesByName(name)[0]?.startTime ?? NaN;
         return at('moved') - at('play-asked');
@@ -46,7 +46,7 @@ test('Play after an edit: within 0.3 s the solid figure moves, no ghost is seen 
     const first = await figure(person);
     expect(first.hasGhost).toBe(false);
     await person.page.screenshot({ path: `${SHOTS}shown.png` });
-    await person.doing.filter({ hasText: /^Playing page 3 \(wave\)/ }).waitFor();
+    await person.doing.filter({ hasText: /^Playing motion 3 \(wave\)/ }).waitFor();
     const ghosts: boolean[] = [];
     for (let i = 0; i < 8; i++) ghosts.push((await figure(person)).hasGhost);
     expect(ghosts).not.toContain(true);
@@ -59,12 +59,12 @@ test('Play after an edit: within 0.3 s the solid figure moves, no ghost is seen 
 test('the scrubber, a step and the loop move the picture, and the robot hears nothing', async () => {
     const person = await Visitor.come(suite.browser, suite.address, { screen: { width: 1280, height: 800 }, hasPhysics: false });
     await person.untilStanding();
-    await person.open('Pages');
-    await person.page.getByRole('option', { name: /^page 3 wave/ }).dblclick();
+    await person.open('Motions');
+    await person.page.getByRole('option', { name: /^motion 3 wave/ }).dblclick();
     const moment = person.page.getByRole('slider', { name: 'Moment of the motion' });
     await moment.focus();
     await person.page.keyboard.press('End');
-    await person.doing.filter({ hasText: /^In the picture only: page 3 \(wave\)\. The robot stands and waits\./ }).waitFor();
+    await person.doing.filter({ hasText: /^In the picture only: motion 3 \(wave\)\. The robot stands and waits\./ }).waitFor();
     const last = (await figure(person)).hand;
     await person.page.keyboard.press('Home');
     await person.untilSeen();

@@ -45,14 +45,14 @@ test('menus, Ctrl+A, F6, a joint spoken, double clicks on "Add step" and Play, a
     await page.keyboard.press('F6');
     expect(await page.evaluate(() => document.activeElement?.getAttribute('role'))).toBe('tab');
 
-    const last = await page.getByRole('combobox', { name: 'Page', exact: true }).inputValue();
+    const last = await page.getByRole('combobox', { name: 'Motion', exact: true }).inputValue();
     await page.reload();
     await person.untilStanding();
     await person.open('Steps');
-    expect(await page.getByRole('combobox', { name: 'Page', exact: true }).inputValue()).toBe(last);
-    await page.getByRole('combobox', { name: 'Page', exact: true }).selectOption('3');
+    expect(await page.getByRole('combobox', { name: 'Motion', exact: true }).inputValue()).toBe(last);
+    await page.getByRole('combobox', { name: 'Motion', exact: true }).selectOption('3');
     await person.button('Edit a copy').click();
-    expect(await page.getByRole('textbox', { name: 'Name of the page' }).inputValue()).toBe('wave 2');
+    expect(await page.getByRole('textbox', { name: 'Name of the motion' }).inputValue()).toBe('wave 2');
 
     await person.open('Robot');
     await person.button('Factory fresh').click();

@@ -10,7 +10,7 @@ import { chooseJoints, wayPoint } from './way-point.ts';
 
 const LYING = { width: 1024, height: 768, hasTouch: true };
 const ON_END = { width: 800, height: 1280, hasTouch: true };
-const AREAS = ['Remote', 'Steps', 'Curves', 'Pages', 'Links', 'Checks', 'Terminal', 'Robot'] as const;
+const AREAS = ['Remote', 'Steps', 'Curves', 'Motions', 'Links', 'Checks', 'Terminal', 'Robot'] as const;
 /** WCAG 2.2: 24. */
 const TARGET_PX = 24;
 const suite = pageSuite();
@@ -82,8 +82,8 @@ test('lying: the camera by one finger and by two, joints, a hand, steps, times a
     }
     expect(found).toEqual([]);
 
-    await page.getByRole('tab', { name: 'Pages', exact: true }).tap();
-    await page.getByRole('option', { name: /^page 2 bow/ }).tap();
+    await page.getByRole('tab', { name: 'Motions', exact: true }).tap();
+    await page.getByRole('option', { name: /^motion 2 bow/ }).tap();
     await page.getByRole('tab', { name: 'Steps', exact: true }).tap();
     const ground = { x: 60, y: 560 };
     const before = await placeOf(page, 'right_hand');
@@ -137,7 +137,7 @@ test('lying: the camera by one finger and by two, joints, a hand, steps, times a
     await page.getByRole('tab', { name: 'Remote', exact: true }).tap();
     const ahead = await middle(page.getByRole('button', { name: 'U: ahead' }));
     await fingers.down(ahead);
-    await person.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor();
+    await person.doing.filter({ hasText: /Playing motion 2[12] \(walk_/ }).waitFor();
     await fingers.up();
     expect(await page.evaluate(() => [scrollX, scrollY, visualViewport?.scale])).toEqual([0, 0, 1]);
     await person.leave();
@@ -149,7 +149,7 @@ test('on end: a hand is taught by finger, the area scrolls, page and picture sta
     const fingers = await Fingers.on(page);
     await person.untilStanding();
     await page.getByRole('tab', { name: 'Steps', exact: true }).tap();
-    await page.getByRole('button', { name: 'New page' }).tap();
+    await page.getByRole('button', { name: 'New motion' }).tap();
     await page.getByRole('button', { name: 'Right arm' }).tap();
     await page.getByRole('status', { name: 'Teaching' }).filter({ hasText: 'Drag the limb' }).waitFor();
     const before = await placeOf(page, 'right_hand');

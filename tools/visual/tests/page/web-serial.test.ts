@@ -122,8 +122,10 @@ async function atTheRobot(image: 'play' | 'edit', deed: (bench: Bench) => Promis
     try {
         const person = await Visitor.come(browser, server.address, { hasPicture: image === 'play', hasPhysics: image === 'play' });
         await person.untilStanding();
+        await new Keyboard(person).enter('Menu');
         await new Keyboard(person).enter('Your robot …'); // the chooser would be the browser's
         await person.button('serial port').waitFor();
+        await person.closeMenu();
         await deed({ person, robot, folder });
         await person.leave();
     } finally {
@@ -172,7 +174,7 @@ test.skipIf(why !== null)(
         await atTheRobot('play', async ({ person, robot, folder }) => {
             await person.untilStanding();
             await person.page.keyboard.press('ArrowUp');
-            await person.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor();
+            await person.doing.filter({ hasText: /Playing motion 2[12] \(walk_/ }).waitFor();
             await person.page.keyboard.press('Space');
             await person.untilStanding();
             await person.button('Bow').click();
@@ -183,17 +185,17 @@ test.skipIf(why !== null)(
             await person.untilScreenSays(/last reset: (?!power-on)/);
             await person.untilStanding();
             await person.button('Wave').click();
-            await person.doing.filter({ hasText: 'Playing page 3 (wave)' }).waitFor();
+            await person.doing.filter({ hasText: 'Playing motion 3 (wave)' }).waitFor();
 
             await robot.pull();
             await person.doing.filter({ hasText: 'The cable is out.' }).waitFor();
             plugInto(folder, await robot.plugIn());
             await person.untilStanding(); // nobody has pressed anything
             await person.button('Bow').click();
-            await person.doing.filter({ hasText: 'Playing page 2 (bow)' }).waitFor();
+            await person.doing.filter({ hasText: 'Playing motion 2 (bow)' }).waitFor();
             await robot.pull();
             await person.doing.filter({ hasText: 'The cable is out.' }).waitFor();
-            await person.button('Robot in this page').click();
+            await person.press('Robot in this page');
             await person.untilStanding();
         });
     },
@@ -212,7 +214,7 @@ test.skipIf(why !== null)(
                 const { page } = person;
                 await page.getByText('All motions of your robot are read, and saved in this browser as a backup.').waitFor();
                 await person.open('Steps');
-                await person.button('New page').click();
+                await person.button('New motion').click();
                 await person.button('Add step from the robot').click();
                 await person.button('Hold').click();
                 await page.getByRole('status', { name: 'Teaching' }).filter({ hasText: 'All joints hold.' }).waitFor();
@@ -221,15 +223,15 @@ test.skipIf(why !== null)(
                 await seen;
                 await person.button('Add step from the robot').click();
                 await page.getByRole('button', { name: 'Step 2', exact: true }).waitFor();
-                const name = page.getByRole('textbox', { name: 'Name of the page' });
+                const name = page.getByRole('textbox', { name: 'Name of the motion' });
                 await name.fill('hello');
                 await name.press('Enter');
                 await person.button('To the robot (1) …').click();
-                const rows = page.getByRole('list', { name: 'Pages that differ' });
-                await rows.getByText(/^page \d+ \(hello\)$/).waitFor();
-                const number = Number.parseInt((await rows.getByText(/^page \d+ \(hello\)$/).innerText()).slice(5), 10);
-                await person.button('Write 1 page into the robot').click();
-                await page.getByRole('status', { name: 'Transfer' }).filter({ hasText: 'Written and verified: 1 page.' }).waitFor();
+                const rows = page.getByRole('list', { name: 'Motions that differ' });
+                await rows.getByText(/^motion \d+ \(hello\)$/).waitFor();
+                const number = Number.parseInt((await rows.getByText(/^motion \d+ \(hello\)$/).innerText()).slice(7), 10);
+                await person.button('Write 1 motion into the robot').click();
+                await page.getByRole('status', { name: 'Transfer' }).filter({ hasText: 'Written and verified: 1 motion.' }).waitFor();
                 await rows.getByText('Nothing differs.').waitFor();
                 await person.button('Close').click();
                 await person.open('Terminal');
@@ -328,7 +330,7 @@ async function untilFound(person: Visitor, wanted: string): Promise<void> {
     for (let times = 0; times < 5; times++) {
         await found.waitFor();
         if ((await found.innerText()).startsWith(wanted)) return;
-        await person.button('My servos …').click();
+        await person.press('My servos …');
         await found.waitFor({ state: 'detached' });
     }
     throw new Error(`the page never said: ${wanted}`);
@@ -363,7 +365,7 @@ async function atTheServos(
         const person = await Visitor.come(browser, server.address, { hasPicture: false, hasPhysics: false, before });
         await person.untilStanding();
         person.page.setDefaultTimeout(PATIENT_WITH_SERVOS_MS);
-        await person.button('My servos …').click();
+        await person.press('My servos …');
         await deed({ person, servos, folder }).catch(async (error: unknown) => {
             console.log(`the page says: ${await person.page.locator('status-bar').innerText()}`);
             await person.open('Terminal');
@@ -391,7 +393,7 @@ test.skipIf(why !== null)(
             await untilFound(person, '18 servos answer. Nothing moves before you say so.');
             expect(servos.frames()).toEqual([]);
             await person.button('Wave').click();
-            await person.doing.filter({ hasText: 'Playing page 3 (wave)' }).waitFor();
+            await person.doing.filter({ hasText: 'Playing motion 3 (wave)' }).waitFor();
             console.log(`the first wave began ${((performance.now() - startMs) / 1000).toFixed(1)} s after the button`);
             await person.untilStanding();
             const ours = distinct(posesOf(servos.frames()));
@@ -399,7 +401,7 @@ test.skipIf(why !== null)(
             expect(ours).toEqual(board.slice(board.indexOf(ours[0] ?? '')));
 
             await person.button('Walk').click();
-            await person.doing.filter({ hasText: /Playing page 2[0-9]/ }).waitFor();
+            await person.doing.filter({ hasText: /Playing motion 2[0-9]/ }).waitFor();
             await servos.pull();
             await person.doing.filter({ hasText: 'The servo adapter is out' }).waitFor();
             const sent = servos.frames().length;
@@ -411,16 +413,16 @@ test.skipIf(why !== null)(
             await person.open('Terminal');
             await person.type('on\r');
             await person.button('Wave').click();
-            await person.doing.filter({ hasText: 'Playing page 3 (wave)' }).waitFor();
+            await person.doing.filter({ hasText: 'Playing motion 3 (wave)' }).waitFor();
             await person.untilStanding();
 
             await person.button('Walk').click();
-            await person.doing.filter({ hasText: /Playing page 2[0-9]/ }).waitFor();
+            await person.doing.filter({ hasText: /Playing motion 2[0-9]/ }).waitFor();
             await person.page.evaluate(hide, true);
             await person.untilStanding();
             await person.page.evaluate(hide, false);
             await said.filter({ hasText: 'This page was hidden, so what played was ended softly' }).waitFor();
-            await person.button('Robot in this page').click();
+            await person.press('Robot in this page');
             await person.untilStanding();
         });
     },
@@ -434,27 +436,27 @@ test.skipIf(why !== null)(
             const { page } = person;
             await untilFound(person, '18 servos answer. Nothing moves before you say so.');
             await person.open('Steps');
-            await person.button('New page').click();
+            await person.button('New motion').click();
             await person.button('Add step from the robot').click();
-            const name = page.getByRole('textbox', { name: 'Name of the page' });
+            const name = page.getByRole('textbox', { name: 'Name of the motion' });
             await name.fill('hello');
             await name.press('Enter');
             await person.button('To the robot (1) …').click();
-            await person.button('Write 1 page into the robot').click();
-            await page.getByRole('status', { name: 'Transfer' }).filter({ hasText: 'Written and verified: 1 page.' }).waitFor();
+            await person.button('Write 1 motion into the robot').click();
+            await page.getByRole('status', { name: 'Transfer' }).filter({ hasText: 'Written and verified: 1 motion.' }).waitFor();
             await person.button('Close').click();
             await person.doing.filter({ hasText: 'Edit runs' }).waitFor();
             await person.open('Remote');
             await page.keyboard.press('ArrowUp');
-            await person.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor();
+            await person.doing.filter({ hasText: /Playing motion 2[12] \(walk_/ }).waitFor();
             await page.keyboard.press('Space');
             await person.untilStanding();
             // What was written is there the next time.
-            await person.button('Robot in this page').click();
+            await person.press('Robot in this page');
             await person.untilStanding();
-            await person.button('My servos …').click();
+            await person.press('My servos …');
             await untilFound(person, '18 servos answer. Nothing moves before you say so.');
-            await expect.poll(() => page.getByRole('combobox', { name: 'Play a page' }).innerText()).toContain('hello');
+            await expect.poll(() => page.getByRole('combobox', { name: 'Play a motion' }).innerText()).toContain('hello');
         });
     },
 );

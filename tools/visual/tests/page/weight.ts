@@ -8,6 +8,8 @@ const FOLDER = new URL('../../../../build/visual/', import.meta.url);
 const PHYSICS = /mujoco|physical-body|body-[^/]*\.xml/;
 const PYTHON = /pyodide|python/;
 const SERVOS = /servos-/;
+/** The texts of one language. */
+const LANGUAGE = /\/(de|es|ja|ko|pseudo)-[^/]*\.js$/;
 
 export interface Weights {
     /** Bytes until the robot stands in the picture, and Edit's image, which is fetched when Edit runs. */
@@ -16,10 +18,13 @@ export interface Weights {
     /** Each with the worker that runs it. */
     readonly python: number;
     readonly servos: number;
+    /** All languages but English; one of them is loaded, when it is chosen. */
+    readonly languages: number;
 }
 
 /** Does the page fetch it behind the first load? By its name, and a worker by what it holds. */
-export function comesLater(name: string, text: string): 'physics' | 'python' | 'servos' | null {
+export function comesLater(name: string, text: string): 'physics' | 'python' | 'servos' | 'languages' | null {
+    if (LANGUAGE.test(name)) return 'languages';
     if (PHYSICS.test(name)) return 'physics';
     const isWorker = /worker-[^/]*\.js$/.test(name);
     if (SERVOS.test(name) || (isWorker && text.includes('machine_bus_write'))) return 'servos';
@@ -27,7 +32,7 @@ export function comesLater(name: string, text: string): 'physics' | 'python' | '
 }
 
 export function weights(): Weights {
-    const sum = { first: 0, physics: 0, python: 0, servos: 0 };
+    const sum = { first: 0, physics: 0, python: 0, servos: 0, languages: 0 };
     for (const name of ['index.html', ...readdirSync(new URL('assets/', FOLDER)).map(file => `assets/${file}`)]) {
         const bytes = readFileSync(new URL(name, FOLDER));
         sum[comesLater(name, bytes.toString('latin1')) ?? 'first'] += gzipSync(bytes, { level: 9 }).length;

@@ -2,13 +2,14 @@
 // A question in the page's own dialog: some answers, or a line of text. Escape and Cancel are no answer.
 
 import { make } from '../element.ts';
+import { TEXTS } from '../texts/texts.ts';
 
 type Answer = readonly [title: string, value: string];
 
 function show(title: string, answers: readonly Answer[], ...content: HTMLElement[]): Promise<string | null> {
     const dialog = make('dialog', { class: 'ask-dialog', 'aria-label': title });
     const buttons = answers.map(([text, value], i) => make('button', { value, class: i === 0 ? 'primary' : '' }, text));
-    const cancel = make('button', { value: '', formnovalidate: true, type: 'button', onclick: () => dialog.close('') }, 'Cancel');
+    const cancel = make('button', { value: '', formnovalidate: true, type: 'button', onclick: () => dialog.close('') }, TEXTS.page.cancel);
     dialog.append(
         make('form', { method: 'dialog' }, make('h2', {}, title), ...content, make('div', { class: 'buttons' }, cancel, ...buttons)),
     );
@@ -49,7 +50,7 @@ export async function askText(
     input.addEventListener('focus', () => input.select());
     const answer = await show(
         title,
-        [['OK', 'ok']],
+        [[TEXTS.page.ok, 'ok']],
         make('label', {}, label, input),
         ...(options.hint ? [make('p', {}, options.hint)] : []),
     );

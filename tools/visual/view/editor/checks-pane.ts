@@ -2,7 +2,6 @@
 // The area Checks: what the firmware, the body and m512 say of the document, each with a button that goes there. It looks
 // while it is shown, and only anew at pages that changed.
 
-import { jointTitle } from '../../model/body.ts';
 import { checkLinks, checkPage } from '../../model/checks.ts';
 import type { PageFinding } from '../../model/checks.ts';
 import { imageOf, pageOf } from '../../model/document.ts';
@@ -13,8 +12,10 @@ import type { Session, Tab } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import type { PageTrial } from '../session/trials.ts';
 import { PhysicsBar } from './physics-bar.ts';
-import { EDITOR_TEXTS, findingText, isFaulty, pageText } from '../texts/editor.ts';
-import { TRIAL_TEXTS, touchText, verdictText } from '../texts/trials.ts';
+import { findingText, isFaulty } from '../texts/editor.ts';
+import { jointTitle } from '../texts/robot.ts';
+import { TEXTS } from '../texts/texts.ts';
+import { touchText, verdictText } from '../texts/trials.ts';
 import './checks-pane.css';
 
 const WAIT_MS = 400;
@@ -35,8 +36,8 @@ interface Shown {
 
 export class ChecksPane extends HTMLElement {
     session!: Session; // set before it is connected
-    private readonly summary = make('p', { class: 'summary', role: 'status', 'aria-label': 'Result of the checks' });
-    private readonly list = make('ul', { 'aria-label': 'Findings' });
+    private readonly summary = make('p', { class: 'summary', role: 'status', 'aria-label': TEXTS.checks.result });
+    private readonly list = make('ul', { 'aria-label': TEXTS.checks.findings });
     private readonly byPage = new WeakMap<Uint8Array, readonly PageFinding[]>();
     private shown: MotionDocument | null = null;
     /** What is looked at next, or was looked at last. */
@@ -49,7 +50,7 @@ export class ChecksPane extends HTMLElement {
 
     connectedCallback(): void {
         const physics = Object.assign(new PhysicsBar(), { session: this.session });
-        this.replaceChildren(make('p', { class: 'purpose' }, EDITOR_TEXTS.checks), physics, this.summary, this.list);
+        this.replaceChildren(make('p', { class: 'purpose' }, TEXTS.checks.purpose), physics, this.summary, this.list);
         const { editor, state, trials } = this.session;
         this.disposals.push(
             editor.state.watch(() => this.later()),
@@ -77,15 +78,15 @@ export class ChecksPane extends HTMLElement {
     private async look(document: MotionDocument): Promise<void> {
         this.shown = document;
         const own = this.ownFindings(document).map(one => this.shownOf(one));
-        this.show(document, own, EDITOR_TEXTS.checking);
-        const said = await this.session.files.formats.check(imageOf(document)).catch(() => null);
+        this.show(document, own, TEXTS.checks.checking);
+        const checked = await this.session.files.formats.check(imageOf(document)).catch(() => null);
         if (this.shown !== document) return;
-        const theirs = said?.map(one => this.shownOfM512(one)) ?? [];
+        const theirs = checked?.map(one => this.shownOfM512(one)) ?? [];
         // What m512 says of damage it says in better words.
-        const rest = said
+        const rest = checked
             ? own.filter(one => !theirs.some(other => other.page === one.page && other.text.startsWith('damaged') && one.tab === 'pages'))
             : own;
-        this.show(document, [...theirs, ...rest], said ? '' : EDITOR_TEXTS.noM512);
+        this.show(document, [...theirs, ...rest], checked ? '' : TEXTS.checks.noM512);
     }
 
     private ownFindings(document: MotionDocument): PageFinding[] {
@@ -113,7 +114,7 @@ export class ChecksPane extends HTMLElement {
             page: one.page,
             step: one.step,
             joint: one.joint,
-            text: findingText(one, joint ? jointTitle(joint) : `joint ${one.joint}`),
+            text: findingText(one, joint ? jointTitle(joint) : TEXTS.joint(one.joint ?? 0)),
             isFault: isFaulty(one),
             tab,
             isGuess: one.kind === 'tips-over',
@@ -138,8 +139,8 @@ export class ChecksPane extends HTMLElement {
         return [...trials]
             .filter(([page]) => editor.format.isPlayable(pageOf(document, page)))
             .flatMap(([page, trial]) => {
-                const stale = physics.isFresh(page) ? '' : TRIAL_TEXTS.stale;
-                const said = trial.verdict.kind === 'stands' ? [] : [this.verdictShown(page, trial, trials)];
+                const isFresh = physics.isFresh(page);
+                const verdict = trial.verdict.kind === 'stands' ? [] : [this.verdictShown(page, trial, trials)];
                 const [deepest] = [...trial.touches].sort((a, b) => b.depthM - a.depthM);
                 const touches = deepest
                     ? [
@@ -156,7 +157,7 @@ export class ChecksPane extends HTMLElement {
                           },
                       ]
                     : [];
-                return [...said, ...touches].map(one => ({ ...one, text: stale + one.text }));
+                return [...verdict, ...touches].map(one => ({ ...one, text: isFresh ? one.text : TEXTS.trials.stale(one.text) }));
             });
     }
 
@@ -174,7 +175,7 @@ export class ChecksPane extends HTMLElement {
     }
 
     private titleOf(page: number): string {
-        return pageText(page, this.session.editor.page(page).name);
+        return TEXTS.motion.title(page, this.session.editor.page(page).name);
     }
 
     private render(): void {
@@ -186,12 +187,9 @@ export class ChecksPane extends HTMLElement {
         const { format } = this.session.editor;
         const used = document.pages.filter((bytes, page) => page > 0 && !format.isEmpty(bytes)).length;
         const faults = all.filter(one => one.isFault).length;
-        const counted =
-            all.length === 0
-                ? EDITOR_TEXTS.allGood(used)
-                : `${faults} ${faults === 1 ? 'fault' : 'faults'}, ${all.length - faults} to know.`;
-        const said = [counted, note].filter(Boolean).join(' ');
-        if (this.summary.textContent !== said) this.summary.textContent = said;
+        const counted = all.length === 0 ? TEXTS.checks.allGood(used) : TEXTS.checks.counted(faults, all.length - faults);
+        const text = [counted, note].filter(Boolean).join(' ');
+        if (this.summary.textContent !== text) this.summary.textContent = text;
         const sorted = [...all].sort((a, b) => Number(b.isFault) - Number(a.isFault) || a.page - b.page || (a.step ?? -1) - (b.step ?? -1));
         const drawn = JSON.stringify(sorted);
         if (drawn === this.drawn) return; // the keyboard stays where it is
@@ -204,13 +202,16 @@ export class ChecksPane extends HTMLElement {
         return make(
             'li',
             { class: one.isFault ? 'fault' : 'note' },
-            make('span', { class: 'sign' }, one.isFault ? '⚠ fault' : 'to know'),
+            make('span', { class: 'sign' }, one.isFault ? TEXTS.checks.fault : TEXTS.checks.note),
             make('b', {}, title),
             make('span', { class: 'words' }, one.text),
             make(
                 'button',
-                { 'aria-label': `Show ${title}${one.step === null ? '' : `, step ${one.step + 1}`}`, onclick: () => this.goTo(one) },
-                'Show',
+                {
+                    'aria-label': one.step === null ? TEXTS.checks.show(title) : TEXTS.checks.showStep(title, one.step + 1),
+                    onclick: () => this.goTo(one),
+                },
+                TEXTS.page.show,
             ),
         );
     }

@@ -8,9 +8,9 @@ import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import type { TransferState } from '../session/transfer.ts';
 import { comparables, pagesOf } from './compared.ts';
-import { FILE_TEXTS } from '../texts/files.ts';
 import { ghosts } from './ghosts.ts';
-import { ACCOUNT_TEXTS, EDITOR_TEXTS, pageText, transferText } from '../texts/editor.ts';
+import { transferText } from '../texts/editor.ts';
+import { TEXTS } from '../texts/texts.ts';
 import './compare-dialog.css';
 
 /** Lines of words that a page shows before somebody asks for all of them. */
@@ -18,25 +18,25 @@ const LINES = 4;
 
 export class CompareDialog extends HTMLElement {
     session!: Session; // set before it is connected
-    private readonly which = make('select', { 'aria-label': 'Compare with', onchange: () => void this.choose() });
+    private readonly which = make('select', { 'aria-label': TEXTS.compare.withLabel, onchange: () => void this.choose() });
     private readonly chooser = make('input', {
         type: 'file',
         hidden: true,
-        'aria-label': 'File to compare with',
+        'aria-label': TEXTS.compare.fileLabel,
         onchange: () => void this.chosenFile(),
     });
-    private readonly another = make('button', { onclick: () => this.chooser.click() }, 'A file …');
-    private readonly rows = make('ul', { class: 'rows', 'aria-label': 'Pages that differ' });
-    private readonly status = make('p', { class: 'status', role: 'status', 'aria-label': 'Transfer' });
-    private readonly bar = make('progress', { hidden: true, 'aria-label': 'Progress' });
+    private readonly another = make('button', { onclick: () => this.chooser.click() }, TEXTS.compare.file);
+    private readonly rows = make('ul', { class: 'rows', 'aria-label': TEXTS.compare.differing });
+    private readonly status = make('p', { class: 'status', role: 'status', 'aria-label': TEXTS.compare.transfer });
+    private readonly bar = make('progress', { hidden: true, 'aria-label': TEXTS.compare.progress });
     private readonly go = make('button', { class: 'primary', onclick: () => void this.deed() });
-    private readonly stop = make('button', { hidden: true, onclick: () => this.cancel() }, 'Stop');
-    private readonly again = make('button', { hidden: true, onclick: () => void this.tryAgain() }, 'Try again');
-    private readonly shut = make('button', { onclick: () => this.dialog.close() }, 'Close');
-    private readonly reread = make('button', { onclick: () => void this.readAgain() }, 'Read the robot again');
+    private readonly stop = make('button', { hidden: true, onclick: () => this.cancel() }, TEXTS.page.stop);
+    private readonly again = make('button', { hidden: true, onclick: () => void this.tryAgain() }, TEXTS.compare.tryAgain);
+    private readonly shut = make('button', { onclick: () => this.dialog.close() }, TEXTS.page.close);
+    private readonly reread = make('button', { onclick: () => void this.readAgain() }, TEXTS.compare.readAgain);
     private readonly dialog = make('dialog', {
         class: 'compare',
-        'aria-label': 'Compare and write',
+        'aria-label': TEXTS.compare.title,
         onclose: () => this.reading !== null && this.session.files.cancel(),
     });
     private file: { readonly title: string; readonly pages: readonly Uint8Array[] } | null = null;
@@ -54,13 +54,13 @@ export class CompareDialog extends HTMLElement {
             make(
                 'header',
                 {},
-                make('h2', {}, 'Compare and write'),
-                make('label', {}, 'With ', this.which),
+                make('h2', {}, TEXTS.compare.title),
+                make('label', {}, TEXTS.compare.with, ' ', this.which),
                 this.another,
                 this.chooser,
                 this.reread,
             ),
-            make('p', { class: 'purpose' }, EDITOR_TEXTS.compare),
+            make('p', { class: 'purpose' }, TEXTS.compare.purpose),
             this.rows,
             make('footer', {}, this.status, this.bar, this.stop, this.again, this.go, this.shut),
         );
@@ -115,7 +115,7 @@ export class CompareDialog extends HTMLElement {
         const file = this.chooser.files?.[0];
         this.chooser.value = '';
         if (!file) return;
-        this.reading = FILE_TEXTS.reading(file.name);
+        this.reading = TEXTS.files.reading(file.name);
         this.trouble = null;
         this.renderTransfer(this.session.transfer.state.get());
         const found = await this.session.files.look(file);
@@ -125,7 +125,7 @@ export class CompareDialog extends HTMLElement {
             this.fillWhich('file');
             return this.choose();
         }
-        this.trouble = found.kind === 'refused' ? found.text : FILE_TEXTS.notRead(file.name);
+        this.trouble = found.kind === 'refused' ? found.text : TEXTS.files.notRead(file.name);
         this.renderTransfer(this.session.transfer.state.get());
     }
 
@@ -148,7 +148,7 @@ export class CompareDialog extends HTMLElement {
             bytes && !session.editor.format.isSame(bytes, pageOf(document, page)) ? [page] : [],
         );
         this.rows.replaceChildren(...pages.map(page => this.row(page)));
-        if (pages.length === 0 && found) this.rows.append(make('li', { class: 'same' }, EDITOR_TEXTS.same));
+        if (pages.length === 0 && found) this.rows.append(make('li', { class: 'same' }, TEXTS.compare.same));
         this.renderTransfer(session.transfer.state.get());
         if (pages.length > 0) void this.addWords(mine);
     }
@@ -169,13 +169,14 @@ export class CompareDialog extends HTMLElement {
         if (tick.disabled) tick.checked = false;
         tick.addEventListener('change', () => this.renderTransfer(session.transfer.state.get()));
         this.ticks.set(page, tick);
-        const title = pageText(page, (isRobot ? mine.name : other.name) || mine.name || other.name);
+        const title = TEXTS.motion.title(page, (isRobot ? mine.name : other.name) || mine.name || other.name);
         const mark = make('span', { class: 'account' });
         this.marks.set(page, mark);
         const pictures = page === 0 ? null : isRobot ? ghosts(session.body, other, mine) : ghosts(session.body, mine, other);
-        const words = isRobot ? "Take the robot's" : 'Take over';
-        const take = make('button', { 'aria-label': `${words} ${title}`, onclick: () => void this.takeOver([page]) }, words);
-        const note = page === 0 ? EDITOR_TEXTS.trimStays : format.fault(source) !== null ? EDITOR_TEXTS.damagedStays : '';
+        const { compare } = TEXTS;
+        const [words, label] = isRobot ? [compare.takeRobots, compare.takeRobotsNamed(title)] : [compare.take, compare.takeNamed(title)];
+        const take = make('button', { 'aria-label': label, onclick: () => void this.takeOver([page]) }, words);
+        const note = page === 0 ? TEXTS.links.trimStays : format.fault(source) !== null ? TEXTS.compare.damagedStays : '';
         return make(
             'li',
             { 'data-page': page },
@@ -183,7 +184,7 @@ export class CompareDialog extends HTMLElement {
             mark,
             take,
             pictures,
-            make('div', { class: 'words' }, note || EDITOR_TEXTS.wordsComing),
+            make('div', { class: 'words' }, note || TEXTS.compare.wordsComing),
         );
     }
 
@@ -193,13 +194,13 @@ export class CompareDialog extends HTMLElement {
         const { document } = state.get();
         const theirs = imageOf({ name: '', pages: this.other.map(bytes => bytes ?? format.empty) });
         const images = this.key === 'robot' ? ([theirs, imageOf(document)] as const) : ([imageOf(document), theirs] as const);
-        const said = await this.session.files.formats.differences(...images).catch(() => null);
+        const differences = await this.session.files.formats.differences(...images).catch(() => null);
         if (mine !== this.looked) return;
         for (const [page] of this.ticks) {
             const words = this.rows.querySelector(`[data-page="${page}"] .words`);
-            const lines = said?.filter(one => one.page === page).map(one => one.text.replace(/^page \d+( "[^"]*")?(, |: ?)?/, '')) ?? [
-                EDITOR_TEXTS.noWords,
-            ];
+            const lines = differences
+                ?.filter(one => one.page === page)
+                .map(one => one.text.replace(/^page \d+( "[^"]*")?(, |: ?)?/, '')) ?? [TEXTS.compare.noWords];
             if (lines.length > 0) words?.replaceChildren(...this.wordsOf(lines));
         }
     }
@@ -209,7 +210,7 @@ export class CompareDialog extends HTMLElement {
         if (lines.length <= LINES + 1) return [list(lines)];
         return [
             list(lines.slice(0, LINES)),
-            make('details', {}, make('summary', {}, `${lines.length - LINES} more`), list(lines.slice(LINES))),
+            make('details', {}, make('summary', {}, TEXTS.compare.more(lines.length - LINES)), list(lines.slice(LINES))),
         ];
     }
 
@@ -256,16 +257,14 @@ export class CompareDialog extends HTMLElement {
         this.bar.value = state.done;
         this.another.disabled = this.reading !== null;
         this.stop.hidden = !isBusy;
-        this.stop.textContent = this.reading === null ? 'Stop' : 'Cancel';
+        this.stop.textContent = this.reading === null ? TEXTS.page.stop : TEXTS.page.cancel;
         this.again.hidden = !isRobot || state.phase !== 'stopped';
         this.reread.hidden = !isRobot;
         this.go.disabled = isBusy || count === 0;
-        this.go.textContent = isRobot
-            ? `Write ${count} ${count === 1 ? 'page' : 'pages'} into the robot`
-            : `Take over ${count} ${count === 1 ? 'page' : 'pages'}`;
+        this.go.textContent = isRobot ? TEXTS.compare.writeCount(count) : TEXTS.compare.takeCount(count);
         for (const [page, mark] of this.marks) {
             const account = isRobot ? state.account.get(page) : undefined;
-            mark.textContent = account ? ACCOUNT_TEXTS[account] : '';
+            mark.textContent = account ? TEXTS.compare.accounts[account] : '';
         }
         this.keepFocus();
     }

@@ -2,8 +2,9 @@
 // What the document may be compared with: the robot, a backup of one, another document of this browser, a file.
 
 import { documentFrom } from '../../model/document.ts';
+import { ROBOT_IN_PAGE } from '../document-storage.ts';
 import type { Session } from '../session/session.ts';
-import { EDITOR_TEXTS } from '../texts/editor.ts';
+import { TEXTS } from '../texts/texts.ts';
 
 export interface Compared {
     /** robot, b:ID of a backup, d:ID of a document, file. */
@@ -14,17 +15,24 @@ export interface Compared {
 /** Everything that could be chosen now; a file is chosen by its own button. */
 export function comparables(session: Session): Compared[] {
     const { documents, backups, openId } = session.documents.state.get();
-    const when = (ms: number): string => new Date(ms).toLocaleString();
+    const when = (ms: number): string => new Date(ms).toLocaleString(window.document.documentElement.lang);
     return [
         { key: 'robot', title: robotTitle(session) },
-        ...backups.map(({ id, robot, takenMs }) => ({ key: `b:${id}`, title: EDITOR_TEXTS.backupOf(robot, when(takenMs)) })),
-        ...documents.filter(({ id }) => id !== openId).map(({ id, name }) => ({ key: `d:${id}`, title: `${name} (document)` })),
+        ...backups.map(({ id, robot, takenMs }) => ({
+            key: `b:${id}`,
+            title: TEXTS.compare.backup(robot === ROBOT_IN_PAGE ? TEXTS.menu.robotInPage : robot, when(takenMs)),
+        })),
+        ...documents.filter(({ id }) => id !== openId).map(({ id, name }) => ({ key: `d:${id}`, title: TEXTS.compare.document(name) })),
     ];
 }
 
 export function robotTitle(session: Session): string {
     const { source, portName } = session.state.get();
-    return source === 'simulated' ? 'The robot in this page' : source === 'servos' ? 'My servos' : `Your robot (${portName})`;
+    return source === 'simulated'
+        ? TEXTS.compare.robotInPage
+        : source === 'servos'
+          ? TEXTS.compare.myServos
+          : TEXTS.compare.yourRobot(portName);
 }
 
 /** Its 128 pages; null: gone, or (the robot) not read. */

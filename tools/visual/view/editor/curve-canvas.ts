@@ -2,13 +2,14 @@
 // The curves of the page, drawn from the firmware's own player at every change. What a hand does to them: curve-hand.ts.
 
 import type { TickSpan } from '../../model/curve-speed.ts';
-import { jointAngle, jointTitle } from '../../model/body.ts';
+import { jointAngle } from '../../model/body.ts';
 import type { Body, Joint } from '../../model/body.ts';
 import { AS_STORED, NOMINAL_VOLTS } from '../../model/motion.ts';
 import type { Shape } from '../../model/motion.ts';
 import type { Session } from '../session/session.ts';
 import { define, make, setText } from '../element.ts';
-import { LINE_TEXTS } from '../texts/robot.ts';
+import { jointTitle } from '../texts/robot.ts';
+import { TEXTS } from '../texts/texts.ts';
 import { CurveHand, jointAt, nearestPoint } from './curve-hand.ts';
 import type { CurveDrawing } from './curve-hand.ts';
 import { CurveFrame, drawCurves } from './curve-picture.ts';
@@ -36,7 +37,7 @@ export class CurveCanvas extends HTMLElement {
     /** After each drawing. */
     onDrawn: (drawn: Drawn) => void = () => undefined;
     private shape = AS_STORED;
-    private readonly canvas = make('canvas', { tabindex: 0, role: 'img', 'aria-label': 'Curves of the joints' });
+    private readonly canvas = make('canvas', { tabindex: 0, role: 'img', 'aria-label': TEXTS.curves.curves });
     private readonly label = make('p', { class: 'point', 'aria-hidden': true });
     private drawing: CurveDrawing | null = null;
     private hand!: CurveHand; // made when it is connected, as the next one: they want the session
@@ -180,9 +181,9 @@ export class CurveCanvas extends HTMLElement {
 
 function lineText(joint: Joint, point: WayPoint | null): string {
     const title = jointTitle(joint);
-    if (!point) return LINE_TEXTS.joint(joint.servo, title);
+    if (!point) return TEXTS.curves.line(joint.servo, title);
     const degrees = `${Math.round((jointAngle(joint, point.position) * 180) / Math.PI)}°`;
-    return LINE_TEXTS.atStep(joint.servo, title, point.step + 1, point.position, degrees);
+    return TEXTS.curves.atStep(joint.servo, title, point.step + 1, point.position, degrees);
 }
 
 /** Positions as degrees, if all of these joints count them alike, as those of a limb do; else null. */

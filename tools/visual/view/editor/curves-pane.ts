@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Curves: what the firmware's player makes of the page, under either law, and as it is shaped.
 
-import { degreesOf, jointTitle } from '../../model/body.ts';
+import { degreesOf } from '../../model/body.ts';
 import type { TickSpan } from '../../model/curve-speed.ts';
 import type { Shape } from '../../model/motion.ts';
 import type { Session, Tab } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
-import { LINE_TEXTS } from '../texts/robot.ts';
+import { jointTitle } from '../texts/robot.ts';
+import { TEXTS } from '../texts/texts.ts';
 import { busiestLimb } from '../../model/busiest-limb.ts';
 import { CHOSEN_COLOURS, CurveCanvas } from './curve-canvas.ts';
 import type { Drawn } from './curve-canvas.ts';
 import { PageHead } from './page-head.ts';
 import { PlayBar } from './play-bar.ts';
-import { CURVE_TEXTS } from '../texts/steps.ts';
 import { limbGroups } from './teach-bar.ts';
 import './curves-pane.css';
 
@@ -21,10 +21,10 @@ export class CurvesPane extends HTMLElement {
     session!: Session; // these are set before it is connected
     shape!: Store<Shape>;
     private readonly chips = new Map<number, HTMLButtonElement>();
-    private readonly legend = make('ul', { class: 'legend', 'aria-label': LINE_TEXTS.name });
-    private readonly fast = make('p', { class: 'fast', role: 'status', 'aria-label': 'Too fast' });
+    private readonly legend = make('ul', { class: 'legend', 'aria-label': TEXTS.curves.lines });
+    private readonly fast = make('p', { class: 'fast', role: 'status', 'aria-label': TEXTS.curves.tooFast });
     private readonly follow = make('input', { type: 'checkbox' });
-    private readonly lines = make('p', { class: 'lines', role: 'status', 'aria-label': 'Other lines' });
+    private readonly lines = make('p', { class: 'lines', role: 'status', 'aria-label': TEXTS.curves.otherLines });
     private shownTab: Tab | null = null;
     private readonly disposals: (() => void)[] = [];
 
@@ -38,14 +38,14 @@ export class CurvesPane extends HTMLElement {
         };
         this.follow.addEventListener('change', () => canvas.setFollow(this.follow.checked));
         this.replaceChildren(
-            make('p', { class: 'purpose' }, CURVE_TEXTS.purpose),
+            make('p', { class: 'purpose' }, TEXTS.curves.purpose),
             give(new PageHead()),
             canvas,
             this.legend,
             give(new PlayBar()),
             this.fast,
             this.lines,
-            make('label', { class: 'follow', title: CURVE_TEXTS.followHint }, this.follow, CURVE_TEXTS.follow),
+            make('label', { class: 'follow', title: TEXTS.curves.followHint }, this.follow, TEXTS.curves.follow),
             this.jointRow(),
         );
         this.disposals.push(
@@ -84,17 +84,17 @@ export class CurvesPane extends HTMLElement {
             return make(
                 'li',
                 { class: `line-${(i % CHOSEN_COLOURS.length) + 1}` },
-                LINE_TEXTS.joint(servo, joint ? jointTitle(joint) : ''),
+                TEXTS.curves.line(servo, joint ? jointTitle(joint) : ''),
             );
         });
-        this.legend.replaceChildren(...(items.length > 0 ? items : [make('li', { class: 'none' }, LINE_TEXTS.none)]));
+        this.legend.replaceChildren(...(items.length > 0 ? items : [make('li', { class: 'none' }, TEXTS.curves.noLine)]));
     }
 
     /** What the other lines are. */
     private sayLines(drawn: Drawn): void {
         const { joints } = this.session.editor.state.get();
         const text = [
-            drawn.isShaped && joints.size > 0 ? CURVE_TEXTS.stored : '',
+            drawn.isShaped && joints.size > 0 ? TEXTS.curves.stored : '',
             this.follow.checked ? this.lagText(drawn, joints.size > 0) : '',
         ]
             .filter(Boolean)
@@ -103,11 +103,11 @@ export class CurvesPane extends HTMLElement {
     }
 
     private lagText({ lags, isUnknown }: Drawn, hasJoint: boolean): string {
-        if (isUnknown) return CURVE_TEXTS.noLags;
-        if (!hasJoint) return CURVE_TEXTS.lagsNeedJoint;
+        if (isUnknown) return TEXTS.curves.noLags;
+        if (!hasJoint) return TEXTS.curves.lagsNeedJoint;
         return lags.size === 0
-            ? CURVE_TEXTS.lagsComing
-            : CURVE_TEXTS.lags(
+            ? TEXTS.curves.lagsComing
+            : TEXTS.curves.lags(
                   this.session.body.joints.flatMap(joint => {
                       const units = lags.get(joint.servo);
                       return units === undefined ? [] : [[joint.servo, degreesOf(joint, units)] as const];
@@ -116,14 +116,18 @@ export class CurvesPane extends HTMLElement {
     }
 
     private jointRow(): HTMLElement {
-        const row = make('div', { class: 'joint-chips', role: 'group', 'aria-label': 'Joints to edit' });
+        const row = make('div', { class: 'joint-chips', role: 'group', 'aria-label': TEXTS.curves.joints });
         for (const { title, servos } of limbGroups(this.session.body)) {
             row.append(make('button', { class: 'limb', onclick: () => this.session.editor.select({ joints: new Set(servos) }) }, title));
         }
         for (const joint of [...this.session.body.joints].sort((a, b) => a.servo - b.servo)) {
             const chip = make(
                 'button',
-                { title: jointTitle(joint), 'aria-label': `${joint.servo} ${jointTitle(joint)}`, onclick: () => this.toggle(joint.servo) },
+                {
+                    title: jointTitle(joint),
+                    'aria-label': TEXTS.curves.line(joint.servo, jointTitle(joint)),
+                    onclick: () => this.toggle(joint.servo),
+                },
                 String(joint.servo),
             );
             this.chips.set(joint.servo, chip);
@@ -139,7 +143,7 @@ export class CurvesPane extends HTMLElement {
     }
 
     private sayFast(fast: ReadonlyMap<number, readonly TickSpan[]>): void {
-        const text = fast.size === 0 ? CURVE_TEXTS.notFast : CURVE_TEXTS.fast([...fast.keys()]);
+        const text = fast.size === 0 ? TEXTS.curves.notFast : TEXTS.curves.fast([...fast.keys()]);
         if (this.fast.textContent !== text) this.fast.textContent = text;
         this.fast.dataset.tone = fast.size === 0 ? 'calm' : 'bad';
     }

@@ -10,7 +10,8 @@ import type { DocumentsState } from '../session/documents.ts';
 import { onChoice } from '../choice.ts';
 import { define, isTyping, make } from '../element.ts';
 import { ask, askText } from './ask-dialog.ts';
-import { EDITOR_TEXTS, editText, keptText } from '../texts/editor.ts';
+import { editText, savingText } from '../texts/editor.ts';
+import { TEXTS } from '../texts/texts.ts';
 import './edit-bar.css';
 
 const NEW = 'new';
@@ -23,17 +24,17 @@ export class EditBar extends HTMLElement {
     session!: Session; // set before it is connected
     /** Opens the way to the robot. */
     onTransfer: () => void = () => undefined;
-    private readonly documents = make('select', { 'aria-label': 'Document' });
-    private readonly kept = make('span', { class: 'kept', role: 'status', 'aria-label': 'Autosave' });
+    private readonly documents = make('select', { 'aria-label': TEXTS.document.document });
+    private readonly saving = make('span', { class: 'saving', role: 'status', 'aria-label': TEXTS.document.autosave });
     private readonly undo = make('button', { onclick: () => this.session.editor.undo() }, '↶');
     private readonly redo = make('button', { onclick: () => this.session.editor.redo() }, '↷');
-    private readonly transfer = make('button', { onclick: () => this.onTransfer() }, 'To the robot …');
+    private readonly transfer = make('button', { onclick: () => this.onTransfer() }, TEXTS.document.toRobot);
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.setAttribute('role', 'toolbar');
-        this.setAttribute('aria-label', 'Document');
-        this.replaceChildren(this.documents, this.kept, this.undo, this.redo, this.transfer);
+        this.setAttribute('aria-label', TEXTS.document.document);
+        this.replaceChildren(this.documents, this.saving, this.undo, this.redo, this.transfer);
         onChoice(this.documents, value => void this.chooseDocument(value));
         const keys = (event: KeyboardEvent): void => this.key(event);
         document.addEventListener('keydown', keys);
@@ -50,34 +51,35 @@ export class EditBar extends HTMLElement {
     }
 
     private renderDocuments({ documents, openId, saving, unreadable }: DocumentsState): void {
+        const { document: texts } = TEXTS;
         const options = documents.map(({ id, name }) => make('option', { value: id, selected: id === openId }, name));
-        const damaged = unreadable.map(name => make('option', { disabled: true }, `${name} (${EDITOR_TEXTS.unreadable})`));
+        const damaged = unreadable.map(name => make('option', { disabled: true }, TEXTS.document.unreadable(name)));
         const deeds = [
-            [NEW, 'New document …'],
-            [COPY, 'Copy of this one …'],
-            [FROM_ROBOT, 'What the robot has …'],
-            [RENAME, 'Rename …'],
-            [REMOVE, 'Delete …'],
+            [NEW, texts.create],
+            [COPY, texts.copy],
+            [FROM_ROBOT, texts.fromRobot],
+            [RENAME, texts.rename],
+            [REMOVE, texts.remove],
         ].map(([value = '', title = '']) => make('option', { value }, title));
         this.documents.replaceChildren(...options, ...damaged, make('hr'), ...deeds);
         this.documents.value = openId;
-        this.kept.textContent = keptText(saving);
-        this.kept.dataset.state = saving;
+        this.saving.textContent = savingText(saving);
+        this.saving.dataset.state = saving;
     }
 
     private renderEdits(state: EditorState): void {
         const { done, undone } = state.history;
-        const show = (button: HTMLButtonElement, word: string, edit: (typeof done)[number] | undefined): void => {
+        const show = (button: HTMLButtonElement, way: 'undo' | 'redo', edit: (typeof done)[number] | undefined): void => {
             button.disabled = edit === undefined;
-            button.title = edit ? `${word}: ${editText(edit)}` : word;
+            button.title = edit ? editText(edit, `${way}es`) : TEXTS.document[way];
             button.setAttribute('aria-label', button.title);
         };
-        show(this.undo, 'Undo', done.at(-1));
+        show(this.undo, 'undo', done.at(-1));
         const { forgotten } = this.session.documents.state.get();
-        if (done.length === 0 && forgotten > 0) this.undo.title = EDITOR_TEXTS.forgotten(forgotten);
-        show(this.redo, 'Redo', undone.at(-1));
+        if (done.length === 0 && forgotten > 0) this.undo.title = TEXTS.document.forgotten(forgotten);
+        show(this.redo, 'redo', undone.at(-1));
         const count = dirtyPages(state, this.session.editor.format).size;
-        this.transfer.textContent = count > 0 ? `To the robot (${count}) …` : 'To the robot …';
+        this.transfer.textContent = count > 0 ? TEXTS.document.toRobotCount(count) : TEXTS.document.toRobot;
     }
 
     private async chooseDocument(value: string): Promise<void> {
@@ -86,24 +88,25 @@ export class EditBar extends HTMLElement {
         this.documents.value = documents.state.get().openId;
         switch (value) {
             case NEW:
-                return this.create('New document', 'My motions');
+                return this.create(TEXTS.document.createTitle, TEXTS.document.mine);
             case COPY:
                 return this.create(
-                    'Copy of this document',
+                    TEXTS.document.copyTitle,
                     copyName(
                         name,
                         documents.state.get().documents.map(one => one.name),
+                        TEXTS.document.copyWord,
                     ),
                     () => editor.state.get().document,
                 );
             case FROM_ROBOT:
                 return this.createFromRobot();
             case RENAME: {
-                const given = await askText('Rename this document', 'Name', name);
+                const given = await askText(TEXTS.document.renameTitle, TEXTS.document.name, name);
                 return given ? documents.rename(given) : undefined;
             }
             case REMOVE:
-                return (await ask('Delete this document?', EDITOR_TEXTS.removal(name), [['Delete', 'delete']]))
+                return (await ask(TEXTS.document.removeTitle, TEXTS.document.removal(name), [[TEXTS.document.removes, 'delete']]))
                     ? documents.remove()
                     : undefined;
             default:
@@ -113,7 +116,7 @@ export class EditBar extends HTMLElement {
 
     /** from: asked when the name is given, for the document may have changed meanwhile. */
     private async create(title: string, proposal: string, from?: () => MotionDocument): Promise<void> {
-        const name = await askText(title, 'Name', proposal);
+        const name = await askText(title, TEXTS.document.name, proposal);
         if (name) await this.session.documents.create(name, from?.());
     }
 
@@ -121,7 +124,7 @@ export class EditBar extends HTMLElement {
         const { transfer, editor } = this.session;
         if (!(await transfer.read()).isDone) return this.onTransfer(); // which says why, and offers to try again
         const pages = editor.state.get().robot.map(bytes => bytes ?? editor.format.empty);
-        await this.create('What the robot has, as a document', 'My robot', () => ({ name: '', pages }));
+        await this.create(TEXTS.document.fromRobotTitle, TEXTS.document.ofMyRobot, () => ({ name: '', pages }));
     }
 
     /** Ctrl+Z and Ctrl+Y, but for what is being typed. */

@@ -8,7 +8,7 @@ import type { Session } from '../session/session.ts';
 import { onChoice } from '../choice.ts';
 import { define, make } from '../element.ts';
 import type { FilesState } from '../session/files.ts';
-import { FILE_TEXTS } from '../texts/files.ts';
+import { TEXTS } from '../texts/texts.ts';
 import './files-menu.css';
 
 const ACCEPTED = '.m512,.bin,.img,.hex,.ihex,.mtn';
@@ -20,34 +20,30 @@ export class FilesMenu extends HTMLElement {
         type: 'file',
         accept: ACCEPTED,
         hidden: true,
-        'aria-label': 'Motion file',
+        'aria-label': TEXTS.files.file,
         onchange: () => this.chosen(),
     });
     private readonly dialog = make('dialog', { 'aria-labelledby': 'files-title', oncancel: () => this.session.files.dismiss() });
     private readonly busy = make('span', { class: 'busy', role: 'status' });
-    private readonly stop = make('button', { hidden: true, onclick: () => this.session.files.cancel() }, 'Cancel');
+    private readonly stop = make('button', { hidden: true, onclick: () => this.session.files.cancel() }, TEXTS.page.cancel);
     private shown: Pick<FilesState, 'opened' | 'tooLarge' | 'trouble'> | null = null;
     private readonly ends: (() => void)[] = [];
 
     connectedCallback(): void {
         const save = make(
             'select',
-            { 'aria-label': 'Save as a file' },
-            make('option', { value: '' }, 'Save as …'),
-            ...Object.entries(SUFFIXES).map(([suffix, title]) => make('option', { value: suffix }, `${title} (${suffix})`)),
+            { 'aria-label': TEXTS.files.saveLabel },
+            make('option', { value: '' }, TEXTS.files.saveAs),
+            ...SUFFIXES.map(suffix => make('option', { value: suffix }, `${TEXTS.files.types[suffix]} (${suffix})`)),
         );
         onChoice(save, suffix => {
             if (suffix !== '') void this.save(suffix as Suffix); // one of the options
             save.value = '';
         });
         this.replaceChildren(
-            make('button', { onclick: () => this.chooser.click() }, 'Open …'),
+            make('button', { onclick: () => this.chooser.click() }, TEXTS.files.open),
             save,
-            make(
-                'button',
-                { title: 'A link that holds this page and those that it leads to', onclick: () => void this.send() },
-                'Send as link',
-            ),
+            make('button', { title: TEXTS.files.sendHint, onclick: () => void this.send() }, TEXTS.files.send),
             this.busy,
             this.stop,
             this.chooser,
@@ -95,23 +91,27 @@ export class FilesMenu extends HTMLElement {
         make('a', { href: address, download: saved.name }).click();
         setTimeout(() => URL.revokeObjectURL(address), FORGET_MS);
         if (saved.losses.length > 0)
-            this.show(saved.name, [make('p', {}, FILE_TEXTS.losses(saved.name)), lines(saved.losses)], [this.closing('Understood')]);
+            this.show(
+                saved.name,
+                [make('p', {}, TEXTS.files.losses(saved.name)), lines(saved.losses)],
+                [this.closing(TEXTS.files.understood)],
+            );
     }
 
     /** The selected page as a link, in the clipboard and to be copied. */
     async send(): Promise<void> {
         const hash = await this.session.files.link();
         if (hash === null) return;
-        const address = new URL(hash, window.location.href).href;
+        const address = addressOf(hash);
         const isCopied = await navigator.clipboard.writeText(address).then(
             () => true,
             () => false,
         );
-        const field = make('input', { type: 'text', readonly: true, value: address, 'aria-label': 'Link' });
+        const field = make('input', { type: 'text', readonly: true, value: address, 'aria-label': TEXTS.files.link });
         this.show(
-            'A link with the motion in it',
-            [make('p', {}, isCopied ? FILE_TEXTS.linkCopied : FILE_TEXTS.linkShown), field],
-            [this.closing('Close')],
+            TEXTS.files.linkTitle,
+            [make('p', {}, isCopied ? TEXTS.files.linkCopied : TEXTS.files.linkShown), field],
+            [this.closing(TEXTS.page.close)],
         );
         field.select();
     }
@@ -123,13 +123,16 @@ export class FilesMenu extends HTMLElement {
         const { shown } = this;
         if (shown && shown.opened === opened && shown.tooLarge === tooLarge && shown.trouble === trouble) return;
         this.shown = { opened, tooLarge, trouble };
-        if (trouble !== null) this.show('That did not work', [make('p', {}, trouble)], [this.closing('Close')]);
+        if (trouble !== null) this.show(TEXTS.files.failed, [make('p', {}, trouble)], [this.closing(TEXTS.page.close)]);
         else if (opened) this.showOpened(opened);
         else if (tooLarge)
             this.show(
                 tooLarge.name,
-                [make('p', {}, FILE_TEXTS.tooLarge(tooLarge.pages))],
-                [make('button', { onclick: () => void this.session.files.openWithoutRest() }, 'Open without them'), this.closing('Cancel')],
+                [make('p', {}, TEXTS.files.tooLarge(tooLarge.pages))],
+                [
+                    make('button', { onclick: () => void this.session.files.openWithoutRest() }, TEXTS.files.openWithoutRest),
+                    this.closing(TEXTS.page.cancel),
+                ],
             );
         else this.dialog.close();
     }
@@ -138,18 +141,18 @@ export class FilesMenu extends HTMLElement {
         const trim = make('input', { type: 'checkbox' });
         const { files } = this.session;
         const choices = [
-            make('button', { class: 'primary', title: FILE_TEXTS.addHint, onclick: () => files.addOpened() }, 'Add to free pages'),
-            make('button', { title: FILE_TEXTS.documentHint, onclick: () => void files.createFromOpened() }, 'As a new document'),
-            make('button', { title: FILE_TEXTS.replaceHint, onclick: () => files.replaceAll(trim.checked) }, 'Replace all pages'),
+            make('button', { class: 'primary', title: TEXTS.files.addHint, onclick: () => files.addOpened() }, TEXTS.files.add),
+            make('button', { title: TEXTS.files.asDocumentHint, onclick: () => void files.createFromOpened() }, TEXTS.files.asDocument),
+            make('button', { title: TEXTS.files.replaceHint, onclick: () => files.replaceAll(trim.checked) }, TEXTS.files.replace),
         ];
         this.show(
             name,
             [
-                make('p', {}, FILE_TEXTS.opened(count, damaged)),
+                make('p', {}, TEXTS.files.opened(count, damaged)),
                 lines([...notes, ...losses]),
-                hasTrim ? make('label', {}, trim, ` ${FILE_TEXTS.trim}`) : null,
+                hasTrim ? make('label', {}, trim, ` ${TEXTS.files.trim}`) : null,
             ],
-            [...choices.slice(count === 0 ? 1 : 0), this.closing('Cancel')],
+            [...choices.slice(count === 0 ? 1 : 0), this.closing(TEXTS.page.cancel)],
         );
     }
 
@@ -174,6 +177,13 @@ export class FilesMenu extends HTMLElement {
         );
         if (!this.dialog.open) this.dialog.showModal();
     }
+}
+
+/** Of this page, in the language of whoever opens it. */
+function addressOf(hash: string): string {
+    const address = new URL(hash, window.location.href);
+    address.searchParams.delete('lang');
+    return address.href;
 }
 
 /** Scrolls when it is long, also by keyboard. */

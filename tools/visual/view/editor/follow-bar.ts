@@ -7,7 +7,7 @@ import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
 import { isEditing } from './editing.ts';
 import type { Editing } from './editing.ts';
-import { FOLLOW_TEXTS } from '../texts/steps.ts';
+import { TEXTS } from '../texts/texts.ts';
 
 export class FollowBar extends HTMLElement {
     session!: Session; // these are set before it is connected
@@ -17,7 +17,7 @@ export class FollowBar extends HTMLElement {
     private isFollowing = false;
 
     connectedCallback(): void {
-        this.replaceChildren(make('label', {}, this.box, FOLLOW_TEXTS.offer));
+        this.replaceChildren(make('label', {}, this.box, TEXTS.steps.follow));
         this.disposals.push(
             this.editing.watch(() => this.render()),
             this.session.editor.state.watch(() => this.render()),

@@ -1,59 +1,65 @@
 // SPDX-License-Identifier: MIT
 // What goes on beside a play: a page laid over it, joints that code moves. The robot does all of it; here it is only told to.
 
-import { jointAngle, jointTitle, nearestPosition } from '../../model/body.ts';
+import { jointAngle, nearestPosition } from '../../model/body.ts';
 import type { Joint } from '../../model/body.ts';
 import { pageOf } from '../../model/document.ts';
 import { POSITION_MAX, POSITION_MIDDLE } from '../../model/motion.ts';
 import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
-import { LAYER_TEXTS } from '../texts/steps.ts';
-import { pageText } from '../texts/editor.ts';
+import { jointTitle } from '../texts/robot.ts';
+import { TEXTS } from '../texts/texts.ts';
 import './layer-bar.css';
 
 const AIM_DEGREES_S = 90;
 
 export class LayerBar extends HTMLElement {
     session!: Session; // set before it is connected
-    private readonly page = make('select', { 'aria-label': 'Page to lay over the play' });
+    private readonly page = make('select', { 'aria-label': TEXTS.layers.motion });
     private readonly joints = make(
         'select',
-        { 'aria-label': 'Joints of the layer' },
-        make('option', { value: 'own' }, 'on its own joints'),
-        make('option', { value: 'chosen' }, 'on the chosen joints'),
+        { 'aria-label': TEXTS.layers.joints },
+        make('option', { value: 'own' }, TEXTS.layers.ownJoints),
+        make('option', { value: 'chosen' }, TEXTS.layers.chosenJoints),
     );
     private readonly position = make('input', {
         type: 'number',
         min: 0,
         max: POSITION_MAX,
         value: POSITION_MIDDLE,
-        'aria-label': 'Position',
+        'aria-label': TEXTS.layers.position,
     });
-    private readonly amplitude = make('input', { type: 'number', min: 1, max: POSITION_MIDDLE, value: 60, 'aria-label': 'To and fro by' });
+    private readonly amplitude = make('input', {
+        type: 'number',
+        min: 1,
+        max: POSITION_MIDDLE,
+        value: 60,
+        'aria-label': TEXTS.layers.swingBy,
+    });
     private readonly seconds = make('input', {
         type: 'number',
         min: 0.125,
         max: 30,
         step: 0.125,
         value: 2,
-        'aria-label': 'Seconds to and fro',
+        'aria-label': TEXTS.layers.swingSeconds,
     });
     private readonly byCode = make('div', { class: 'by-code' });
     private readonly jointName = make('span', { class: 'joint' });
-    private readonly status = make('p', { class: 'hint', role: 'status', 'aria-label': 'Beside the play' });
-    private readonly startPlay = make('button', { onclick: () => this.session.runImage('play') }, 'Start Play');
+    private readonly status = make('p', { class: 'hint', role: 'status', 'aria-label': TEXTS.layers.state });
+    private readonly startPlay = make('button', { onclick: () => this.session.runImage('play') }, TEXTS.layers.startPlay);
     private readonly deeds: readonly HTMLButtonElement[] = [
-        make('button', { onclick: () => this.lay() }, 'Lay over'),
-        make('button', { onclick: () => void this.session.overlay({ kind: 'layer', page: null, joints: [] }) }, 'Layer off'),
-        make('button', { title: 'Goes there and holds it there', onclick: () => this.aim() }, 'Aim'),
-        make('button', { title: 'To and fro about the position', onclick: () => this.swing() }, 'Swing'),
+        make('button', { onclick: () => this.lay() }, TEXTS.layers.lay),
+        make('button', { onclick: () => void this.session.overlay({ kind: 'layer', page: null, joints: [] }) }, TEXTS.layers.off),
+        make('button', { title: TEXTS.layers.aimHint, onclick: () => this.aim() }, TEXTS.layers.aim),
+        make('button', { title: TEXTS.layers.swingHint, onclick: () => this.swing() }, TEXTS.layers.swing),
         make(
             'button',
             {
-                title: 'Back to the play',
+                title: TEXTS.layers.freeHint,
                 onclick: () => void this.session.overlay({ kind: 'free', joints: this.chosen.map(({ servo }) => servo) }),
             },
-            'Free',
+            TEXTS.layers.free,
         ),
     ];
     private shown: readonly Uint8Array[] | null = null;
@@ -63,13 +69,13 @@ export class LayerBar extends HTMLElement {
     connectedCallback(): void {
         const [lay, off, aim, swing, free] = this.deeds;
         const [to, by, time] = [
-            make('label', {}, 'to ', this.position),
+            make('label', {}, TEXTS.layers.to, ' ', this.position),
             make('label', {}, '± ', this.amplitude),
-            make('label', {}, 'in ', this.seconds, ' s'),
+            make('label', {}, TEXTS.layers.in, ' ', this.seconds, ' s'),
         ];
         this.byCode.replaceChildren(this.jointName, to, aim ?? '', make('span', { class: 'break' }), by, time, swing ?? '', free ?? '');
         this.replaceChildren(
-            make('p', { class: 'hint' }, LAYER_TEXTS.purpose),
+            make('p', { class: 'hint' }, TEXTS.layers.purpose),
             make('div', { class: 'row' }, this.page, this.joints, lay ?? '', off ?? ''),
             this.byCode,
             make('div', { class: 'row' }, this.startPlay, this.status),
@@ -98,7 +104,8 @@ export class LayerBar extends HTMLElement {
         for (const button of this.deeds) button.disabled = !isPlay;
         this.startPlay.hidden = isPlay || version === null || source === 'yours';
         this.showJoint();
-        const text = isPlay || version === null ? this.inForce() : source !== 'yours' ? LAYER_TEXTS.needsPlay : LAYER_TEXTS.needsPlayYours;
+        const text =
+            isPlay || version === null ? this.inForce() : source !== 'yours' ? TEXTS.layers.needsPlay : TEXTS.layers.needsPlayYours;
         if (this.status.textContent !== text) this.status.textContent = text;
     }
 
@@ -122,7 +129,7 @@ export class LayerBar extends HTMLElement {
         this.byCode.classList.toggle('none', joint === null);
         if (joint === this.joint && this.jointName.textContent !== '') return;
         this.joint = joint;
-        this.jointName.textContent = joint ? `${joint.servo} ${jointTitle(joint)}` : LAYER_TEXTS.chooseJoint;
+        this.jointName.textContent = joint ? TEXTS.curves.line(joint.servo, jointTitle(joint)) : TEXTS.layers.chooseJoint;
         if (joint) this.position.value = String(Math.round(joint.zero));
     }
 
@@ -136,10 +143,10 @@ export class LayerBar extends HTMLElement {
             .filter(servo => (aimed >>> servo) & 1)
             .sort((a, b) => a - b);
         const parts = [
-            page > 0 ? LAYER_TEXTS.page(pageText(page, this.session.editor.page(page).name)) : '',
-            ids.length > 0 ? LAYER_TEXTS.joints(ids) : '',
+            page > 0 ? TEXTS.layers.laid(TEXTS.motion.title(page, this.session.editor.page(page).name)) : '',
+            ids.length > 0 ? TEXTS.layers.moved(ids) : '',
         ];
-        return parts.filter(Boolean).join(' ') || LAYER_TEXTS.none;
+        return parts.filter(Boolean).join(' ') || TEXTS.layers.none;
     }
 
     private lay(): void {

@@ -3,7 +3,8 @@
 
 import { Graph, layout } from '@dagrejs/dagre';
 import type { LinkGraph, PageLink, PageNode } from '../../model/links.ts';
-import { EDITOR_TEXTS, LINK_TEXTS, codeText, pageText } from '../texts/editor.ts';
+import { codeText } from '../texts/editor.ts';
+import { TEXTS } from '../texts/texts.ts';
 
 const SVG = 'http://www.w3.org/2000/svg';
 const NODE = { width: 104, height: 40 };
@@ -23,8 +24,8 @@ function draw(tag: string, attributes: Readonly<Record<string, string | number>>
 
 /** "walk_go → walk_l by ▲": for a title. */
 function linkTitle(link: PageLink, nodes: ReadonlyMap<number, PageNode>): string {
-    const name = (page: number): string => pageText(page, nodes.get(page)?.name ?? '');
-    return `${name(link.from)}, ${LINK_TEXTS[link.kind]}${link.code ? ` by ${codeText(link.code)}` : ''}: ${name(link.to)}${link.isDead ? ', where nothing can be played' : ''}`;
+    const title = (page: number): string => TEXTS.motion.title(page, nodes.get(page)?.name ?? '');
+    return TEXTS.links.link(title(link.from), TEXTS.links.names[link.kind], codeText(link.code), title(link.to), link.isDead);
 }
 
 type Point = { readonly x: number; readonly y: number };
@@ -54,7 +55,7 @@ export function linkChart({ nodes, links }: LinkGraph, width: number): SVGElemen
     const size = { width: Math.max(laid.width, 1) + 2 * PADDING, height: laid.height + PADDING };
     return draw(
         'svg',
-        { viewBox: `0 0 ${size.width} ${size.height}`, ...size, role: 'group', 'aria-label': 'Links between pages' },
+        { viewBox: `0 0 ${size.width} ${size.height}`, ...size, role: 'group', 'aria-label': TEXTS.links.chart },
         markers(),
         ...between.map(link => edge(link, laid, byPage)),
         ...[...laid.nodes.keys()].map(page => box(page, laid, byPage.get(page) ?? null, links)),
@@ -169,14 +170,14 @@ function smooth(points: readonly Point[]): string {
 
 function box(page: number, laid: Laid, node: PageNode | null, links: readonly PageLink[]): SVGElement {
     const { x, y } = laid.nodes.get(page) ?? { x: 0, y: 0 };
-    const itself = links.filter(link => link.from === page && link.to === page).map(link => LINK_TEXTS[link.kind]);
-    const oddities = [node ? '' : 'nothing to play here', node?.exitsRound ? 'exits go round' : ''].filter(Boolean);
+    const itself = links.filter(link => link.from === page && link.to === page).map(link => TEXTS.links.names[link.kind]);
+    const oddities = [node ? '' : TEXTS.links.isDead, node?.exitsRound ? TEXTS.links.exitsRound : ''].filter(Boolean);
     const name = `${page} ${node?.name ?? ''}`.trimEnd();
     const words = [
-        `page ${name}`,
-        node?.code ? `${codeText(node.code)} calls it` : '',
-        itself.length > 0 ? `${itself.join(', ')}: itself` : '',
-        node?.isUnreachable ? EDITOR_TEXTS.byNumber : '',
+        TEXTS.motion.card(page, node?.name ?? ''),
+        node?.code ? TEXTS.links.calls(codeText(node.code)) : '',
+        itself.length > 0 ? TEXTS.links.toItself(itself) : '',
+        node?.isUnreachable ? TEXTS.links.byNumber : '',
         ...oddities,
     ];
     const title = words.filter(Boolean).join(', ');

@@ -10,7 +10,8 @@ import type { RemoteButton } from '../../robot/remote.ts';
 import type { Editor } from '../session/editor.ts';
 import { onChoice } from '../choice.ts';
 import { make } from '../element.ts';
-import { LINK_TEXTS, codeText, pageText } from '../texts/editor.ts';
+import { codeText } from '../texts/editor.ts';
+import { TEXTS } from '../texts/texts.ts';
 
 const CODE_OF: Partial<Record<LinkField, 'linked1Code' | 'linked2Code'>> = { linked1: 'linked1Code', linked2: 'linked2Code' };
 /** What may be chosen: no key, each button alone, and the slanting directions. */
@@ -27,14 +28,14 @@ const CHORDS: readonly (readonly RemoteButton[])[] = [
 ];
 
 export function linkList(editor: Editor, graph: LinkGraph, page: number): HTMLElement[] {
-    const title = pageText(page, editor.page(page).name);
+    const title = TEXTS.motion.title(page, editor.page(page).name);
     const incoming = graph.links.filter(link => link.to === page && link.from !== page);
     return [
-        make('h2', {}, `Links of ${title}`),
+        make('h2', {}, TEXTS.links.of(title)),
         make('div', { class: 'fields' }, ...[...LINK_FIELDS, ...PARTNER_FIELDS].flatMap(link => field(editor, page, link))),
-        make('h2', {}, 'Leads here'),
+        make('h2', {}, TEXTS.links.leadsHere),
         incoming.length === 0
-            ? make('p', { class: 'none' }, 'No page.')
+            ? make('p', { class: 'none' }, TEXTS.links.noneLeads)
             : make(
                   'ul',
                   {},
@@ -45,7 +46,11 @@ export function linkList(editor: Editor, graph: LinkGraph, page: number): HTMLEl
                           make(
                               'button',
                               { onclick: () => editor.select({ page: link.from }) },
-                              `${pageText(link.from, editor.page(link.from).name)} by ${LINK_TEXTS[link.kind]}${link.code ? ` ${codeText(link.code)}` : ''}`,
+                              TEXTS.links.leads(
+                                  TEXTS.motion.title(link.from, editor.page(link.from).name),
+                                  TEXTS.links.names[link.kind],
+                                  codeText(link.code),
+                              ),
                           ),
                       ),
                   ),
@@ -58,17 +63,17 @@ function field(editor: Editor, page: number, link: LinkField): HTMLElement[] {
     const target = view[link];
     const choice = make(
         'select',
-        { 'aria-label': LINK_TEXTS[link] },
+        { 'aria-label': TEXTS.links.names[link] },
         ...targets(editor).map(([value, title]) => make('option', { value, selected: value === target }, title)),
     );
     onChoice(choice, to => editor.dispatch(editor.edits.setLink(editor.state.get().document, page, link, Number(to))));
     const go = make(
         'button',
-        { disabled: target === 0, 'aria-label': `Show ${LINK_TEXTS[link]}`, onclick: () => editor.select({ page: target }) },
-        'Show',
+        { disabled: target === 0, 'aria-label': TEXTS.links.show(TEXTS.links.names[link]), onclick: () => editor.select({ page: target }) },
+        TEXTS.page.show,
     );
     const code = CODE_OF[link];
-    return [make('label', {}, LINK_TEXTS[link]), choice, code ? codeField(editor, page, link, code) : make('span'), go];
+    return [make('label', {}, TEXTS.links.names[link]), choice, code ? codeField(editor, page, link, code) : make('span'), go];
 }
 
 /** Empty pages stand at the end: one may be filled later. */
@@ -77,10 +82,10 @@ function targets(editor: Editor): [number, string][] {
     const all = Array.from({ length: PAGE_COUNT - 1 }, (_, i) => i + 1);
     const isUsed = (page: number): boolean => !editor.format.isEmpty(document.pages[page] ?? editor.format.empty);
     return [
-        [0, 'none'],
+        [0, TEXTS.links.noTarget],
         ...[...all.filter(isUsed), ...all.filter(page => !isUsed(page))].map((page): [number, string] => [
             page,
-            `${page} ${editor.page(page).name || '(empty)'}`,
+            `${page} ${editor.page(page).name || TEXTS.motion.isEmpty}`,
         ]),
     ];
 }
@@ -90,8 +95,10 @@ function codeField(editor: Editor, page: number, link: LinkField, code: 'linked1
     const codes = [...CHORDS.map(held => editor.format.remoteCode(wordOf(held))), value];
     const choice = make(
         'select',
-        { 'aria-label': `Key of ${LINK_TEXTS[link]}` },
-        ...[...new Set(codes)].map(one => make('option', { value: one, selected: one === value }, one === 0 ? 'no key' : codeText(one))),
+        { 'aria-label': TEXTS.links.keyOf(TEXTS.links.names[link]) },
+        ...[...new Set(codes)].map(one =>
+            make('option', { value: one, selected: one === value }, one === 0 ? TEXTS.links.noKey : codeText(one)),
+        ),
     );
     onChoice(choice, key => editor.dispatch(editor.edits.setHeader(editor.state.get().document, page, { [code]: Number(key) })));
     return choice;

@@ -12,7 +12,7 @@ import type { LinkField } from '../../model/page.ts';
 import { ask } from './ask-dialog.ts';
 import { linkChart, markChart } from './link-chart.ts';
 import { linkList } from './link-list.ts';
-import { EDITOR_TEXTS, LEGEND_TEXTS, LINK_TEXTS, pageText } from '../texts/editor.ts';
+import { TEXTS } from '../texts/texts.ts';
 import './links-pane.css';
 
 export class LinksPane extends HTMLElement {
@@ -27,12 +27,14 @@ export class LinksPane extends HTMLElement {
 
     connectedCallback(): void {
         this.replaceChildren(
-            make('p', { class: 'purpose' }, EDITOR_TEXTS.links),
+            make('p', { class: 'purpose' }, TEXTS.links.purpose),
             this.chart,
             make(
                 'p',
                 { class: 'legend' },
-                ...(['next', 'exit', 'linked', 'blend', 'dead'] as const).map(kind => make('span', { class: kind }, LEGEND_TEXTS[kind])),
+                ...(['next', 'exit', 'linked', 'blend', 'dead'] as const).map(kind =>
+                    make('span', { class: kind }, TEXTS.links.legend[kind]),
+                ),
             ),
             this.list,
         );
@@ -65,7 +67,7 @@ export class LinksPane extends HTMLElement {
         if (key === this.listed) return;
         this.listed = key;
         keepFocus(this.list, () =>
-            this.list.replaceChildren(...(page === 0 ? [make('p', {}, EDITOR_TEXTS.trimStays)] : linkList(editor, this.graph, page))),
+            this.list.replaceChildren(...(page === 0 ? [make('p', {}, TEXTS.links.trimStays)] : linkList(editor, this.graph, page))),
         );
         this.centre(this.chart.querySelector('.node.selected'));
     }
@@ -83,7 +85,7 @@ export class LinksPane extends HTMLElement {
         const hadFocus = this.chart.contains(window.document.activeElement);
         this.graph = linkGraph(this.session.editor.format, document);
         this.chart.replaceChildren(
-            this.graph.nodes.length > 0 ? linkChart(this.graph, this.chart.clientWidth) : make('p', {}, EDITOR_TEXTS.noLinks),
+            this.graph.nodes.length > 0 ? linkChart(this.graph, this.chart.clientWidth) : make('p', {}, TEXTS.links.none),
         );
         if (hadFocus) this.focusPage(this.session.editor.state.get().page);
     }
@@ -112,12 +114,12 @@ export class LinksPane extends HTMLElement {
         if (from === 0 || to === 0) return;
         if (from === to) return this.choose(from);
         const { editor } = this.session;
-        const title = (page: number): string => pageText(page, editor.page(page).name);
+        const title = (page: number): string => TEXTS.motion.title(page, editor.page(page).name);
         const kinds: readonly LinkField[] = [...LINK_FIELDS, ...PARTNER_FIELDS];
         const answer = await ask(
-            'Link',
-            `Which link of ${title(from)} shall lead to ${title(to)}?`,
-            kinds.map(kind => [LINK_TEXTS[kind], kind]),
+            TEXTS.links.ask,
+            TEXTS.links.which(title(from), title(to)),
+            kinds.map(kind => [TEXTS.links.names[kind], kind]),
         );
         if (answer) editor.dispatch(editor.edits.setLink(editor.state.get().document, from, answer as LinkField, to)); // one of the kinds
         this.choose(from);

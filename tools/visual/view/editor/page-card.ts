@@ -9,6 +9,7 @@ import type { PageFormat } from '../../model/page-format.ts';
 import { define, make } from '../element.ts';
 import { showPose } from './pose-picture.ts';
 import { codeText } from '../texts/editor.ts';
+import { TEXTS } from '../texts/texts.ts';
 
 const PICTURE = { width: 64, height: 74 };
 
@@ -61,7 +62,7 @@ export class PageCard extends HTMLElement {
         this.tabIndex = state.isSelected ? 0 : -1;
         this.classList.toggle('dirty', state.isDirty);
         this.classList.toggle('playing', state.isPlaying);
-        this.title = state.isDirty ? 'The robot has another version of this page.' : '';
+        this.title = state.isDirty ? TEXTS.motion.ofRobotDiffers : '';
     }
 
     /** It is in sight: its picture is drawn. */
@@ -79,11 +80,11 @@ export class PageCard extends HTMLElement {
         this.classList.toggle('empty', isEmpty);
         this.classList.toggle('damaged', isDamaged);
         this.draggable = !isEmpty && !isDamaged && this.page > 0;
-        this.name1.textContent = this.page === 0 ? 'trim' : page.name;
+        this.name1.textContent = this.page === 0 ? TEXTS.motion.trim : page.name;
         const seconds = pageSeconds(format, bytes);
         const steps = page.steps.length;
-        const parts = [seconds > 0 ? `${seconds.toFixed(1)} s` : '', steps > 0 ? `${steps} st` : '', codeText(page.code)];
-        this.facts.textContent = isDamaged ? '⚠ damaged' : isEmpty ? '' : parts.filter(Boolean).join(' · ');
+        const parts = [seconds > 0 ? `${seconds.toFixed(1)} s` : '', steps > 0 ? TEXTS.motion.stepsShort(steps) : '', codeText(page.code)];
+        this.facts.textContent = isDamaged ? TEXTS.motion.damaged : isEmpty ? '' : parts.filter(Boolean).join(' · ');
         this.setAttribute('aria-label', this.label(isEmpty, steps));
         this.picture = null;
         this.draw();
@@ -91,8 +92,8 @@ export class PageCard extends HTMLElement {
 
     /** Begins with what stands on the card, in its order: who calls it by what they see is understood (WCAG 2.5.3). Then the whole word. */
     private label(isEmpty: boolean, steps: number): string {
-        const title = `page ${this.page} ${this.name1.textContent ?? ''}`.trimEnd();
-        const whole = isEmpty ? 'empty' : steps === 1 ? '1 step' : `${steps} steps`;
+        const title = TEXTS.motion.card(this.page, this.name1.textContent ?? '');
+        const whole = isEmpty ? TEXTS.motion.empty : TEXTS.motion.steps(steps);
         return [title, this.facts.textContent, whole].filter(Boolean).join(', ');
     }
 

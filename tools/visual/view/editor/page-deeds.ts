@@ -6,7 +6,7 @@ import { freePage } from '../../model/page-edits.ts';
 import type { Editor } from '../session/editor.ts';
 import { make } from '../element.ts';
 import { ask, askText } from './ask-dialog.ts';
-import { EDITOR_TEXTS, pageText } from '../texts/editor.ts';
+import { TEXTS } from '../texts/texts.ts';
 
 export class PageDeeds {
     private readonly editor: Editor;
@@ -18,17 +18,18 @@ export class PageDeeds {
     }
 
     async rename(page: number): Promise<void> {
-        const name = await askText(`Rename ${this.title(page)}`, 'Name', this.editor.page(page).name, {
+        const name = await askText(TEXTS.motions.renameTitle(this.title(page)), TEXTS.motions.name, this.editor.page(page).name, {
             maxLength: 13,
             pattern: '[ -~]*',
-            hint: EDITOR_TEXTS.nameHint,
+            hint: TEXTS.motions.nameHint,
         });
         if (name !== null) this.editor.dispatch(this.editor.edits.rename(this.editor.state.get().document, page, name));
     }
 
     async clear(page: number): Promise<void> {
         if (this.isEmpty(page)) return;
-        const answer = await ask(`Clear ${this.title(page)}?`, EDITOR_TEXTS.clear(this.title(page)), [['Clear', 'clear']]);
+        const { motions } = TEXTS;
+        const answer = await ask(motions.clearTitle(this.title(page)), motions.clearMeans(this.title(page)), [[motions.clears, 'clear']]);
         if (answer) this.editor.dispatch(this.editor.edits.clearPages(this.editor.state.get().document, [page]));
     }
 
@@ -44,10 +45,10 @@ export class PageDeeds {
     async transferByNumber(page: number): Promise<void> {
         const { document } = this.editor.state.get();
         const free = freePage(this.editor.format, document, page);
-        const answer = await askText(`Copy or move ${this.title(page)}`, 'To page', String(free || page), {
+        const answer = await askText(TEXTS.motions.transferTo(this.title(page)), TEXTS.motions.toNumber, String(free || page), {
             maxLength: 3,
             pattern: '[0-9]+',
-            hint: 'A page from 1 to 127.',
+            hint: TEXTS.motions.numberHint,
         });
         if (answer !== null) await this.transfer(page, Number(answer));
     }
@@ -59,12 +60,13 @@ export class PageDeeds {
         const { document } = editor.state.get();
         const isFree = document.pages[to] === undefined || this.isEmpty(to);
         const follow = make('input', { type: 'checkbox', checked: true });
-        const question = EDITOR_TEXTS.transfer(this.title(from), this.title(to));
+        const { motions } = TEXTS;
+        const question = isFree ? motions.transferAsk : motions.transferReplaces;
         const answer = await ask(
-            'Copy or move',
-            isFree ? question : `${question} ${EDITOR_TEXTS.replaced(this.title(to))}`,
-            [['Copy', 'copy'], ['Move', 'move'], ...(isFree ? [] : [['Exchange', 'swap'] as const])],
-            make('label', {}, follow, 'Links of other pages follow what is moved'),
+            motions.transferTitle,
+            question(this.title(from), this.title(to)),
+            [[motions.copy, 'copy'], [motions.move, 'move'], ...(isFree ? [] : [[motions.swap, 'swap'] as const])],
+            make('label', {}, follow, motions.linksFollow),
         );
         const options = { linksFollow: follow.checked, replace: true };
         const edit = {
@@ -80,6 +82,6 @@ export class PageDeeds {
     }
 
     private title(page: number): string {
-        return pageText(page, this.editor.state.get().document.pages[page] ? this.editor.page(page).name : '');
+        return TEXTS.motion.title(page, this.editor.state.get().document.pages[page] ? this.editor.page(page).name : '');
     }
 }

@@ -4,23 +4,22 @@
 import { PAGE_COUNT } from '../../model/motion.ts';
 import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
-import { EDITOR_TEXTS } from '../texts/editor.ts';
-import { STEP_TEXTS } from '../texts/steps.ts';
+import { TEXTS } from '../texts/texts.ts';
 
 export class PageHead extends HTMLElement {
     session!: Session; // set before it is connected
     private readonly choice = make('select', {
-        'aria-label': 'Page',
+        'aria-label': TEXTS.steps.choose,
         onchange: () => this.session.editor.select({ page: Number(this.choice.value) }),
     });
     private readonly name = make('input', {
         type: 'text',
         maxlength: 13,
-        'aria-label': 'Name of the page',
-        placeholder: 'name',
+        'aria-label': TEXTS.steps.nameOf,
+        placeholder: TEXTS.steps.name,
         spellcheck: 'false',
     });
-    private readonly play = make('button', { onclick: event => this.playPressed(event) }, '▶ Play');
+    private readonly play = make('button', { onclick: event => this.playPressed(event) }, TEXTS.steps.play);
     private readonly library = make('div', { class: 'library', role: 'status' });
     /** Pages of the library that somebody wants to edit themselves. */
     private readonly agreed = new Set<number>();
@@ -33,16 +32,16 @@ export class PageHead extends HTMLElement {
         this.replaceChildren(
             this.choice,
             this.name,
-            make('button', { title: 'The first empty page', onclick: () => this.newPage() }, 'New page'),
+            make('button', { title: TEXTS.steps.createHint, onclick: () => this.newPage() }, TEXTS.steps.create),
             make('span', { class: 'space' }),
             this.play,
-            make('button', { class: 'stop', onclick: () => void this.session.command('stop') }, 'Stop'),
+            make('button', { class: 'stop', onclick: () => void this.session.command('stop') }, TEXTS.page.stop),
             this.library,
         );
         this.library.append(
-            make('span', {}, EDITOR_TEXTS.ofLibrary),
-            make('button', { onclick: () => this.editCopy() }, EDITOR_TEXTS.editsCopy),
-            make('button', { onclick: () => this.agree() }, EDITOR_TEXTS.editsItself),
+            make('span', {}, TEXTS.steps.ofLibrary),
+            make('button', { onclick: () => this.editCopy() }, TEXTS.steps.editsCopy),
+            make('button', { onclick: () => this.agree() }, TEXTS.steps.editsItself),
         );
         this.disposals.push(
             this.session.editor.state.watch(() => this.render()),
@@ -71,7 +70,9 @@ export class PageHead extends HTMLElement {
     private list(pages: readonly Uint8Array[]): void {
         const options = pages.map((_, page) => {
             const { name, steps } = this.session.editor.page(page);
-            return page === 0 ? null : make('option', { value: page }, `${page} ${name || (steps.length > 0 ? '(no name)' : '–')}`);
+            return page === 0
+                ? null
+                : make('option', { value: page }, `${page} ${name || (steps.length > 0 ? TEXTS.motion.nameless : '–')}`);
         });
         const same = this.shown !== null && this.choice.length === options.length - 1;
         if (!same) this.choice.replaceChildren(...options.filter(option => option !== null));
@@ -114,7 +115,7 @@ export class PageHead extends HTMLElement {
         const { editor } = this.session;
         const { pages } = editor.state.get().document;
         const free = pages.findIndex((bytes, page) => page > 0 && page < PAGE_COUNT && editor.format.isEmpty(bytes));
-        if (free < 0) return this.session.say({ text: STEP_TEXTS.allUsed, tone: 'bad' });
+        if (free < 0) return this.session.say({ text: TEXTS.steps.allUsed, tone: 'bad' });
         editor.select({ page: free, step: 0, steps: new Set([0]), joints: new Set() });
         this.name.focus();
     }

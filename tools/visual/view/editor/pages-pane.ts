@@ -9,7 +9,7 @@ import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import { PageCard } from './page-card.ts';
 import { PageDeeds } from './page-deeds.ts';
-import { EDITOR_TEXTS } from '../texts/editor.ts';
+import { TEXTS } from '../texts/texts.ts';
 import './pages-pane.css';
 
 type Filter = 'all' | 'used' | 'changed';
@@ -21,19 +21,19 @@ export class PagesPane extends HTMLElement {
     private readonly cards: PageCard[] = [];
     private readonly search = make('input', {
         type: 'search',
-        placeholder: 'Search',
-        'aria-label': 'Search pages',
+        placeholder: TEXTS.motions.search,
+        'aria-label': TEXTS.motions.searchLabel,
         oninput: () => this.filter(),
     });
     private readonly which = make(
         'select',
-        { 'aria-label': 'Which pages', onchange: () => this.filter() },
-        make('option', { value: 'all' }, 'All pages'),
-        make('option', { value: 'used' }, 'In use'),
-        make('option', { value: 'changed' }, 'Not in the robot'),
+        { 'aria-label': TEXTS.motions.which, onchange: () => this.filter() },
+        make('option', { value: 'all' }, TEXTS.motions.all),
+        make('option', { value: 'used' }, TEXTS.motions.used),
+        make('option', { value: 'changed' }, TEXTS.motions.changed),
     );
-    private readonly list = make('div', { class: 'cards', role: 'listbox', 'aria-label': 'Pages' });
-    private readonly nothing = make('p', { class: 'nothing', hidden: true }, EDITOR_TEXTS.nothingFound);
+    private readonly list = make('div', { class: 'cards', role: 'listbox', 'aria-label': TEXTS.motions.list });
+    private readonly nothing = make('p', { class: 'nothing', hidden: true }, TEXTS.motions.nothingFound);
     private deeds!: PageDeeds; // made with the session
     private dragged = 0;
     private playing = 0;
@@ -42,7 +42,7 @@ export class PagesPane extends HTMLElement {
     connectedCallback(): void {
         this.deeds = new PageDeeds(this.session.editor);
         this.makeCards();
-        this.replaceChildren(make('p', { class: 'purpose' }, EDITOR_TEXTS.pages), this.tools(), this.list, this.nothing);
+        this.replaceChildren(make('p', { class: 'purpose' }, TEXTS.motions.purpose), this.tools(), this.list, this.nothing);
         this.listen();
         this.disposals.push(
             this.watchSight(),
@@ -68,13 +68,13 @@ export class PagesPane extends HTMLElement {
         const button = (title: string, deed: () => unknown): HTMLButtonElement => make('button', { onclick: () => void deed() }, title);
         return make(
             'div',
-            { class: 'tools', role: 'toolbar', 'aria-label': 'The chosen page' },
+            { class: 'tools', role: 'toolbar', 'aria-label': TEXTS.motions.chosen },
             this.search,
             this.which,
-            button('Rename …', () => this.deeds.rename(this.current)),
-            button('Copy or move …', () => this.deeds.transferByNumber(this.current)),
-            button('Clear …', () => this.deeds.clear(this.current)),
-            button('Compare …', () => this.onCompare()),
+            button(TEXTS.motions.rename, () => this.deeds.rename(this.current)),
+            button(TEXTS.motions.transfer, () => this.deeds.transferByNumber(this.current)),
+            button(TEXTS.motions.clear, () => this.deeds.clear(this.current)),
+            button(TEXTS.motions.compare, () => this.onCompare()),
         );
     }
 

@@ -5,8 +5,8 @@ import { pageOf } from '../../model/document.ts';
 import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import type { TrialsState } from '../session/trials.ts';
-import { pageText } from '../texts/editor.ts';
-import { TRIAL_TEXTS, countedText } from '../texts/trials.ts';
+import { TEXTS } from '../texts/texts.ts';
+import { countedText } from '../texts/trials.ts';
 
 export class PhysicsBar extends HTMLElement {
     session!: Session; // set before it is connected
@@ -14,16 +14,16 @@ export class PhysicsBar extends HTMLElement {
     private readonly all = make(
         'button',
         { class: 'primary', onclick: () => void this.session.trials.run(this.playable()) },
-        'Try all motions',
+        TEXTS.trials.tryAll,
     );
-    private readonly stop = make('button', { onclick: () => this.session.trials.cancel() }, 'Stop trying');
-    private readonly progress = make('progress', { 'aria-label': 'Motions tried' });
-    private readonly status = make('p', { class: 'result', role: 'status', 'aria-label': 'What physics says' });
+    private readonly stop = make('button', { onclick: () => this.session.trials.cancel() }, TEXTS.trials.stop);
+    private readonly progress = make('progress', { 'aria-label': TEXTS.trials.tried });
+    private readonly status = make('p', { class: 'result', role: 'status', 'aria-label': TEXTS.trials.state });
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.replaceChildren(
-            make('p', { class: 'purpose' }, TRIAL_TEXTS.purpose),
+            make('p', { class: 'purpose' }, TEXTS.trials.purpose),
             make('div', { class: 'row' }, this.one, this.all, this.stop, this.progress),
             this.status,
         );
@@ -52,7 +52,7 @@ export class PhysicsBar extends HTMLElement {
         const trial = trials.state.get();
         const isBusy = trial.phase === 'loading' || trial.phase === 'trying';
         const playable = this.playable();
-        this.one.textContent = `Try ${this.titleOf(page)}`;
+        this.one.textContent = TEXTS.trials.tryOne(this.titleOf(page));
         this.one.hidden = this.all.hidden = isBusy;
         this.one.disabled = !playable.includes(page) || trials.isFresh(page);
         this.all.disabled = playable.every(one => trials.isFresh(one));
@@ -63,9 +63,10 @@ export class PhysicsBar extends HTMLElement {
     }
 
     private textOf(trial: TrialsState, playable: readonly number[]): string {
-        if (trial.phase === 'loading') return TRIAL_TEXTS.loading;
-        if (trial.phase === 'failed') return TRIAL_TEXTS.failed(trial.trouble ?? '');
-        if (trial.phase === 'trying' && trial.page !== null) return TRIAL_TEXTS.trying(trial, this.titleOf(trial.page));
+        if (trial.phase === 'loading') return TEXTS.trials.loading;
+        if (trial.phase === 'failed') return TEXTS.trials.failed(trial.trouble ?? '');
+        if (trial.phase === 'trying' && trial.page !== null)
+            return TEXTS.trials.trying(this.titleOf(trial.page), trial.done + 1, trial.total);
         const known = playable.flatMap(page => trial.trials.get(page) ?? []);
         const changed = playable.filter(page => trial.trials.has(page) && !this.session.trials.isFresh(page)).length;
         return countedText(
@@ -76,7 +77,7 @@ export class PhysicsBar extends HTMLElement {
     }
 
     private titleOf(page: number): string {
-        return pageText(page, this.session.editor.page(page).name);
+        return TEXTS.motion.title(page, this.session.editor.page(page).name);
     }
 
     private say(text: string): void {

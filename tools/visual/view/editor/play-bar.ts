@@ -4,19 +4,23 @@
 import { TICKS_PER_SECOND } from '../../model/motion.ts';
 import type { Session } from '../session/session.ts';
 import { define, make, setText } from '../element.ts';
-import { SHOW_TEXTS } from '../texts/steps.ts';
+import { TEXTS } from '../texts/texts.ts';
 
 export class PlayBar extends HTMLElement {
     session!: Session; // set before it is connected
-    private readonly show = make('button', { class: 'show', title: SHOW_TEXTS.hint, onclick: () => this.toggle() }, SHOW_TEXTS.show);
-    private readonly fromStep = make('button', { title: SHOW_TEXTS.fromStepHint, onclick: () => this.startAtStep() }, SHOW_TEXTS.fromStep);
+    private readonly show = make('button', { class: 'show', title: TEXTS.preview.hint, onclick: () => this.toggle() }, TEXTS.preview.show);
+    private readonly fromStep = make(
+        'button',
+        { title: TEXTS.preview.fromStepHint, onclick: () => this.startAtStep() },
+        TEXTS.preview.fromStep,
+    );
     private readonly moment = make('input', {
         type: 'range',
         min: 0,
         max: 0,
         step: 1,
         value: 0,
-        'aria-label': 'Moment of the motion',
+        'aria-label': TEXTS.preview.moment,
         oninput: () => this.seek(),
     });
     private readonly clock = make('output', { 'aria-live': 'off' });
@@ -25,13 +29,13 @@ export class PlayBar extends HTMLElement {
 
     connectedCallback(): void {
         this.setAttribute('role', 'group');
-        this.setAttribute('aria-label', 'In the picture');
+        this.setAttribute('aria-label', TEXTS.preview.inPicture);
         this.replaceChildren(
             this.show,
             this.fromStep,
             this.moment,
             this.clock,
-            make('label', { title: SHOW_TEXTS.loopHint }, this.loop, SHOW_TEXTS.loop),
+            make('label', { title: TEXTS.preview.loopHint }, this.loop, TEXTS.preview.loop),
         );
         this.disposals.push(
             this.session.preview.state.watch(() => this.render()),
@@ -49,7 +53,7 @@ export class PlayBar extends HTMLElement {
         const { isRunning, isLooping, tick, ticks } = preview.state.get();
         const isEmpty = editor.page(page).steps.length === 0;
         for (const control of [this.show, this.fromStep, this.moment]) control.disabled = isEmpty;
-        setText(this.show, isRunning ? SHOW_TEXTS.pause : SHOW_TEXTS.show);
+        setText(this.show, isRunning ? TEXTS.preview.pause : TEXTS.preview.show);
         this.moment.max = String(Math.max(1, ticks - 1));
         this.moment.value = String(tick);
         this.loop.checked = isLooping;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Over the picture, while a step is edited: what a drag does, the chosen joints as numbers, and what is shown besides.
 
-import { jointAngle, jointTitle, nearestPosition } from '../../model/body.ts';
+import { jointAngle, nearestPosition } from '../../model/body.ts';
 import type { Joint } from '../../model/body.ts';
 import type { Touch } from '../../model/trial.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
@@ -11,24 +11,13 @@ import type { Store } from '../store.ts';
 import { isEditing } from './editing.ts';
 import type { Editing, PictureMode } from './editing.ts';
 import { changeStep } from './joint-edits.ts';
-import { POSE_TEXTS } from '../texts/steps.ts';
+import { jointTitle } from '../texts/robot.ts';
+import { TEXTS } from '../texts/texts.ts';
 import { touchesText } from '../texts/trials.ts';
 import './pose-bar.css';
 
-const MODES: readonly (readonly [PictureMode, string, string])[] = [
-    ['pose', 'Pose', POSE_TEXTS.poseMode],
-    ['hand', 'Hand', POSE_TEXTS.handMode],
-];
-const OPTIONS: readonly (readonly ['soleFlat' | 'onionSkin' | 'balance', string])[] = [
-    ['soleFlat', 'Feet stay flat'],
-    ['onionSkin', 'Steps before and after'],
-    ['balance', 'Balance'],
-];
-const KEEPS = [
-    ['lower', 'lower foot'],
-    ['right', 'right foot'],
-    ['left', 'left foot'],
-] as const;
+const OPTIONS = ['soleFlat', 'onionSkin', 'balance'] as const;
+const KEEPS = ['lower', 'right', 'left'] as const;
 
 export class PoseBar extends HTMLElement {
     session!: Session; // these are set before it is connected
@@ -38,18 +27,23 @@ export class PoseBar extends HTMLElement {
     /** Limbs of the shown figure that are in each other. */
     touches: () => readonly Touch[] = () => [];
     private readonly modes = new Map<PictureMode, HTMLButtonElement>();
-    private readonly joints = make('div', { class: 'joints', role: 'group', 'aria-label': 'Chosen joints' });
+    private readonly joints = make('div', { class: 'joints', role: 'group', 'aria-label': TEXTS.picture.chosenJoints });
     /** shown: the position that stands in the input, unless somebody types there. */
     private readonly fields = new Map<number, { readonly input: HTMLInputElement; readonly degrees: HTMLElement; shown: number }>();
-    private readonly balance = make('p', { class: 'balance', role: 'status', 'aria-label': 'Balance' });
-    private readonly touch = make('p', { class: 'touch', role: 'status', 'aria-label': 'Limbs that meet' });
+    private readonly balance = make('p', { class: 'balance', role: 'status', 'aria-label': TEXTS.picture.balance });
+    private readonly touch = make('p', { class: 'touch', role: 'status', 'aria-label': TEXTS.picture.limbsMeet });
     private readonly hint = make('p', { class: 'hint' });
     private robot: RobotState | null = null;
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
-        const group = make('div', { class: 'modes', role: 'group', 'aria-label': 'What a drag in the picture does' });
-        for (const [mode, title, hint] of MODES) {
+        const group = make('div', { class: 'modes', role: 'group', 'aria-label': TEXTS.picture.dragDoes });
+        const { pose, poseHint, hand, handHint } = TEXTS.picture;
+        const modes: readonly (readonly [PictureMode, string, string])[] = [
+            ['pose', pose, poseHint],
+            ['hand', hand, handHint],
+        ];
+        for (const [mode, title, hint] of modes) {
             const button = make('button', { title: hint, onclick: () => this.editing.set({ mode }) }, title);
             this.modes.set(mode, button);
             group.append(button);
@@ -74,22 +68,22 @@ export class PoseBar extends HTMLElement {
     private options(): HTMLElement {
         const keep = make(
             'select',
-            { 'aria-label': 'Which foot stays', onchange: () => this.editing.set({ keep: keep.value as Editing['keep'] }) },
-            ...KEEPS.map(([value, title]) => make('option', { value }, title)),
+            { 'aria-label': TEXTS.picture.whichStays, onchange: () => this.editing.set({ keep: keep.value as Editing['keep'] }) },
+            ...KEEPS.map(value => make('option', { value }, TEXTS.picture[value])),
         );
-        const boxes = OPTIONS.map(([name, title]) => {
+        const boxes = OPTIONS.map(name => {
             const box = make('input', {
                 type: 'checkbox',
                 checked: this.editing.get()[name],
                 onchange: () => this.editing.set({ [name]: box.checked }),
             });
-            return make('label', {}, box, title);
+            return make('label', {}, box, TEXTS.picture[name]);
         });
         const menu = make(
             'details',
             { class: 'options' },
-            make('summary', {}, 'View'),
-            make('div', { class: 'menu' }, ...boxes, make('label', {}, 'Stays: ', keep)),
+            make('summary', {}, TEXTS.picture.view),
+            make('div', { class: 'menu' }, ...boxes, make('label', {}, TEXTS.picture.stays, ' ', keep)),
         );
         this.disposals.push(closesByItself(menu));
         return menu;
@@ -101,7 +95,7 @@ export class PoseBar extends HTMLElement {
         if (this.hidden) return;
         for (const [name, button] of this.modes) button.setAttribute('aria-pressed', String(name === mode));
         const { joints } = this.session.editor.state.get();
-        this.hint.textContent = mode === 'hand' ? POSE_TEXTS.handMode : joints.size === 0 ? POSE_TEXTS.poseMode : '';
+        this.hint.textContent = mode === 'hand' ? TEXTS.picture.handHint : joints.size === 0 ? TEXTS.picture.poseHint : '';
         this.joints.hidden = mode === 'hand' || joints.size === 0;
         if (!this.joints.hidden) this.showJoints(joints);
     }
@@ -130,7 +124,7 @@ export class PoseBar extends HTMLElement {
         const input = make('input', { type: 'number', min: low ?? 0, max: high ?? 0, step: 1, onchange: () => this.set(joint, input) });
         const degrees = make('output');
         this.fields.set(joint.servo, { input, degrees, shown: NaN });
-        return make('label', {}, make('span', {}, `${joint.servo} ${jointTitle(joint)}`), input, degrees);
+        return make('label', {}, make('span', {}, TEXTS.curves.line(joint.servo, jointTitle(joint))), input, degrees);
     }
 
     private set(joint: Joint, input: HTMLInputElement): void {
@@ -150,10 +144,10 @@ export class PoseBar extends HTMLElement {
             margin === null
                 ? ''
                 : isInHand
-                  ? POSE_TEXTS.held
+                  ? TEXTS.picture.held
                   : margin < 0
-                    ? POSE_TEXTS.tips
-                    : `Balance: ${Math.round(margin * 1000)} mm inside the soles`;
+                    ? TEXTS.picture.tips
+                    : TEXTS.picture.margin(Math.round(margin * 1000));
         if (this.balance.textContent !== text) this.balance.textContent = text;
         this.balance.dataset.tone = margin !== null && margin < 0 && !isInHand ? 'bad' : 'calm';
     }

@@ -4,7 +4,7 @@
 import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import type { SentMotion } from '../session/files.ts';
-import { SENT_TEXTS } from '../texts/robot.ts';
+import { TEXTS } from '../texts/texts.ts';
 import './sent-card.css';
 
 export class SentCard extends HTMLElement {
@@ -18,7 +18,7 @@ export class SentCard extends HTMLElement {
     connectedCallback(): void {
         this.hidden = true;
         this.setAttribute('role', 'region');
-        this.setAttribute('aria-label', SENT_TEXTS.region);
+        this.setAttribute('aria-label', TEXTS.sent.region);
         this.unwatch = this.session.files.state.watch(({ sent }) => sent && this.take(sent));
     }
 
@@ -43,14 +43,14 @@ export class SentCard extends HTMLElement {
             deed();
         };
         this.replaceChildren(
-            make('h2', {}, SENT_TEXTS.title(name)),
+            make('h2', {}, TEXTS.sent.title(name)),
             make(
                 'div',
                 { class: 'row' },
-                button(SENT_TEXTS.again, () => void this.session.run(page), 'primary'),
-                button(SENT_TEXTS.edit, () => leave(() => this.session.show('steps'))),
-                button(SENT_TEXTS.teach, () => leave(this.onTeach)),
-                button(SENT_TEXTS.close, () => leave(() => undefined)),
+                button(TEXTS.sent.again, () => void this.session.run(page), 'primary'),
+                button(TEXTS.sent.edit, () => leave(() => this.session.show('steps'))),
+                button(TEXTS.sent.teach, () => leave(this.onTeach)),
+                button(TEXTS.page.close, () => leave(() => undefined)),
             ),
         );
         this.hidden = false;

@@ -6,7 +6,7 @@ import type { Shape } from '../../model/motion.ts';
 import type { Session } from '../session/session.ts';
 import { define, make, setText } from '../element.ts';
 import type { Store } from '../store.ts';
-import { SHAPE_TEXTS } from '../texts/robot.ts';
+import { TEXTS } from '../texts/texts.ts';
 import './shape-bar.css';
 
 const SLIDERS: readonly (keyof Shape)[] = ['rate', 'amplitude', 'blend'];
@@ -20,13 +20,13 @@ export class ShapeBar extends HTMLElement {
 
     connectedCallback(): void {
         this.replaceChildren(
-            make('h2', {}, SHAPE_TEXTS.title),
+            make('h2', {}, TEXTS.remote.shape),
             ...SLIDERS.map(name => this.slider(name)),
-            make('div', { class: 'row' }, make('button', { onclick: () => this.set(AS_STORED, true) }, SHAPE_TEXTS.asStored), this.hint),
+            make('div', { class: 'row' }, make('button', { onclick: () => this.set(AS_STORED, true) }, TEXTS.remote.asStored), this.hint),
         );
         this.disposals.push(
             this.session.state.watch(({ version }) =>
-                setText(this.hint, version === null || version.image === 'play' ? SHAPE_TEXTS.shapes : SHAPE_TEXTS.needsPlay),
+                setText(this.hint, version === null || version.image === 'play' ? TEXTS.remote.shaped : TEXTS.remote.shapeNeedsPlay),
             ),
         );
     }
@@ -47,7 +47,7 @@ export class ShapeBar extends HTMLElement {
                 output.value = `${shape[name]} %`;
             }),
         );
-        return make('label', { class: 'slider' }, make('span', {}, SHAPE_TEXTS.names[name]), input, output);
+        return make('label', { class: 'slider' }, make('span', {}, TEXTS.remote.shapes[name]), input, output);
     }
 
     /** tell: also to the robot, if Play runs there. */

@@ -6,11 +6,11 @@ import { easyStep, robotPositions } from './editing.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
 import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
-import { STEP_TEXTS } from '../texts/steps.ts';
+import { TEXTS } from '../texts/texts.ts';
 
 interface Action {
-    readonly title: string;
-    readonly hint: string;
+    /** Of its texts. */
+    readonly name: 'insert' | 'duplicate' | 'between' | 'mirrorLeft' | 'mirrorRight' | 'exchange' | 'copy' | 'paste' | 'remove';
     /** Works with the row of steps under the keyboard. */
     readonly key?: string;
     readonly deed: () => void;
@@ -23,44 +23,25 @@ export class StepActions extends HTMLElement {
     private readonly buttons = new Map<Action, HTMLButtonElement>();
     private readonly disposals: (() => void)[] = [];
     readonly actions: readonly Action[] = [
-        { title: 'Insert', hint: 'A step before the chosen one, half-way to it', key: 'Insert', deed: () => this.insert(), needs: 'step' },
-        { title: 'Duplicate', hint: 'The chosen steps once more', key: 'd', deed: () => this.duplicate(), needs: 'step' },
-        { title: 'Between', hint: 'A step half-way between this one and the next', key: 'b', deed: () => this.between(), needs: 'two' },
-        {
-            title: 'Mirror ◂',
-            hint: 'The left side becomes the mirror image of the right',
-            key: 'm',
-            deed: () => this.mirror('right'),
-            needs: 'step',
-        },
-        {
-            title: 'Mirror ▸',
-            hint: 'The right side becomes the mirror image of the left',
-            key: 'M',
-            deed: () => this.mirror('left'),
-            needs: 'step',
-        },
-        {
-            title: 'Exchange sides',
-            hint: 'Left becomes right and right becomes left',
-            key: 'x',
-            deed: () => this.exchange(),
-            needs: 'step',
-        },
-        { title: 'Copy', hint: 'As readable text, for another page or window', deed: () => void this.copy(), needs: 'step' },
-        { title: 'Paste', hint: 'Behind the chosen step', deed: () => void this.paste(), needs: 'nothing' },
-        { title: 'Delete', hint: 'The chosen steps', key: 'Delete', deed: () => this.deleteSteps(), needs: 'step' },
+        { name: 'insert', key: 'Insert', deed: () => this.insert(), needs: 'step' },
+        { name: 'duplicate', key: 'd', deed: () => this.duplicate(), needs: 'step' },
+        { name: 'between', key: 'b', deed: () => this.between(), needs: 'two' },
+        { name: 'mirrorLeft', key: 'm', deed: () => this.mirror('right'), needs: 'step' },
+        { name: 'mirrorRight', key: 'M', deed: () => this.mirror('left'), needs: 'step' },
+        { name: 'exchange', key: 'x', deed: () => this.exchange(), needs: 'step' },
+        { name: 'copy', deed: () => void this.copy(), needs: 'step' },
+        { name: 'paste', deed: () => void this.paste(), needs: 'nothing' },
+        { name: 'remove', key: 'Delete', deed: () => this.deleteSteps(), needs: 'step' },
     ];
 
     connectedCallback(): void {
         this.setAttribute('role', 'toolbar');
-        this.setAttribute('aria-label', 'Chosen steps');
+        this.setAttribute('aria-label', TEXTS.steps.chosen);
         this.replaceChildren(
             ...this.actions.map(action => {
-                const title = action.key
-                    ? `${action.hint} (${action.key.length === 1 ? `${/[A-Z]/.test(action.key) ? 'Shift+' : ''}${action.key.toUpperCase()}` : action.key})`
-                    : action.hint;
-                const button = make('button', { title, onclick: action.deed }, action.title);
+                const hint = TEXTS.steps[`${action.name}Hint`];
+                const title = action.key ? TEXTS.steps.withKey(hint, keyName(action.key)) : hint;
+                const button = make('button', { title, onclick: action.deed }, TEXTS.steps[action.name]);
                 this.buttons.set(action, button);
                 return button;
             }),
@@ -180,9 +161,9 @@ export class StepActions extends HTMLElement {
     private async copy(): Promise<void> {
         try {
             await navigator.clipboard.writeText(this.text());
-            this.session.say({ text: STEP_TEXTS.copied, tone: 'good' });
+            this.session.say({ text: TEXTS.steps.copied, tone: 'good' });
         } catch {
-            this.session.say({ text: STEP_TEXTS.noClipboard, tone: 'bad' }); // the browser forbids it here
+            this.session.say({ text: TEXTS.steps.noClipboard, tone: 'bad' }); // the browser forbids it here
         }
     }
 
@@ -190,18 +171,25 @@ export class StepActions extends HTMLElement {
         try {
             this.take(await navigator.clipboard.readText());
         } catch {
-            this.session.say({ text: STEP_TEXTS.noClipboard, tone: 'bad' });
+            this.session.say({ text: TEXTS.steps.noClipboard, tone: 'bad' });
         }
     }
 
     private take(text: string): void {
         const steps = stepsFromText(text);
-        if (!steps) return this.session.say({ text: STEP_TEXTS.noSteps, tone: 'bad' });
+        if (!steps) return this.session.say({ text: TEXTS.steps.noSteps, tone: 'bad' });
         const { editor } = this.session;
         const { page, document, steps: chosen } = editor.state.get();
         const at = editor.page(page).steps.length === 0 ? 0 : Math.max(...chosen) + 1;
         if (editor.dispatch(editor.edits.insertSteps(document, page, at, steps, 'paste-steps'))) this.choose(at, steps.length);
     }
+}
+
+/** As it is printed on keyboards. */
+function keyName(key: string): string {
+    const { insertKey, deleteKey, shiftKey } = TEXTS.steps;
+    const letter = key.toUpperCase();
+    return { Insert: insertKey, Delete: deleteKey }[key] ?? (key === letter ? `${shiftKey}+${letter}` : letter);
 }
 
 define('step-actions', StepActions);

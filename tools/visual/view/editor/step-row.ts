@@ -7,7 +7,7 @@ import type { Step } from '../../model/page.ts';
 import type { Session } from '../session/session.ts';
 import { define, isTyping, make } from '../element.ts';
 import { showPose } from './pose-picture.ts';
-import { STEP_TEXTS } from '../texts/steps.ts';
+import { TEXTS } from '../texts/texts.ts';
 import { nearestSetting, stepTimes } from './step-times.ts';
 import type { TimedField } from './step-times.ts';
 
@@ -25,16 +25,21 @@ interface Card {
 
 export class StepRow extends HTMLElement {
     session!: Session; // set before it is connected
-    private readonly list = make('ol', { 'aria-label': 'Steps of the page' });
+    private readonly list = make('ol', { 'aria-label': TEXTS.steps.row });
     private readonly cards: Card[] = [];
-    private readonly empty = make('p', { class: 'empty', tabindex: -1 }, STEP_TEXTS.empty);
+    private readonly empty = make('p', { class: 'empty', tabindex: -1 }, TEXTS.steps.empty);
     private playing = -1;
     private isBehind = false;
     private drag: { readonly from: number; readonly startX: number; to: number | null } | null = null;
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
-        const titles = make('p', { class: 'titles', 'aria-hidden': true }, make('span', {}, 'time'), make('span', {}, 'pause'));
+        const titles = make(
+            'p',
+            { class: 'titles', 'aria-hidden': true },
+            make('span', {}, TEXTS.steps.time),
+            make('span', {}, TEXTS.steps.pause),
+        );
         this.replaceChildren(titles, this.list, this.empty);
         this.disposals.push(
             this.session.editor.state.watch(() => this.render()),
@@ -118,7 +123,7 @@ export class StepRow extends HTMLElement {
     ): void {
         const isSpeed = schedule === 'speed';
         card.time.step = isSpeed ? '1' : '0.05';
-        card.time.title = isSpeed ? 'Speed (256 = 720 degrees a second)' : 'Seconds to get there';
+        card.time.title = isSpeed ? TEXTS.steps.speedHint : TEXTS.steps.secondsHint;
         const write = (input: HTMLInputElement, value: string): void => {
             if (document.activeElement !== input) input.value = value;
         };
@@ -139,12 +144,12 @@ export class StepRow extends HTMLElement {
         const canvas = make('canvas', { 'aria-hidden': true });
         const pick = make(
             'button',
-            { class: 'pick', 'aria-label': `Step ${index + 1}` },
+            { class: 'pick', 'aria-label': TEXTS.steps.step(index + 1) },
             canvas,
             make('span', { class: 'number' }, String(index + 1)),
         );
-        const time = this.field(index, 'time', 'Time');
-        const pause = this.field(index, 'pause', 'Pause');
+        const time = this.field(index, 'time', TEXTS.steps.timeOf(index + 1));
+        const pause = this.field(index, 'pause', TEXTS.steps.pauseOf(index + 1));
         const root = make('li', {}, pick, time, pause);
         pick.addEventListener('pointerdown', event => this.down(event, index, pick));
         pick.addEventListener('pointermove', event => this.moveDrag(event));
@@ -156,7 +161,7 @@ export class StepRow extends HTMLElement {
     }
 
     private field(index: number, field: TimedField, title: string): HTMLInputElement {
-        const input = make('input', { type: 'number', min: 0, step: 0.05, 'aria-label': `${title} of step ${index + 1}` });
+        const input = make('input', { type: 'number', min: 0, step: 0.05, 'aria-label': title });
         input.addEventListener('change', () => this.setField(index, field, input.valueAsNumber));
         input.addEventListener('blur', () => this.render());
         return input;

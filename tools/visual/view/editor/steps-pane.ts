@@ -11,7 +11,7 @@ import { PlayBar } from './play-bar.ts';
 import { StepActions } from './step-actions.ts';
 import { StepRow } from './step-row.ts';
 import { TeachBar } from './teach-bar.ts';
-import { STEP_TEXTS } from '../texts/steps.ts';
+import { TEXTS } from '../texts/texts.ts';
 import { TimeLine } from './time-line.ts';
 import './steps-pane.css';
 
@@ -26,7 +26,7 @@ export class StepsPane extends HTMLElement {
         const teach = Object.assign(give(new TeachBar()), { editing: this.editing, add: () => actions.addFromRobot() });
         const follow = Object.assign(give(new FollowBar()), { editing: this.editing });
         this.replaceChildren(
-            make('p', { class: 'purpose' }, STEP_TEXTS.purpose),
+            make('p', { class: 'purpose' }, TEXTS.steps.purpose),
             give(new PageHead()),
             row,
             give(new TimeLine()),

@@ -8,20 +8,21 @@ import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
 import type { Editing } from './editing.ts';
-import { TEACH_TEXTS } from '../texts/steps.ts';
+import { TEXTS } from '../texts/texts.ts';
 
 export interface LimbGroup {
     readonly title: string;
+    readonly isLeg: boolean;
     readonly servos: readonly number[];
 }
 
 export function limbGroups(body: Body): LimbGroup[] {
     const servos = (limb: ReturnType<typeof handLimb>): number[] => limb.links.flatMap(({ joint }) => (joint ? [joint.servo] : []));
     return [
-        { title: 'Right arm', servos: servos(handLimb(body, 'right')) },
-        { title: 'Left arm', servos: servos(handLimb(body, 'left')) },
-        { title: 'Right leg', servos: servos(footLimb(body, 'right')) },
-        { title: 'Left leg', servos: servos(footLimb(body, 'left')) },
+        { title: TEXTS.teach.rightArm, isLeg: false, servos: servos(handLimb(body, 'right')) },
+        { title: TEXTS.teach.leftArm, isLeg: false, servos: servos(handLimb(body, 'left')) },
+        { title: TEXTS.teach.rightLeg, isLeg: true, servos: servos(footLimb(body, 'right')) },
+        { title: TEXTS.teach.leftLeg, isLeg: true, servos: servos(footLimb(body, 'left')) },
     ];
 }
 
@@ -31,9 +32,9 @@ export class TeachBar extends HTMLElement {
     /** Takes the robot's pose as a step. */
     add: () => void = () => undefined;
     private readonly limbs = new Map<LimbGroup, HTMLButtonElement>();
-    private readonly adds = make('button', { onclick: () => this.add() }, 'Add step from the robot');
-    private readonly hold = make('button', { onclick: () => void this.holdAll() }, 'Hold');
-    private readonly hint = make('p', { class: 'hint', role: 'status', 'aria-label': 'Teaching' });
+    private readonly adds = make('button', { onclick: () => this.add() }, TEXTS.teach.add);
+    private readonly hold = make('button', { onclick: () => void this.holdAll() }, TEXTS.teach.hold);
+    private readonly hint = make('p', { class: 'hint', role: 'status', 'aria-label': TEXTS.teach.state });
     private limp: readonly number[] = [];
     /** The hand that holds the body was asked for here. */
     private isCarrying = false;
@@ -48,12 +49,7 @@ export class TeachBar extends HTMLElement {
             this.limbs.set(group, button);
             row.append(button);
         }
-        this.replaceChildren(
-            make('h2', {}, 'Teach by hand: let go of'),
-            row,
-            make('div', { class: 'row' }, this.hold, this.adds),
-            this.hint,
-        );
+        this.replaceChildren(make('h2', {}, TEXTS.teach.title), row, make('div', { class: 'row' }, this.hold, this.adds), this.hint);
         this.disposals.push(
             this.editing.watch(() => this.render()),
             this.session.state.watch(() => this.render()),
@@ -79,7 +75,7 @@ export class TeachBar extends HTMLElement {
             button.setAttribute('aria-pressed', String(group.servos.every(servo => taught.has(servo))));
         this.hold.disabled = taught.size === 0 && this.limp.length === 0;
         const isSimulated = this.session.state.get().source === 'simulated';
-        this.hint.textContent = this.hold.disabled ? TEACH_TEXTS.stiff : isSimulated ? TEACH_TEXTS.limpSimulated : TEACH_TEXTS.limpYours;
+        this.hint.textContent = this.hold.disabled ? TEXTS.teach.stiff : isSimulated ? TEXTS.teach.limpSimulated : TEXTS.teach.limpYours;
     }
 
     /** Lets a limb go, or holds it where it is. In the simulation a hand holds the body meanwhile: whoever pulls at an arm would
@@ -97,7 +93,7 @@ export class TeachBar extends HTMLElement {
     private carry(group: LimbGroup): void {
         this.isCarrying = true;
         this.session.sim.hold(true);
-        if (/leg$/.test(group.title)) this.mustCarry = true;
+        if (group.isLeg) this.mustCarry = true;
     }
 
     private async holdAll(): Promise<void> {
@@ -112,7 +108,7 @@ export class TeachBar extends HTMLElement {
         this.isCarrying = false;
         if (this.mustCarry) {
             this.mustCarry = false;
-            return this.session.say({ text: TEACH_TEXTS.handStays, tone: 'calm' });
+            return this.session.say({ text: TEXTS.teach.handStays, tone: 'calm' });
         }
         this.session.sim.hold(false);
     }

@@ -8,7 +8,7 @@ import type { Gesture } from '../session/editor.ts';
 import { define, make } from '../element.ts';
 import { nearestSetting, stepTimes } from './step-times.ts';
 import type { TimedField } from './step-times.ts';
-import { TIME_TEXTS } from '../texts/robot.ts';
+import { TEXTS } from '../texts/texts.ts';
 
 /** How far beside an end it may be taken hold of. */
 const NEAR_PX = { mouse: 7, finger: 24 };
@@ -35,8 +35,8 @@ export class TimeLine extends HTMLElement {
         type: 'number',
         min: 1,
         max: BYTE_MAX,
-        'aria-label': TIME_TEXTS.times,
-        title: TIME_TEXTS.timesHint,
+        'aria-label': TEXTS.steps.times,
+        title: TEXTS.steps.timesHint,
         onchange: () => this.setTimes(),
     });
     private drag: Drag | null = null;
@@ -97,7 +97,7 @@ export class TimeLine extends HTMLElement {
         this.hidden = times.length === 0;
         this.total.textContent = `${all.toFixed(2)} s`;
         if (document.activeElement !== this.times) this.times.value = String(editor.page(page).repetitions);
-        this.bar.setAttribute('aria-label', TIME_TEXTS.takes(all.toFixed(2)));
+        this.bar.setAttribute('aria-label', TEXTS.steps.takes(all.toFixed(2)));
     }
 
     /** How often the steps are played one after another, before the motion ends or goes on. */
@@ -153,7 +153,7 @@ export class TimeLine extends HTMLElement {
     private handle(field: TimedField): HTMLElement {
         return make('i', {
             class: `handle ${field}`,
-            title: field === 'time' ? TIME_TEXTS.dragTime : TIME_TEXTS.dragPause,
+            title: field === 'time' ? TEXTS.steps.dragTime : TEXTS.steps.dragPause,
         });
     }
 

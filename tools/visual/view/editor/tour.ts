@@ -7,8 +7,9 @@ import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
 import type { Editing } from './editing.ts';
-import { TOUR, TOUR_TEXTS } from '../texts/tour.ts';
-import type { TourStop } from '../texts/tour.ts';
+import { TEXTS } from '../texts/texts.ts';
+import { tourStops } from './tour-stops.ts';
+import type { TourStop } from './tour-stops.ts';
 import './tour.css';
 
 /** Servo units that the arm is off where it was: it has been dragged. */
@@ -24,31 +25,32 @@ export class TourCard extends HTMLElement {
     onArea: () => void = () => undefined;
     /** The motion that was made is to be sent. */
     onSend: () => void = () => undefined;
+    private readonly stops = tourStops();
     private at = -1;
     private robot: RobotState | null = null;
     private armBefore: readonly number[] = [];
     private readonly heading = make('h2', {});
-    private readonly text = make('p', { role: 'status', 'aria-label': TOUR_TEXTS.tour });
-    private readonly next = make('button', { onclick: () => this.go(this.at + 1) }, TOUR_TEXTS.next);
-    private readonly send = make('button', { class: 'primary', onclick: () => this.onSend() }, TOUR_TEXTS.send);
+    private readonly text = make('p', { role: 'status', 'aria-label': TEXTS.tour.tour });
+    private readonly next = make('button', { onclick: () => this.go(this.at + 1) }, TEXTS.tour.next);
+    private readonly send = make('button', { class: 'primary', onclick: () => this.onSend() }, TEXTS.tour.send);
     private readonly ring = make('div', { class: 'tour-ring', 'aria-hidden': true });
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.hidden = true;
         this.setAttribute('role', 'region');
-        this.setAttribute('aria-label', TOUR_TEXTS.tour);
+        this.setAttribute('aria-label', TEXTS.tour.tour);
         this.replaceChildren(
             this.heading,
             this.text,
             make(
                 'div',
                 { class: 'row' },
-                make('button', { class: 'back', onclick: () => this.go(this.at - 1) }, TOUR_TEXTS.back),
+                make('button', { class: 'back', onclick: () => this.go(this.at - 1) }, TEXTS.tour.back),
                 this.send,
                 this.next,
                 make('span', { class: 'space' }),
-                make('button', { onclick: () => this.end() }, TOUR_TEXTS.end),
+                make('button', { onclick: () => this.end() }, TEXTS.tour.end),
             ),
         );
         this.ring.hidden = true;
@@ -79,7 +81,7 @@ export class TourCard extends HTMLElement {
     teach(): void {
         this.hidden = false;
         this.session.show('steps');
-        this.go(TOUR.findIndex(({ goal }) => goal === 'new-page'));
+        this.go(this.stops.findIndex(({ goal }) => goal === 'new-page'));
         this.look();
     }
 
@@ -89,12 +91,12 @@ export class TourCard extends HTMLElement {
     }
 
     private go(to: number): void {
-        if (to >= TOUR.length) return this.end();
+        if (to >= this.stops.length) return this.end();
         this.at = Math.max(0, to);
         this.armBefore = this.arm();
-        this.heading.textContent = TOUR_TEXTS.title(this.at + 1, TOUR.length);
+        this.heading.textContent = TEXTS.tour.title(this.at + 1, this.stops.length);
         this.text.textContent = this.stop?.text ?? '';
-        this.next.textContent = this.at === TOUR.length - 1 ? TOUR_TEXTS.done : this.at === 0 ? TOUR_TEXTS.start : TOUR_TEXTS.next;
+        this.next.textContent = this.at === this.stops.length - 1 ? TEXTS.tour.done : this.at === 0 ? TEXTS.tour.start : TEXTS.tour.next;
         this.send.hidden = this.stop?.goal !== 'send';
         this.lead(this.stop?.target ?? '');
         this.showRing();
@@ -109,7 +111,7 @@ export class TourCard extends HTMLElement {
     }
 
     private get stop(): TourStop | null {
-        return TOUR[this.at] ?? null;
+        return this.stops[this.at] ?? null;
     }
 
     private look(): void {

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Another language: chosen in the menu, from the address, or the browser's own; only its file is loaded, and what one has made stays.
+import { expect, test } from 'vitest';
+import DE from '../../view/texts/de.ts';
+import JA from '../../view/texts/ja.ts';
+import { Visitor } from './page-bench.ts';
+import { pageSuite } from './page-suite.ts';
+import { comesLater } from './weight.ts';
+
+const suite = pageSuite();
+
+test('German by the menu, after a new motion; Japanese by the address; each loads its own file and no other', async () => {
+    const asked: string[] = [];
+    const person = await Visitor.come(suite.browser, suite.address, {
+        hasPicture: false,
+        hasPhysics: false,
+        before: async page => void page.on('request', request => asked.push(request.url())),
+    });
+    const { page } = person;
+    const languages = (): string[] =>
+        asked.splice(0).flatMap(url => (comesLater(url, '') === 'languages' ? [url.replace(/^.*\/(\w+)-[^/]*$/, '$1')] : []));
+    const doing = (text: string) => page.locator('status-bar .doing').filter({ hasText: text });
+    await person.untilStanding();
+    expect(languages()).toEqual([]);
+    await person.open('Steps');
+    await person.button('New motion').click();
+    await person.button('Add step from the robot').click();
+    await person.openMenu();
+    await page.getByRole('combobox', { name: 'Language' }).selectOption('de');
+    await doing(DE.status.waits).waitFor();
+    expect(languages()).toEqual(['de']);
+    expect(await page.evaluate(() => [document.documentElement.lang, document.title])).toEqual(['de', DE.page.title]);
+    await page.getByRole('tab', { name: DE.areas.titles.steps }).click();
+    await page.getByRole('button', { name: DE.steps.step(1), exact: true }).waitFor();
+    await page.goto(`${suite.address}?lang=ja`);
+    await doing(JA.status.waits).waitFor();
+    expect(languages()).toEqual(['ja']);
+    await page.getByRole('link', { name: JA.remote.motions }).click();
+    await page.getByRole('heading', { name: JA.start.heading }).waitFor();
+    await page.getByRole('link', { name: JA.start.toRobot }).click();
+    await doing(JA.status.waits).waitFor();
+    await page.goto(suite.address); // what was chosen holds
+    await doing(DE.status.waits).waitFor();
+    await person.leave();
+});

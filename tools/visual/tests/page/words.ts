@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// A walk through all areas and dialogs of the page, whatever its language, and what can be read there.
+import type { Page } from 'playwright-core';
+import type { Texts } from '../../view/texts/texts.ts';
+import type { Visitor } from './page-bench.ts';
+import type { Tab } from '../../view/session/session.ts';
+
+const AREAS: readonly Tab[] = ['remote', 'steps', 'curves', 'pages', 'links', 'checks', 'terminal', 'robot'];
+
+export interface Words {
+    /** Texts with two plain letters in a row, where nothing is quoted. */
+    readonly plain: readonly string[];
+    /** Texts of which a part cannot be seen, and cannot be scrolled to. */
+    readonly cut: readonly string[];
+}
+
+/** In the browser: what is seen now of the page, or of the dialog that is open. */
+function look(): Words {
+    /** What is quoted: the terminal, names of motions and documents, what the board or m512 says, what stands on the board. */
+    const QUOTED =
+        '.xterm, script, style, noscript, status-bar .message, status-bar .facts, .leds, .words, page-card .name, language-choice option, select[data-names], canvas';
+    const root = document.querySelector('dialog[open]') ?? document.body;
+    const isSeen = (element: Element): boolean => element.checkVisibility({ visibilityProperty: true, opacityProperty: true });
+    const plain = new Set<string>();
+    const cut = new Set<string>();
+    const read = (text: string | null): void => {
+        if (text !== null && /[A-Za-z]{2}/.test(text)) plain.add(text.trim());
+    };
+    /** The nearest box that hides what goes beyond it; null: one can scroll there. */
+    const hidingBox = (element: Element): DOMRect | null => {
+        for (let one: Element | null = element; one; one = one.parentElement) {
+            const { overflowX, position } = getComputedStyle(one);
+            if (overflowX === 'auto' || overflowX === 'scroll') return null;
+            if (overflowX === 'hidden' || overflowX === 'clip') return one.getBoundingClientRect();
+            if (position === 'fixed') break;
+        }
+        return new DOMRect(0, -1e6, innerWidth, 2e6);
+    };
+    const walker = document.createTreeWalker(root, NodeFilter.SHOW_TEXT);
+    for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+        const { parentElement: parent, textContent: text } = node;
+        if (!parent || !text?.trim() || !isSeen(parent) || parent.closest('.visually-hidden, .skip, option')) continue;
+        if (!parent.closest(QUOTED)) read(text);
+        const range = document.createRange();
+        range.selectNodeContents(node);
+        const [at, box] = [range.getBoundingClientRect(), parent.closest('.xterm, svg') ? null : hidingBox(parent)];
+        if (box && (at.left < box.left - 1.5 || at.right > box.right + 1.5)) cut.add(text.trim());
+    }
+    for (const area of root.querySelectorAll('.area:not([hidden]), dialog[open]'))
+        if (area.scrollWidth > area.clientWidth + 1) cut.add('something that is scrolled to sideways');
+    for (const element of root.querySelectorAll('*')) {
+        if (element.closest(QUOTED) || (!isSeen(element) && !element.matches('option'))) continue;
+        for (const name of ['aria-label', 'title', 'placeholder', 'alt', 'aria-valuetext']) read(element.getAttribute(name));
+        if (element.matches('option') && element.parentElement && isSeen(element.parentElement)) read(element.textContent);
+    }
+    return { plain: [...plain], cut: [...cut] };
+}
+
+export class Walk {
+    private readonly person: Visitor;
+    private readonly page: Page;
+    private readonly texts: Texts;
+    private readonly found: (place: string, words: Words) => unknown;
+
+    constructor(person: Visitor, texts: Texts, found: (place: string, words: Words) => unknown) {
+        this.person = person;
+        this.page = person.page;
+        this.texts = texts;
+        this.found = found;
+    }
+
+    async look(place: string): Promise<void> {
+        await this.person.untilSeen();
+        await this.found(place, await this.page.evaluate(look));
+    }
+
+    async open(area: Tab): Promise<void> {
+        await this.page.locator(`#tab-${area}`).click();
+    }
+
+    /** Everything that can be opened in the page without a robot that moves. */
+    async all(): Promise<void> {
+        const { page } = this;
+        await page.locator('.more-areas').click();
+        for (const area of AREAS) {
+            await this.open(area);
+            if (area === 'links') await page.locator('svg .node').first().waitFor();
+            await this.look(area);
+        }
+        await this.open('remote');
+        await page.locator('details.overlay summary').click();
+        await this.look('layers');
+        await this.person.openMenu();
+        await this.look('menu');
+        await page.keyboard.press('Escape');
+        await this.tour();
+        await this.dialogs();
+    }
+
+    private async tour(): Promise<void> {
+        const { page, texts } = this;
+        await page.getByRole('button', { name: texts.tour.tour, exact: true }).click();
+        const next = page.locator('tour-card .row button:not(.back)').nth(1);
+        for (let stop = 1; stop < 14; stop++) {
+            await this.look(`tour ${stop}`);
+            await next.click();
+        }
+        await this.look('tour 14');
+        await page.getByRole('button', { name: texts.tour.end, exact: true }).click();
+    }
+
+    private async dialog(place: string, open: () => Promise<unknown>): Promise<void> {
+        await open();
+        await this.page.locator('dialog[open]').waitFor();
+        await this.look(place);
+        await this.page.keyboard.press('Escape');
+        await this.page.locator('dialog[open]').waitFor({ state: 'hidden' });
+    }
+
+    private async dialogs(): Promise<void> {
+        const { page, texts } = this;
+        const button = (name: string): Promise<void> => page.getByRole('button', { name, exact: true }).click();
+        await this.open('steps');
+        await this.dialog('keys', () => page.keyboard.press('?'));
+        await page.locator('steps-pane page-head select').selectOption('3');
+        await page.getByText(texts.picture.view, { exact: true }).click();
+        await this.look('steps of a motion');
+        await page.keyboard.press('Escape');
+        const documents = page.locator('edit-bar select');
+        for (const deed of ['new', 'copy', 'rename', 'remove']) await this.dialog(`document ${deed}`, () => documents.selectOption(deed));
+        await this.open('pages');
+        await this.dialog('rename', () => button(texts.motions.rename));
+        await this.dialog('clear', () => button(texts.motions.clear));
+        await this.dialog('move', async () => {
+            await button(texts.motions.transfer);
+            await page.getByRole('textbox', { name: texts.motions.toNumber }).fill('2');
+            await page.keyboard.press('Enter');
+            await page.getByText(texts.motions.linksFollow).waitFor();
+        });
+        await page.locator('page-card[data-page="3"]').click();
+        await page.keyboard.press('Delete');
+        await page.locator('dialog[open] button.primary').click();
+        await this.dialog('compare', async () => {
+            await button(texts.motions.compare);
+            await page.locator('.rows li').first().waitFor();
+        });
+        await this.open('robot');
+        await this.dialog('factory fresh', () => button(texts.robotPane.fresh));
+        await this.person.openMenu();
+        await page.locator('page-card[data-page="2"]').waitFor({ state: 'attached' });
+        await this.dialog('nothing to send', () => button(texts.files.send));
+    }
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// The stops of the tour: what each says, what ends it, and what its ring is around.
+
+import { TEXTS } from '../texts/texts.ts';
+
+export interface TourStop {
+    readonly text: string;
+    /** What ends the stop; `read`: the button alone. */
+    readonly goal: 'read' | 'steps-tab' | 'new-page' | 'let-go' | 'drag' | 'add' | 'name' | 'times' | 'play' | 'send';
+    /** Steps that the page has then. */
+    readonly steps?: number;
+    /** "#Name" of a tab, button or field, or a shape of the robot. */
+    readonly target?: string;
+}
+
+export function tourStops(): readonly TourStop[] {
+    const { tour, areas, steps, teach } = TEXTS;
+    const hand = 'right_hand';
+    const add = `#${teach.add}`;
+    return [
+        { goal: 'read', text: tour.begin },
+        { goal: 'steps-tab', target: `#${areas.titles.steps}`, text: tour.openSteps },
+        { goal: 'new-page', target: `#${steps.create}`, text: tour.newMotion },
+        { goal: 'let-go', target: `#${teach.rightArm}`, text: tour.letGo },
+        { goal: 'drag', target: hand, text: tour.dragUp },
+        { goal: 'add', steps: 1, target: add, text: tour.addFirst },
+        { goal: 'drag', target: hand, text: tour.dragSide },
+        { goal: 'add', steps: 2, target: add, text: tour.addSecond },
+        { goal: 'drag', target: hand, text: tour.dragBack },
+        { goal: 'add', steps: 3, target: add, text: tour.addThird },
+        { goal: 'name', target: `#${steps.nameOf}`, text: tour.name },
+        { goal: 'times', target: `#${steps.times}`, text: tour.times },
+        { goal: 'play', target: `#${steps.play}`, text: tour.play },
+        { goal: 'send', text: tour.sendIt },
+    ];
+}

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// The language of the page, in the menu; beneath it what is to be known of a translation.
+
+import { onChoice } from './choice.ts';
+import { define, make } from './element.ts';
+import { LANGUAGES, chooseLanguage } from './texts/languages.ts';
+import { TEXTS } from './texts/texts.ts';
+
+export class LanguageChoice extends HTMLElement {
+    connectedCallback(): void {
+        const { lang } = document.documentElement;
+        const choices = Object.entries(LANGUAGES).map(([value, name]) =>
+            make('option', { value, lang: value, selected: value === lang }, name),
+        );
+        const list = make('select', { 'aria-label': TEXTS.menu.language }, ...choices);
+        onChoice(list, chooseLanguage);
+        list.title = TEXTS.menu.translation;
+        this.replaceChildren(list, ...(TEXTS.menu.translation === '' ? [] : [make('p', { class: 'hint' }, TEXTS.menu.translation)]));
+    }
+}
+
+define('language-choice', LanguageChoice);

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Which language the page has: the one in its address (?lang=de), else the one that somebody chose in the menu, else the first of the
+// browser's languages that is one of these, else English. Only that one is loaded.
+
+import { recall, store } from '../remembered.ts';
+import type { Texts } from './texts.ts';
+import { TEXTS, useTexts } from './texts.ts';
+
+/** Each by its own name. */
+export const LANGUAGES = { en: 'English', de: 'Deutsch', es: 'Español', ja: '日本語', ko: '한국어' } as const;
+export type Language = keyof typeof LANGUAGES;
+
+type Load = () => Promise<{ readonly default: Texts }>;
+const FILES: Readonly<Record<Exclude<Language, 'en'>, Load>> = {
+    de: () => import('./de.ts'),
+    es: () => import('./es.ts'),
+    ja: () => import('./ja.ts'),
+    ko: () => import('./ko.ts'),
+};
+/** For tests: English that is no English, and longer. */
+const PSEUDO = 'pseudo';
+
+function isOurs(name: string | null | undefined): name is Language {
+    return name !== null && name !== undefined && Object.hasOwn(LANGUAGES, name);
+}
+
+/** address: of the page; chosen: in the menu; browser: its languages, the preferred one first ("de-AT"). */
+export function languageFor(address: URL, chosen: string | null, browser: readonly string[]): Language {
+    const asked = [address.searchParams.get('lang'), chosen, ...browser.map(name => name.split('-')[0])];
+    return asked.find(isOurs) ?? 'en';
+}
+
+/** Resolves when TEXTS has them. A file that cannot be loaded leaves English. */
+export async function useLanguage(): Promise<void> {
+    const address = new URL(window.location.href);
+    const language = languageFor(address, recall('language'), navigator.languages);
+    const load = address.searchParams.get('lang') === PSEUDO ? () => import('./pseudo.ts') : language === 'en' ? null : FILES[language];
+    const loaded = await load?.().catch(() => null);
+    if (loaded) useTexts(loaded.default);
+    document.documentElement.lang = loaded ? language : 'en';
+    document.title = TEXTS.page.title;
+}
+
+/** The page is loaded anew in that language; document and robot are kept. */
+export function chooseLanguage(language: string): void {
+    store('language', language);
+    const address = new URL(window.location.href);
+    address.searchParams.delete('lang');
+    if (!recall('language')) address.searchParams.set('lang', language); // a browser that keeps nothing
+    window.location.replace(address);
+    if (address.href === window.location.href) window.location.reload();
+}
+
+/** Of the start page in the language that is used. */
+export function startPageAddress(): string {
+    const { lang } = document.documentElement;
+    return lang === 'en' ? './motions.html' : `./motions.${lang}.html`;
+}
