@@ -123,7 +123,7 @@ export class Walk {
         await this.open('steps');
         await this.dialog('keys', () => page.keyboard.press('?'));
         await page.locator('steps-pane page-head select').selectOption('3');
-        await page.getByText(texts.picture.view, { exact: true }).click();
+        await page.locator('pose-bar summary').click();
         await this.look('steps of a motion');
         await page.keyboard.press('Escape');
         const documents = page.locator('edit-bar select');

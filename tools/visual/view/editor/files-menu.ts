@@ -44,8 +44,7 @@ export class FilesMenu extends HTMLElement {
             make('button', { onclick: () => this.chooser.click() }, TEXTS.files.open),
             save,
             make('button', { title: TEXTS.files.sendHint, onclick: () => void this.send() }, TEXTS.files.send),
-            this.busy,
-            this.stop,
+            make('div', { class: 'work' }, this.busy, this.stop),
             this.chooser,
             this.dialog,
         );
