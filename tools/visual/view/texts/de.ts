@@ -567,7 +567,7 @@ const DE: Texts = {
         toRobotCount: count => `Zum Roboter (${count}) …`,
         refusals: {
             'no-such-page': words => `Diese Bewegung gibt es nicht; es gibt 0 bis 127: ${words}.`,
-            'trim-page': () => 'Bewegung 0 enthält die Trimmung des Roboters, keine Bewegung. Wähle eine von 1 bis 127.',
+            'trim-page': () => 'Nummer 0 enthält die Trimmung des Roboters, keine Bewegung. Wähle eine von 1 bis 127.',
             'page-damaged': words =>
                 `Diese Bewegung ist beschädigt und lässt sich nicht bearbeiten. Leere sie, oder hole sie aus einer Sicherung oder einer Datei: Bewegung ${words}.`,
             'page-in-use': words =>
@@ -766,7 +766,7 @@ const DE: Texts = {
         noKey: 'keine Taste',
         ask: 'Verknüpfen',
         which: (from, to) => `Welche Verknüpfung von ${from} soll zu ${to} führen?`,
-        trimStays: 'Bewegung 0 ist die Trimmung des Roboters, aus dem sie gelesen wurde. Sie wird nie in einen anderen geschrieben.',
+        trimStays: 'Nummer 0 ist die Trimmung des Roboters, aus dem sie gelesen wurde. Sie wird nie in einen anderen geschrieben.',
     },
 
     checks: {

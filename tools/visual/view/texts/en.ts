@@ -83,7 +83,7 @@ const connections: Record<ConnectionState, string> = {
 
 const refusals: Record<RefusalCode, (words: string) => string> = {
     'no-such-page': words => `There is no such motion; motions are 0 to 127: ${words}.`,
-    'trim-page': () => 'Motion 0 holds the trim of the robot, not a motion. Choose one from 1 to 127.',
+    'trim-page': () => 'Number 0 holds the trim of the robot, not a motion. Choose one from 1 to 127.',
     'page-damaged': words => `This motion is damaged and cannot be edited. Clear it, or take it from a backup or a file: motion ${words}.`,
     'page-in-use': words => `There is a motion already. Choose another place, or say that it may be replaced: motion ${words}.`,
     'page-empty': words => `There is nothing in that motion: motion ${words}.`,
@@ -842,7 +842,7 @@ export const EN = {
         noKey: 'no key',
         ask: 'Link',
         which: (from: string, to: string) => `Which link of ${from} shall lead to ${to}?`,
-        trimStays: 'Motion 0 is the trim of the robot it was read from. It is never written into another one.',
+        trimStays: 'Number 0 is the trim of the robot it was read from. It is never written into another one.',
     },
 
     checks: {

@@ -559,7 +559,7 @@ const ES: Texts = {
         toRobotCount: count => `Al robot (${count}) …`,
         refusals: {
             'no-such-page': words => `No existe ese movimiento; van de 0 a 127: ${words}.`,
-            'trim-page': () => 'El movimiento 0 contiene el ajuste del robot, no un movimiento. Elige uno de 1 a 127.',
+            'trim-page': () => 'El número 0 contiene el ajuste del robot, no un movimiento. Elige uno de 1 a 127.',
             'page-damaged': words =>
                 `Este movimiento está dañado y no se puede editar. Vacíalo, o tómalo de una copia de seguridad o de un archivo: movimiento ${words}.`,
             'page-in-use': words => `Ya hay un movimiento ahí. Elige otro sitio, o di que se puede reemplazar: movimiento ${words}.`,
@@ -754,7 +754,7 @@ const ES: Texts = {
         noKey: 'ninguna tecla',
         ask: 'Enlazar',
         which: (from, to) => `¿Qué enlace de ${from} debe llevar a ${to}?`,
-        trimStays: 'El movimiento 0 es el ajuste del robot del que se leyó. Nunca se escribe en otro.',
+        trimStays: 'El número 0 es el ajuste del robot del que se leyó. Nunca se escribe en otro.',
     },
 
     checks: {

@@ -544,7 +544,7 @@ const KO: Texts = {
         toRobotCount: count => `로봇으로(${count}) …`,
         refusals: {
             'no-such-page': words => `그런 동작이 없습니다. 동작은 0에서 127까지입니다: ${words}.`,
-            'trim-page': () => '동작 0은 로봇의 트림이며 동작이 아닙니다. 1에서 127 가운데 고르세요.',
+            'trim-page': () => '0번은 로봇의 트림이며 동작이 아닙니다. 1에서 127 가운데 고르세요.',
             'page-damaged': words => `이 동작은 손상되어 편집할 수 없습니다. 비우거나 백업 또는 파일에서 가져오세요: 동작 ${words}.`,
             'page-in-use': words => `거기에 이미 동작이 있습니다. 다른 자리를 고르거나 교체를 허락하세요: 동작 ${words}.`,
             'page-empty': words => `그 동작은 비어 있습니다: 동작 ${words}.`,
@@ -732,7 +732,7 @@ const KO: Texts = {
         noKey: '키 없음',
         ask: '연결',
         which: (from, to) => `${from}의 어떤 연결을 ${to}(으)로 이을까요?`,
-        trimStays: '동작 0은 읽어 온 로봇의 트림입니다. 다른 로봇에는 쓰지 않습니다.',
+        trimStays: '0번은 읽어 온 로봇의 트림입니다. 다른 로봇에는 쓰지 않습니다.',
     },
 
     checks: {
