@@ -90,7 +90,24 @@ PLACES = (
     "request refused for its words",
     "page of a program as it was sent",
     "table of Edit as flash holds it",
-    "cursor and its offset in Edit",
+    "table of Edit after lines and keys",
+    "line refused by Edit",
+    "page saved as Edit shows it",
+    "screen drawn again",
+    "play in Edit ended where its page says",
+    "play in Edit broken off",
+    "work pose of Edit as servos hold it",
+    "live position in Edit",
+    "play of the page that was named",
+    "play of the page with the code",
+    "next page by the code in force",
+    "linked page by the code in force",
+    "pause that comes to rest",
+    "list of pages",
+    "list of servos",
+    "pages listed by a request",
+    "goals and positions by @watch",
+    "setting shown as it was set",
     "power cut",
     "power cut during play",
     "power cut during stop",
@@ -179,9 +196,10 @@ def figures(options, outcomes):
     made = [
         proof.Figure(
             "The rules hold at every tick",
-            "steps, goals and approaches by a second model of the exact law; aims arrive; nothing moves unasked or after it was let go or lost; a silent servo "
-            "is named and a well one is not; requests are answered as PROTOCOL.md says; typed text stands; Edit's table shows what flash holds; pages and "
-            "settings are old or new, and a page of a program as it was sent",
+            "steps, links, goals and approaches by a second model of the exact law; aims arrive; pauses and breaks come to rest; nothing moves unasked or after "
+            "it was let go or lost; a silent servo is named and a well one is not; requests are answered as PROTOCOL.md says, lists show what is so; typed "
+            "text stands; Edit's table, cursor, work pose and answers by a second model of its lines and keys; pages and settings are old or new, and a page "
+            "of a program as it was sent",
             f"{ticks:,} ticks in {len(outcomes):,} sessions, {ticks / 128 / max(cpu_s, 0.001):,.0f} x real time on one core; "
             f"{len(broken)} sessions broken",
             not broken,

@@ -44,14 +44,14 @@ static struct {
     uint32_t mixed_until;          /* one was asked before the other was answered */
     char shape[LINE_BYTES];        /* a line of a person that changes the next, until it is answered */
     bool is_driven;                /* @drive, a remote or nobody knows what may have set these as well */
-    int rate, blend, amplitude;    /* UNKNOWN: not known */
+    int rate, blend, amplitude;    /* UNSET: not known */
     uint8_t page[PAGE_BYTES];      /* the one that is open, if only a program has changed it */
     bool knows_page;
     uint8_t saved[PAGE_BYTES];     /* must stand in `saved_as` once the save is over */
     unsigned saved_as;             /* 0: nothing */
 } answers;
 
-#define UNKNOWN 0x7FFF
+#define UNSET 0x7FFF
 
 static void split(void)
 {
@@ -78,7 +78,7 @@ static bool is_number(const char *word, int *number)
 static int argument(unsigned at)
 {
     int number = 0;
-    return at < answers.words && at < WORDS && is_number(answers.word[at], &number) ? number : UNKNOWN;
+    return at < answers.words && at < WORDS && is_number(answers.word[at], &number) ? number : UNSET;
 }
 
 /* ---- what an answer must be ---- */
@@ -106,7 +106,7 @@ static int error_of_words(void)
         int before = requests[i].low;
         for (unsigned at = 1; at <= behind && at <= requests[i].numbers; at++) {
             const int number = argument(at);
-            if (number == UNKNOWN || number < before || number > requests[i].high) {
+            if (number == UNSET || number < before || number > requests[i].high) {
                 return ERR_RANGE;
             }
             before = number;   /* first and last */
@@ -129,13 +129,13 @@ static int field(const char *answer, const char *name)
     char text[24];
     snprintf(text, sizeof text, " %s=", name);
     const char *at = strstr(answer, text);
-    return at == NULL ? UNKNOWN : atoi(at + strlen(text));
+    return at == NULL ? UNSET : atoi(at + strlen(text));
 }
 
 static void must_have(const char *answer, const char *name, int right)
 {
     char text[40];
-    if (right != UNKNOWN && field(answer, name) != right) {
+    if (right != UNSET && field(answer, name) != right) {
         snprintf(text, sizeof text, "%s=%d", name, right);
         wrong(answer, text);
     }
@@ -268,7 +268,7 @@ static void take_page_request(const char *answer)
     const bool is_ok = strstr(answer, " OK") != NULL;
     if (strcmp(word, "open") == 0 && is_ok) {
         memcpy(answers.page, page_at((unsigned)argument(1)), PAGE_BYTES);
-        answers.knows_page = argument(1) != UNKNOWN;
+        answers.knows_page = argument(1) != UNSET;
     } else if (strcmp(word, "data") == 0 && is_ok) {
         take_data();
     } else if (strcmp(word, "crc") == 0 && is_ok && answers.knows_page) {
@@ -284,7 +284,7 @@ static void take_page_request(const char *answer)
         const int crc = argument(2);
         memcpy(answers.saved, answers.page, PAGE_BYTES);
         seal(answers.saved);
-        if (is_ok && (crc == UNKNOWN || crc != crc_of(answers.saved, PAGE_BYTES))) {
+        if (is_ok && (crc == UNSET || crc != crc_of(answers.saved, PAGE_BYTES))) {
             wrong(answer, "ERR 9");
         }
         answers.saved_as = is_ok ? (unsigned)argument(1) : 0;
@@ -314,7 +314,7 @@ static void take_shape(const char *line)
     } else if (sscanf(line, "blend %i%c", &a, &more) == 1) {
         answers.blend = a;
     } else if (sscanf(line, "amplitude %i %u", &a, &id) >= 1) {
-        answers.amplitude = sscanf(line, "amplitude %i %u", &a, &id) == 2 ? UNKNOWN : a;
+        answers.amplitude = sscanf(line, "amplitude %i %u", &a, &id) == 2 ? UNSET : a;
     } else if (strcmp(line, "shape reset") == 0) {
         answers.rate = answers.amplitude = 100;
         answers.blend = 0;
@@ -323,7 +323,7 @@ static void take_shape(const char *line)
 
 static void forget_shape(void)
 {
-    answers.rate = answers.blend = answers.amplitude = UNKNOWN;
+    answers.rate = answers.blend = answers.amplitude = UNSET;
     answers.is_driven = true;
 }
 
@@ -357,6 +357,8 @@ static void look_at(const char *answer)
         look_at_page(answer);
     } else if (strcmp(word, "crcs") == 0) {
         look_at_crcs(answer);
+    } else if (strcmp(word, "list") == 0 && answers.words != 2) {
+        views_list(answer, answers.words > 1 ? argument(1) : 0, answers.words > 2 ? argument(2) : (int)PAGES - 1);
     } else if (strcmp(word, "where") == 0) {
         look_at_place(answer);
     } else if (strcmp(word, "shape") == 0 && answers.words == 1) {

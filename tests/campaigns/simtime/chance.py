@@ -12,6 +12,7 @@ from tests.campaigns.fuzz_board import pages as play_pages
 
 SECOND = 128
 START = 3 * SECOND  # the search for servos is over
+LOOKED_AT = 220  # ticks: all is painted, and the rules have looked at it
 LONG, MANY = 180 * SECOND, 100_000
 LAW_PAGES = range(20, 30)
 PLAYED = (1, 2, 3, 4, 8, 9, 12, 13, 14, 15, 21, 22)
@@ -59,6 +60,8 @@ def motions():
         page[:6] = f"law {number}".encode()
         page[15], page[16], page[20], page[22] = rng.choice((1, 1, 2, 3)), 10 if time_base else 0, steps, speed
         page[24], page[25], page[26] = rng.choice((0, 1, 8, 32, 32, 90)), *links
+        for at in (27, 29):
+            page[at : at + 2] = rng.choice(((0, 0), (rng.choice(LAW_PAGES), rng.choice((1, 2, 4, 8, 16)))))
         page[32:64] = b"\x55" * 32
         at = [rng.randrange(400, 624) for _ in range(31)]
         for step in range(steps):
@@ -165,8 +168,12 @@ class Player(Person):
         for word in ("break", "free", "shape reset"):
             self.line(word, SECOND)
         self.line(f"play {self.rng.choice(LAW_PAGES)}", self.rng.randrange(4, 10) * SECOND)
-        for word in self.rng.sample(("@where", "@crcs 1 9", "@pose", "aim 1 600", "swing 1 512 40 2000"), 2):
-            self.line(word, self.rng.randrange(1, 5) * SECOND)
+        for word in self.rng.sample(("@where", "@crcs 1 9", "@pose", "aim 1 600", "swing 1 512 40 2000", "pause", "@watch 100", *"1248"), 2):
+            if word in "1248":
+                self.act(f"remote {word}", 8)
+                self.act("remote 0", self.rng.randrange(1, 5) * SECOND)
+            else:
+                self.line(word, self.rng.randrange(1, 5) * SECOND)
 
     def ends(self):
         word = self.rng.choice(("stop", "stop", "stop", "break", "off", "@stop", "@break"))
@@ -267,9 +274,7 @@ class Player(Person):
             self.line(rng.choice(lines))
 
     def asks(self):
-        lines = (
-            "@where @pose status servos faults list settings version help law remote @ver @crcs @list @watch,50 @watch,0 servos,find nonsense".split()
-        )
+        lines = "@where @pose settings @list list servos status servos faults list settings version help law remote @ver @crcs @list @watch,50 @watch,0 servos,find nonsense".split()
         self.line(self.rng.choice(lines).replace(",", " "))
 
     def sets(self):
@@ -357,6 +362,69 @@ class Editor(Person):
                 rng.randrange(10, 60),
             )
 
+    def tries(self):
+        """One thing after the other, each of them looked at: what it does to the table, and what is said."""
+        rng = self.rng
+        arrows = [b"\x1b[" + end for end in (b"A", b"B", b"C", b"D", b"H", b"F", b"5~", b"6~")]
+        for _ in range(rng.randrange(1, 8)):
+            step, other = rng.randrange(7), rng.randrange(8)
+            kind = rng.random()
+            if kind < 0.2:
+                x = rng.choice((0, 1, 2, 3, 8, 9, 9))
+                self.line(f"goto {x} {rng.randrange(3, 20) if x == 9 else rng.choice((1, 2, 3, 12, 31, 32)) if x < 8 else rng.randrange(31)}", 20)
+                change = rng.choice((b"]", b"[", b"}", b"{", b" ", f"set {rng.choice((0, 1, 7, 100, 255, 600, 1023, 1024))}\r"))
+                self.act(typed(change), LOOKED_AT)
+                if rng.random() < 0.5:
+                    self.line("undo", LOOKED_AT)
+            elif kind < 0.35:
+                for _ in range(rng.randrange(1, 12)):
+                    self.act(typed(rng.choice(arrows)), 4)
+                self.act(typed(rng.choice(arrows)), LOOKED_AT)
+            elif kind < 0.6:
+                words = (
+                    f"step {other}", f"go {step}", "write", f"write {step}", f"insert {step}", "delete", f"delete {step}", f"move {step} {other}",
+                    f"swap {step} {rng.randrange(7)}", f"int {step % 3} {step % 3 + 1}", f"int 0 1 {rng.randrange(1, 100)}", f"take 0 {step % 3}", "paste",
+                    f"paste {step}", f"mirror {step}", "time", "speed", f"scale {rng.choice((50, 100, 150))}", f"name t{step}", "on", "off",
+                    f"on {self.servo()}", f"off {self.servo()}", "re", f"copy {rng.choice((1, 3, 13, 20, 21))}",
+                )  # fmt: skip
+                self.line(rng.choice(words), LOOKED_AT)
+                for word in rng.choice(((), (), ("undo",), ("undo", "redo"), ("undo", "redo", "undo"), ("re",))):
+                    self.line(word, LOOKED_AT)
+            elif kind < 0.7:
+                words = ("next", "before", f"page {rng.choice((1, 13, 20, 21, 22, 31, 200))}", "new", f"copy {rng.randrange(20, 30)}", "go 6")
+                self.line(rng.choice(words), LOOKED_AT)
+                self.act(typed(rng.choice("yyn")), LOOKED_AT)
+                self.act(typed("\x15\r"), SECOND // 2)  # it was no question
+            elif kind < 0.8:
+                words = (
+                    "page",
+                    "page 300",
+                    "page x",
+                    "step 8",
+                    "go 9",
+                    "set",
+                    "set 5 6",
+                    "insert",
+                    "delete 7",
+                    "goto 1",
+                    "nonsense",
+                    "write 9",
+                    "undo 1",
+                )
+                self.line(rng.choice(words), LOOKED_AT)
+            elif kind < 0.87:
+                self.line(rng.choice(("save", f"save {rng.randrange(40, 60)}")), LOOKED_AT)
+                self.act(typed("\x15\r"), SECOND // 2)
+            elif kind < 0.93:
+                word = rng.choice(("list", "help", "check", "find a", "@where", "@pose", "help go", "hex", "dec"))
+                self.line(word, LOOKED_AT)
+                self.act(typed("\r" if word[0] == "@" else " "), 2 * SECOND)
+                self.act(typed("\r"), SECOND)
+                self.line("re", LOOKED_AT)
+            else:
+                self.line("on", 2 * SECOND)
+                self.line(f"play {rng.choice((1, 13, 20, 21, 22, 23))}", 12 * SECOND)
+
     def keys(self):
         for _ in range(self.rng.randrange(1, 20)):
             self.act(typed(self.rng.choice(KEYS + (b"[", b"]", b"{", b"}"))), self.rng.randrange(1, 20))
@@ -414,6 +482,7 @@ class Editor(Person):
     WEIGHTS = (
         ("opens", 4),
         ("edits", 8),
+        ("tries", 12),
         ("keys", 3),
         ("saves", 5),
         ("poses", 4),

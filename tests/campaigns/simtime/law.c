@@ -20,6 +20,9 @@
 #define UNUSED 0x4000u
 #define LAST_COMES (4u + MOMENTS)  /* ticks after the line that says that a play is over; nothing moves any more */
 #define DEGREES (1023.0 / 300.0)
+#define NEAR_TICKS 64u             /* a code that comes so near to the beginning of a step may count or not */
+#define ANY_CODE 0xFFFFu
+#define SLOWED 300u                /* ticks: a pause has slowed down within a ramp, 255 at most */
 #define SLOWEST 30u                /* degrees/s, of the settings that chance makes */
 
 enum { COUNT_AT = 15, SCHEDULE_AT = 16, STEPS_AT = 20, SPEED_AT = 22, ACCEL_AT = 24, NEXT_AT = 25,
@@ -58,6 +61,12 @@ static struct {
     bool is_aimed;
     uint32_t approach_tick;        /* the first frame of an approach; NEVER_TICK: there is none */
     unsigned buttons;              /* of the newest packet */
+    unsigned code, code_before;    /* in force now, and before it changed; ANY_CODE: not known */
+    uint32_t code_tick, code_before_tick;   /* when they came into force */
+    uint32_t step_tick, step_before_tick;   /* when the newest step was named, and the one before */
+    bool is_under_way;             /* from the approach to the end */
+    uint32_t paused_tick;          /* NEVER_TICK: it goes on */
+    bool was_paused;               /* since it began: then joints that code moves rest as well */
     double approach;               /* degrees/s, the fastest that was ever set */
     struct {
         uint32_t due;              /* the tick at which it must have come there; NEVER_TICK: none */
@@ -108,10 +117,37 @@ static unsigned resolved(unsigned page)
     return page;
 }
 
+static void put_code(unsigned code)
+{
+    if (code != law.code) {
+        law.code_before = law.code;
+        law.code_before_tick = law.code_tick;
+        law.code = code;
+        law.code_tick = session.tick;
+    }
+}
+
+/* The code in force when the newest step, a page's last one, began. */
+static unsigned code_of_step(void)
+{
+    if (law.code_tick + NEAR_TICKS < law.step_before_tick) {
+        return law.code;
+    }
+    const bool is_later = law.code_tick > law.step_tick + NEAR_TICKS;
+    return is_later && law.code_before_tick + NEAR_TICKS < law.step_before_tick ? law.code_before : ANY_CODE;
+}
+
 /* Whether a page may come after the last step of another one. */
 static bool may_follow(place_t last, unsigned next)
 {
     const uint8_t *at = page_at(last.page);
+    const unsigned code = law.has_modes || law.is_stopped ? ANY_CODE : code_of_step();
+    if (code != ANY_CODE && last.repetition == at[COUNT_AT]) {
+        const bool is_first = code != 0 && code == at[LINK1_AT + 1], is_second = code != 0 && code == at[LINK2_AT + 1];
+        const unsigned link = is_first ? LINK1_AT : is_second ? LINK2_AT : NEXT_AT;
+        reached(link == NEXT_AT ? "next page by the code in force" : "linked page by the code in force");
+        return next == resolved(at[link]);
+    }
     const bool by_exit = law.is_stopped && next == resolved(at[EXIT_AT]);
     const bool by_code = law.is_called && (next == resolved(at[LINK1_AT]) || next == resolved(at[LINK2_AT]));
     return (last.repetition == at[COUNT_AT] || law.is_stopped) && (next == resolved(at[NEXT_AT]) || by_exit || by_code);
@@ -279,6 +315,8 @@ static void step_comes(place_t place)
     }
     law.last = place;
     law.knows_place = true;
+    law.step_before_tick = law.step_tick;
+    law.step_tick = session.tick;
     const step_t *before = law.head != law.tail ? &law.step[(law.head - 1) % STEPS_KEPT] : NULL;
     if (law.is_classic || law.is_shaped || law.head - law.tail == STEPS_KEPT || (before == NULL && !law.is_first)) {
         law.head = law.tail = 0;
@@ -318,12 +356,17 @@ void law_frame(const uint8_t *ids_and_goals, unsigned count, unsigned bytes_each
         if (law.is_judged && goes_on && (law.present >> id & 1u) != 0 && fabs((double)goal - law.now[id]) > most) {
             session_fail("an approach keeps to its speed", "servo %u from %u to %u in a tick", id, law.now[id], goal);
         }
+        const bool is_at_rest = law.paused_tick != NEVER_TICK && session.tick - law.paused_tick > SLOWED;
+        if (is_at_rest && (law.present >> id & 1u) != 0 && goal != law.now[id]) {
+            session_fail("a pause is at rest", "servo %u from %u to %u", id, law.now[id], goal);
+        }
         law.now[id] = (uint16_t)goal;
         present |= 1u << id;
     }
     if (present != law.present && law.knows_place) {
         judge_no_more();
     }
+    law.paused_tick = present == law.present ? law.paused_tick : NEVER_TICK;
     law.present = present;
     law.approach_tick = law.approach_tick == UINT32_MAX ? session.tick : law.approach_tick;
 }
@@ -345,7 +388,8 @@ static void take_answer(void)
     unsigned id = JOINTS, to = 0, speed = SLOWEST, amplitude = 0, period_ms = 0;
     const bool is_swing = sscanf(law.asked, "swing %u %u %u %u", &id, &to, &amplitude, &period_ms) == 4;
     const bool is_aim = is_swing || sscanf(law.asked, "aim %u %u %u", &id, &to, &speed) >= 2;
-    if (is_aim && id < JOINTS && speed > 0 && !law.is_stopped) {   /* the end of a play that is stopped ends it too */
+    /* The end of a play that is stopped ends it too. */
+    if (is_aim && id < JOINTS && speed > 0 && !law.is_stopped && !law.was_paused) {
         const double is = session.joint[id].servo == NULL ? to : session.joint[id].servo->position;
         const double way = fabs(is - to) + amplitude + SECOND;
         law.aim[id].due = session.tick + SECOND + (uint32_t)(way / (speed * DEGREES) * SECOND);
@@ -361,7 +405,18 @@ void law_printed(const char *line)
     place_t place;
     unsigned page;
     const char *step = strstr(line, " step ");
+    if (strncmp(line, "Ended", 5) == 0 || strncmp(line, "Stopped", 7) == 0 || strncmp(line, "Broken", 6) == 0 ||
+        strncmp(line, "The pose", 8) == 0) {
+        law.is_under_way = law.was_paused = false;
+    }
+    law.was_paused = law.was_paused || strncmp(line, "Paused", 6) == 0;
+    law.paused_tick = strncmp(line, "Paused", 6) == 0 && !law.is_shaped ? session.tick : NEVER_TICK;
+    if (law.paused_tick != NEVER_TICK) {
+        reached("pause that comes to rest");
+    }
     if (strncmp(line, "Going to", 8) == 0 || strncmp(line, "Moving, ", 8) == 0) {
+        law.is_under_way = true;
+        law.step_tick = law.step_before_tick = session.tick;
         play_begins();
         law.approach_tick = law.is_aimed ? NEVER_TICK : UINT32_MAX;   /* the next frame; it begins where the joints are */
     } else if ((sscanf(line, "Playing page %u", &place.page) == 1 || sscanf(line, "Page %u step", &place.page) == 1) &&
@@ -396,8 +451,9 @@ void law_typed(const char *line)
     static const char *const asks[] = {"where", "pose", "ver", "version", "crcs", "list", "page", "dense", "help",
                                        "faults", "watch", NULL};
     static const char *const shapes[] = {"rate", "amplitude", "blend", "drive", "layer", "aim", "swing", NULL};
-    unsigned number;
+    unsigned number, code;
     snprintf(law.asked, sizeof law.asked, "%s", line);
+    law.paused_tick = NEVER_TICK;
     if (line[0] == '\0' || (session.typed_is_known && is_one_of(line, asks))) {
         return;
     }
@@ -415,7 +471,7 @@ void law_typed(const char *line)
     }
     law.is_shaped = law.is_shaped || is_one_of(line, shapes);
     law.is_aimed = (law.is_aimed || begins(line, "aim") || begins(line, "swing")) && !begins(line, "free");
-    if (begins(line, "shape reset") && !law.knows_place && !law.is_aimed) {
+    if (begins(line, "shape reset") && !law.is_under_way && !law.is_aimed) {
         law.is_shaped = false;
     }
     if (!begins(line, "aim") && !begins(line, "swing") && !begins(line, "play")) {
@@ -424,8 +480,13 @@ void law_typed(const char *line)
     if ((begins(line, "stop") || begins(line, "@stop")) && !law.is_stopped) {
         law.is_stopped = true;
     } else if (begins(line, "play") || begins(line, "@play")) {
+        if (!law.is_under_way) {
+            put_code(sscanf(line, "%*s %u %u", &number, &code) == 2 ? code : 0);
+            law.code_tick = NEVER_TICK;
+        }
         law.is_called = law.is_called || strchr(line, ' ') != strrchr(line, ' ');
     } else if (begins(line, "code")) {
+        put_code(ANY_CODE);
         law.is_called = true;
         judge_no_more();
     } else {
@@ -442,6 +503,8 @@ void law_remote(unsigned buttons)
     if (buttons == 0) {
         return;
     }
+    law.paused_tick = NEVER_TICK;
+    put_code(buttons < 255 ? buttons : ANY_CODE);
     memset(law.aim, 0, sizeof law.aim);
     if (law.has_modes || buttons == 256 || (is_stop && law.is_stopped)) {
         judge_no_more();
@@ -459,6 +522,10 @@ void law_boot(void)
     law.is_quiet = law.was_quiet;
     law.approach_tick = NEVER_TICK;
     law.present = 0;
+    law.is_under_way = law.was_paused = false;
+    law.paused_tick = NEVER_TICK;
+    law.code = ANY_CODE;
+    law.code_tick = law.code_before_tick = session.tick;
     law.asked[0] = '\0';
     memset(law.aim, 0, sizeof law.aim);
     if (session.boots == 0) {
@@ -469,6 +536,15 @@ void law_boot(void)
 bool law_is_exact(void)
 {
     return !law.is_classic;
+}
+
+bool law_was_goal(unsigned id, unsigned goal, unsigned ticks)
+{
+    bool was = law.now[id] == goal;
+    for (uint32_t i = 0; i < ticks && !was; i++) {
+        was = goal_at(law.ticks - i, id) == goal;
+    }
+    return was;
 }
 
 /* A step was named a moment ago at the earliest: the program may be in the next one already. */

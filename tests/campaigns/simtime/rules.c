@@ -18,8 +18,8 @@
 #define PROMPT_BACK (8u * SECOND)
 #define LAST_FRAME 2u              /* ticks */
 #define SETTLED 64u                /* ticks without a write: a save is over */
-#define GOAL_AT 30u
 #define STEPS_AT 20u
+#define SLOWED 300u                /* ticks: a break slows down within a ramp, 255 at most */
 #define COPY_BYTES 64u             /* of the settings in EEPROM */
 
 enum { INST_WRITE = 3, INST_REG_WRITE = 4, INST_SYNC_WRITE = 0x83 };
@@ -32,6 +32,7 @@ static struct {
     uint32_t ended_tick;           /* a play has said that it is over, and its last frame may come after that; NEVER_TICK */
     unsigned ended_page;
     int sequence;                  /* of the settings that are sure; -1: none */
+    uint32_t break_tick;           /* the last break of a play */
     bool is_shaped;                /* something but the pages may decide where joints go, since the last start */
     bool is_playing;               /* by what the console says */
     bool is_starting;              /* the program has not printed yet */
@@ -87,12 +88,17 @@ static void line_typed(void)
     if (session.is_edit && (!session.typed_is_known || strstr(session.typed, "sav") != NULL)) {
         session.save_asked_tick = session.tick;
     }
+    if (!session.is_edit && (strcmp(session.typed, "break") == 0 || strcmp(session.typed, "@break") == 0)) {
+        rules.break_tick = session.tick;
+    }
     marks_typed(session.typed);
     answers_typed(session.typed);
-    if (session.is_edit) {
-        screen_typed(session.typed);
-    } else {
+    if (!session.is_edit) {
         law_typed(session.typed);
+        calls_typed(session.typed);
+        views_typed(session.typed);
+    } else {
+        editor_line(session.typed);
     }
     session.typed_count = 0;
     session.typed_is_known = true;
@@ -102,7 +108,13 @@ static void line_typed(void)
 void rules_typed(uint8_t byte)
 {
     session.typed_tick = session.tick;
+    rules.break_tick = NEVER_TICK;
     if (session.is_edit) {
+        editor_typed(byte);
+        if ((byte == ' ' || byte == 0x03) && session.tick - session.frame_tick <= LAST_FRAME) {
+            rules.break_tick = session.tick;
+            reached("play in Edit broken off");
+        }
         session.asked_tick = session.tick;   /* a key may move a joint */
     }
     if (byte == '\r') {
@@ -125,6 +137,7 @@ void rules_remote(unsigned buttons)
         session.asked_tick = session.tick;
     }
     law_remote(buttons);
+    calls_code(buttons);
 }
 
 /* ---- goals and torque ---- */
@@ -186,6 +199,18 @@ static void must_not_leap(uint8_t id, uint16_t goal)
     }
 }
 
+/* Nothing has been asked since a break: everything rests. */
+static void must_rest(uint8_t id, uint16_t goal)
+{
+    if (rules.break_tick == NEVER_TICK || session.asked_tick > rules.break_tick) {
+        rules.break_tick = NEVER_TICK;
+    } else if (session.tick - rules.break_tick > SLOWED && goal != session.joint[id].goal &&
+               long_ago(session.late_tick, SLOWED)) {
+        session_fail("a break comes to rest", "servo %u from %u to %u, %u ticks after it", id, session.joint[id].goal, goal,
+                     session.tick - rules.break_tick);
+    }
+}
+
 static void take_goal(uint8_t id, uint16_t goal)
 {
     if (id >= IDS || session.joint[id].servo == NULL) {
@@ -196,6 +221,7 @@ static void take_goal(uint8_t id, uint16_t goal)
     }
     must_be_asked(id, "a goal");
     must_not_be_out(id);
+    must_rest(id, goal);
     if (!session.is_edit) {
         must_not_leap(id, goal);   /* Edit moves joints at a speed of their own, and plays pages that chance has made */
     }
@@ -351,6 +377,8 @@ void rules_printed(const char *line)
     answers_printed(line);
     if (!session.is_edit) {
         law_printed(line);
+        calls_printed(line);
+        views_printed(line);
     }
     if (strstr(line, " servos: ") != NULL) {
         servos_are_searched();
@@ -464,10 +492,13 @@ void rules_boot(void)
 {
     law_boot();
     screen_boot();
+    editor_boot();
     answers_boot();
+    calls_boot();
+    views_boot();
     rules.is_starting = true;
     rules.is_playing = rules.is_shaped = false;
-    rules.ended_tick = NEVER_TICK;
+    rules.ended_tick = rules.break_tick = NEVER_TICK;
     memset(rules.silent_tick, 0, sizeof rules.silent_tick);
     memset(rules.off_tick, 0, sizeof rules.off_tick);
     memset(session.line, 0, sizeof session.line);
@@ -515,12 +546,13 @@ void rules_tick(void)
 {
     text_must_stand();
     law_tick();
-    screen_tick();
+    editor_tick();
     if (rules.ended_tick != NEVER_TICK && session.tick - rules.ended_tick > LAST_FRAME) {
         rules.ended_tick = NEVER_TICK;
         pose_must_be_there(rules.ended_page);
     }
     answers_tick();
+    views_tick();
     if (session.tick % 32 == 0) {
         servos_must_be_named();
         if (rules.checks_pages && long_ago(rules.write_tick, SETTLED) && !rules.is_starting) {

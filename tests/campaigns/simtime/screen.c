@@ -1,32 +1,29 @@
 /* SPDX-License-Identifier: MIT
- * screen.c - a terminal for Edit, and what its table must show: while the mark `* unsaved` is not there, the page in flash.
- * The places are those of firmware/edit/ORIGINAL.md 3; rows are found by their labels, because a low terminal has fewer. */
+ * screen.c - a terminal for Edit, and the table read off it. The places are those of firmware/edit/ORIGINAL.md 3; rows are
+ * found by their labels, because a low terminal has fewer. */
 #include "session.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define ROWS 36u
-#define COLUMNS 96u
-#define STEPS 7u
-#define QUIET 96u                  /* ticks without a key and without a byte: all is painted */
 #define ARGUMENTS 4u
 
 static struct {
-    char text[ROWS][COLUMNS + 1];
+    char text[ROWS][SCREEN_COLUMNS + 1];
     unsigned row, column;
     int argument[ARGUMENTS];
     unsigned arguments;
+    bool is_table;                 /* the table has not been put away since the screen was cleared */
     enum { PLAIN, ESCAPE, SEQUENCE } state;
-    bool is_table;                 /* nothing but the table has been painted since it was cleared */
-    bool was_seen;                 /* as it is now */
 } screen;
 
 /* ---- the terminal ---- */
 
 static void clear_from(unsigned row, unsigned column)
 {
-    memset(screen.text[row] + column, ' ', COLUMNS - column);
+    memset(screen.text[row] + column, ' ', SCREEN_COLUMNS - column);
 }
 
 static void clear_all(void)
@@ -51,9 +48,9 @@ static void obey(uint8_t final)
 {
     if (final == 'H' || final == 'f') {
         screen.row = within(argument(0, 1) - 1, ROWS);
-        screen.column = within(argument(1, 1) - 1, COLUMNS);
+        screen.column = within(argument(1, 1) - 1, SCREEN_COLUMNS);
     } else if (final == 'C') {
-        screen.column = within(screen.column + argument(0, 1), COLUMNS);
+        screen.column = within(screen.column + argument(0, 1), SCREEN_COLUMNS);
     } else if (final == 'D') {
         screen.column -= argument(0, 1) < screen.column ? argument(0, 1) : screen.column;
     } else if (final == 'K') {
@@ -78,13 +75,12 @@ static void show_plain(uint8_t byte)
         clear_from(ROWS - 1, 0);
     } else if (byte >= ' ') {
         screen.text[screen.row][screen.column] = (char)byte;
-        screen.column = within(screen.column + 1, COLUMNS);
+        screen.column = within(screen.column + 1, SCREEN_COLUMNS);
     }
 }
 
 void screen_byte(uint8_t byte)
 {
-    screen.was_seen = false;
     if (screen.state == PLAIN) {
         show_plain(byte);
     } else if (screen.state == ESCAPE) {
@@ -103,135 +99,113 @@ void screen_byte(uint8_t byte)
 
 /* ---- the table ---- */
 
-static void wrong(unsigned page, const char *what, const char *shown, unsigned must)
+/* A number of so many digits, or UNKNOWN. */
+static int number_at(const char *text, unsigned digits, bool is_hex)
 {
-    session_fail("without `* unsaved` the table shows what flash holds", "page %u, %s: \"%.5s\" is shown, %u is stored",
-                 page, what, shown, must);
-}
-
-/* Three characters of a byte, decimal, or two hexadecimal digits and a blank. */
-static void byte_must_be(unsigned page, const char *what, const char *shown, unsigned must)
-{
-    char decimal[8], hex[8];
-    snprintf(decimal, sizeof decimal, "%03u", must & 0xFFu);
-    snprintf(hex, sizeof hex, "%02X ", must & 0xFFu);
-    if (strncmp(shown, decimal, 3) != 0 && strncmp(shown, hex, 3) != 0) {
-        wrong(page, what, shown, must);
+    char copy[8] = "", *end;
+    memcpy(copy, text, digits);
+    if (is_hex && copy[digits - 1] == ' ') {
+        copy[digits - 1] = '\0';   /* a byte has two hexadecimal digits and a blank */
     }
+    const long number = strtol(copy, &end, is_hex ? 16 : 10);
+    return end != copy && *end == '\0' && copy[0] != ' ' ? (int)number : UNKNOWN;
 }
 
-static void word_must_be(unsigned page, const char *what, const char *shown, unsigned must)
+static int word_at(const char *text, bool is_hex)
 {
-    char decimal[8], hex[8];
-    snprintf(decimal, sizeof decimal, "%04u", must & 0xFFFFu);
-    snprintf(hex, sizeof hex, "%04X", must & 0xFFFFu);
-    if (must > 1023 ? strncmp(shown, must & 0x2000u ? "????" : "----", 4) != 0
-                    : strncmp(shown, decimal, 4) != 0 && strncmp(shown, hex, 4) != 0) {
-        wrong(page, what, shown, must);
-    }
+    return strncmp(text, "----", 4) == 0 ? NO_VALUE : strncmp(text, "????", 4) == 0 ? OFF : number_at(text, 4, is_hex);
 }
 
-static void look_at_row(unsigned page, const uint8_t *at, const char *text)
+static void read_row(table_t *table, const char *text, bool is_hex)
 {
     static const struct {
         const char *label;
-        unsigned byte;
-    } fields[] = {{"PlayCount:", 15}, {"Blend Right:", 17}, {"Blend Left:", 18}, {"Page Step:", 20}, {"ControlCode:", 21},
-                  {"Page Speed:", 22}, {"DXL Setup:", 23}, {"Accel Time:", 24}, {"Link to Next:", 25}, {"Link to Exit:", 26},
-                  {"Linked Page1:", 27}, {"Page1Remocon:", 28}, {"Linked Page2:", 29}, {"Page2Remocon:", 30}};
+        unsigned field;
+    } fields[] = {{"PlayCount:", 1},      {"Blend Right:", 3},   {"Blend Left:", 4},    {"Page Step:", FIELD_STEPS},
+                  {"ControlCode:", 7},    {"Page Speed:", 8},    {"DXL Setup:", 9},     {"Accel Time:", 10},
+                  {"Link to Next:", 11},  {"Link to Exit:", 12}, {"Linked Page1:", 13}, {"Page1Remocon:", 14},
+                  {"Linked Page2:", 15},  {"Page2Remocon:", 16}};
     unsigned id;
     const bool is_joint = sscanf(text, "Dynamixel %u(", &id) == 1 && id < JOINTS;
+    const bool is_time = strncmp(text, "   Time(", 8) == 0, is_pause = strncmp(text, "   PauseTime", 12) == 0;
     for (unsigned i = 0; i < sizeof fields / sizeof fields[0] && is_joint; i++) {
         if (strstr(text + 60, fields[i].label) != NULL) {
-            byte_must_be(page, fields[i].label, text + 76, at[fields[i].byte]);
+            table->field[fields[i].field] = number_at(text + 76, 3, is_hex);
         }
     }
-    for (unsigned step = 0; step < STEPS; step++) {
-        const uint8_t *of = at + STEP_BYTES * (step + 1);
-        const char *shown = text + 25 + 5 * step;
-        char what[40];
-        snprintf(what, sizeof what, "step %u, %.20s", step, text);
+    for (unsigned step = 0; step < TABLE_STEPS; step++) {
+        const char *shown = text + (step == 0 ? 19u : 20u + 5u * step);
         if (is_joint) {
-            word_must_be(page, what, shown, of[2 * id] | (unsigned)of[2 * id + 1] << 8);
-        } else if (strncmp(text, "   PauseTime", 12) == 0) {
-            byte_must_be(page, what, shown + 1, of[62]);
-        } else if (strncmp(text, "   Time(", 8) == 0 || strncmp(text, "   Speed", 8) == 0) {
-            byte_must_be(page, what, shown + 1, of[63]);
+            table->cell[step][id] = word_at(shown, is_hex);
+        } else if (is_pause || is_time || strncmp(text, "   Speed", 8) == 0) {
+            table->cell[step][is_pause ? ROW_PAUSE : ROW_TIME] = number_at(shown + 1, 3, is_hex);
         }
     }
     if (is_joint) {
-        byte_must_be(page, "softness", text + 60, at[32 + id]);
+        table->softness[id] = number_at(text + 60, 3, is_hex);
+        table->live[id] = strncmp(text + 13, "0x", 2) == 0 ? UNKNOWN : number_at(text + 13, 4, is_hex);
+    } else if (is_time || strncmp(text, "   Speed", 8) == 0) {
+        table->is_time = is_time;
     }
-}
-
-/* The byte's offset in page and work pose. */
-static unsigned offset_of(unsigned x, unsigned y)
-{
-    const unsigned in_step = y < 31 ? 2 * y : y == 31 ? 62 : 63;
-    return x == 0 ? PAGE_BYTES + in_step : x <= STEPS ? STEP_BYTES * x + in_step : x == 8 ? 32 + y : 11 + y;
 }
 
 /* X, Y and A belong together; all three are decimal or hexadecimal. */
-static void look_at_cursor(const char *text)
+static bool read_cursor(table_t *table, const char *text, bool *is_hex)
 {
-    unsigned x, y, a, hex_x, hex_y, hex_a;
-    if (sscanf(text, "[X:%2u,Y:%2u,A:%4u]", &x, &y, &a) == 3 && offset_of(x, y) == a) {
-        reached("cursor and its offset in Edit");
-    } else if (sscanf(text, "[X:%2x,Y:%2x,A:%4x]", &hex_x, &hex_y, &hex_a) == 3 && offset_of(hex_x, hex_y) != hex_a) {
-        session_fail("X, Y and A of Edit belong together", "%.20s", text);
+    unsigned x, y, a;
+    *is_hex = sscanf(text, "[X:%2u,Y:%2u,A:%4u]", &x, &y, &a) != 3 || table_offset(x, y) != a;
+    if (*is_hex && (sscanf(text, "[X:%2x,Y:%2x,A:%4x]", &x, &y, &a) != 3 || table_offset(x, y) != a)) {
+        return false;
     }
+    table->x = x;
+    table->y = y;
+    return true;
 }
 
-static bool is_whole(const uint8_t *at)
+bool screen_read(table_t *table)
 {
-    uint8_t sum = 0;
-    for (unsigned i = 0; i < PAGE_BYTES; i++) {
-        sum = (uint8_t)(sum + at[i]);
-    }
-    return sum == 0xFF && at[20] <= STEPS && at[22] != 0;
-}
-
-static void look(void)
-{
-    unsigned page = 0, decimal = 0, hex = 0;
-    bool is_table = false, is_saved = true;
+    bool is_hex = false, has_cursor = false, has_page = false;
+    const char *command = "";
+    memset(table, 0, sizeof *table);
+    table_forget(table);
+    table->is_saved = true;
     for (unsigned row = 0; row < ROWS; row++) {
-        const char *number = strstr(screen.text[row], "PageNumber:"), *address = strstr(screen.text[row], "Addr:");
-        is_table = is_table || (number != NULL && sscanf(number, "PageNumber:%4u", &decimal) == 1 &&
-                                sscanf(number, "PageNumber:%4x", &hex) == 1);
-        page = address != NULL && sscanf(address, "Addr:%8x", &page) == 1 ? page / PAGE_BYTES % 256 : page;
-        is_saved = is_saved && screen.text[row][0] != '*';
-        if (strstr(screen.text[row], "[X:") != NULL) {
-            look_at_cursor(strstr(screen.text[row], "[X:"));
+        const char *text = screen.text[row], *cursor = strstr(text, "[X:");
+        if (cursor != NULL) {
+            has_cursor = true;
+            if (!read_cursor(table, cursor, &is_hex)) {
+                session_fail("X, Y and A of Edit belong together", "%.20s", cursor);
+            }
         }
     }
-    if (is_table && page != decimal && page != hex) {
-        wrong(page, "PageNumber", "", page);
+    for (unsigned row = 0; row < ROWS && has_cursor; row++) {
+        const char *text = screen.text[row], *number = strstr(text, "PageNumber:"), *address = strstr(text, "Addr:");
+        const char *label = strstr(text, "Go Step:");
+        has_page = has_page || number != NULL;
+        table->page = number != NULL ? number_at(number + 11, 4, is_hex) : table->page;
+        table->address = address != NULL ? number_at(address + 5, 8, true) : table->address;
+        table->is_saved = table->is_saved && text[0] != '*';
+        table->has_go_step = table->has_go_step || label != NULL;
+        table->go_step = label != NULL ? number_at(label + 8, 3, is_hex) : table->go_step;
+        command = label != NULL && row + 1 < ROWS ? screen.text[row + 1] : command;
+        read_row(table, text, is_hex);
+        if (row == 0) {
+            memcpy(table->name, text + 64, NAME_BYTES);
+        }
     }
-    const uint8_t *at = page_at(page);
-    if (!is_table || !is_saved || page == 0 || !is_whole(at)) {
-        return;
-    }
-    reached("table of Edit as flash holds it");
-    for (unsigned row = 0; row < ROWS; row++) {
-        look_at_row(page, at, screen.text[row]);
-    }
+    memcpy(table->command, command, strlen(command) + 1);
+    table->is_hex = is_hex;
+    return screen.is_table && has_cursor && has_page && table->has_go_step;
 }
 
-/* ---- time ---- */
-
-void screen_typed(const char *line)
+void screen_put_away(void)
 {
-    screen.is_table = screen.is_table && line[0] != '@';   /* such a line puts the table away */
+    screen.is_table = false;
 }
 
-void screen_tick(void)
+const char *screen_row(unsigned row)
 {
-    const uint32_t last = session.typed_tick > session.printed_tick ? session.typed_tick : session.printed_tick;
-    if (session.is_edit && screen.is_table && !screen.was_seen && session.tick - last > QUIET && simtime_has_typed()) {
-        screen.was_seen = true;
-        look();
-    }
+    return row < ROWS ? screen.text[row] : "";
 }
 
 void screen_boot(void)

@@ -5,8 +5,12 @@
  *   world.c     the servos and the line; carries actions out
  *   rules.c     what must be so at every tick
  *   law.c       the exact law: every goal of a play that nothing shapes
+ *   calls.c     which page a play begins with
  *   answers.c   what requests are answered
- *   screen.c    Edit's table
+ *   views.c     what lists show
+ *   screen.c    a terminal for Edit, and its table as it is shown
+ *   table.c     such tables, from flash and compared
+ *   editor.c    a second model of Edit: what lines and keys do to its table
  *   facts.c     pages as bytes, as PAGE_FORMAT.md has them; nothing of the firmware's
  *   marks.c     places that a campaign must have reached
  *
@@ -28,7 +32,8 @@
 #define PAGES 256u
 #define PAGE_BYTES 512u
 #define STEP_BYTES 64u
-#define TORQUE_AT 24u              /* a servo's register */
+#define TORQUE_AT 24u              /* registers of a servo */
+#define GOAL_AT 30u
 
 /* What is known of one servo. */
 typedef struct {
@@ -118,17 +123,67 @@ bool law_is_exact(void);   /* else the classic one may be in force */
 /* Which step plays now. false: not known. */
 bool law_place(unsigned *page, unsigned *step, unsigned *repetition);
 
+bool law_was_goal(unsigned id, unsigned goal, unsigned ticks);   /* within the last ticks */
+
+/* calls.c */
+bool page_is_good(unsigned page);
+void calls_boot(void);
+void calls_typed(const char *line);
+void calls_code(unsigned buttons);
+void calls_printed(const char *line);
+
+/* views.c */
+void views_boot(void);
+void views_tick(void);
+void views_typed(const char *line);
+void views_printed(const char *line);
+void views_list(const char *answer, int first, int last);
+
 /* answers.c */
 void answers_boot(void);
 void answers_tick(void);
 void answers_printed(const char *line);
 void answers_typed(const char *line);
 
-/* screen.c */
+/* screen.c: Edit's screen, and its table as it is shown */
+#define SCREEN_COLUMNS 96u
+#define TABLE_STEPS 8u             /* 0: the work pose */
+#define TABLE_ROWS 33u
+#define TABLE_FIELDS 17u           /* bytes 14..30 of the page */
+#define NAME_BYTES 13u
+enum { NO_VALUE = -1, OFF = -2, UNKNOWN = -3 };   /* ----, ????, not shown or not known */
+enum { ROW_PAUSE = 31, ROW_TIME = 32, FIELD_SCHEDULE = 2, FIELD_STEPS = 6 };
+typedef struct {
+    int cell[TABLE_STEPS][TABLE_ROWS];
+    int softness[JOINTS];
+    int field[TABLE_FIELDS];
+    int live[JOINTS];              /* where the joint is, if that is shown */
+    char name[NAME_BYTES + 1];
+    int page, address, go_step;
+    unsigned x, y;
+    int is_time;                   /* 1: times, 0: speeds */
+    bool is_saved, is_hex, has_go_step;
+    char command[SCREEN_COLUMNS + 1];   /* its row */
+} table_t;
 void screen_boot(void);
-void screen_tick(void);
 void screen_byte(uint8_t byte);
-void screen_typed(const char *line);
+/* false: the table is not there. */
+bool screen_read(table_t *table);
+const char *screen_row(unsigned row);
+void screen_put_away(void);        /* a line for programs has been typed */
+
+/* table.c */
+void table_forget(table_t *table);                     /* its cells are UNKNOWN */
+unsigned table_offset(unsigned x, unsigned y);         /* the byte's offset in page and work pose */
+void table_load(table_t *table, unsigned page);        /* a page in flash; the work pose stays */
+void table_compare(const char *rule, const table_t *shown, const table_t *right);   /* what is known of both is equal */
+bool table_is_equal(const table_t *a, const table_t *b);   /* their pages, as far as both are known */
+
+/* editor.c */
+void editor_boot(void);
+void editor_tick(void);
+void editor_typed(uint8_t byte);
+void editor_line(const char *line);   /* with the keys before it */
 
 /* marks.c */
 void reached(const char *place);

@@ -224,6 +224,7 @@ static void press(unsigned buttons)
         session.asked_tick = session.tick;
         law_remote(buttons >= 16 ? 512 : buttons);   /* Start stops */
         law_remote(0);
+        calls_code(buttons);
     }
 }
 
