@@ -82,7 +82,11 @@ def test_a_file_is_not_replaced_by_a_link_to_the_console(make, files):
     robot = make(motions=files)
     mine = files.read_bytes()
     asked = subprocess.run(
-        [program("play"), "--robot", robot.folder / "robot", f"--pty={files}", robot.port], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=30
+        [program("play"), "--robot", robot.folder / "robot", f"--pty={files}", robot.port],
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        timeout=30,
     )
     assert asked.returncode == 6 and f"{files}: File exists" in asked.stderr
     assert files.read_bytes() == mine

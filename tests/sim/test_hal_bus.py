@@ -35,15 +35,14 @@ def test_frame_of_31_joints_is_one_packet_a_tick_in_under_10000_cycles(capsys):
     assert heard < 160
 
 
-@pytest.mark.parametrize("kind", ["cm5", "cm2"])
-@pytest.mark.parametrize("return_delay", [0, 250, 254])
+@pytest.mark.parametrize("kind, return_delay", [("cm5", 0), ("cm5", 254), ("cm2", 0)])
 def test_turn_round_loses_no_answer(kind, return_delay):
     """With a return delay of 0 a servo answers within 20 us of our last stop bit."""
     board = walker(kind, servos=range(1, 19), table=[(5, return_delay)])
     before = bus_counts(board)
-    board.run(ticks=500)
+    board.run(ticks=250)
     counts = bus_counts(board)
-    assert counts["answers"] - before["answers"] >= 498
+    assert counts["answers"] - before["answers"] >= 248
     assert all(counts[name] == 0 for name in ("checksums", "framing", "overruns", "wrong_ids", "lengths", "strays")), counts
     assert counts["timeouts"] == before["timeouts"]
 
@@ -54,16 +53,16 @@ TURN_US = 20  # DYNAMIXEL.md: with a return delay of 0 an answer begins within a
 
 
 def test_turn_round_is_bounded_whatever_else_interrupts(capsys):
-    """The tick, bytes of the PC in both directions and the program's own locks may all stand in its way. Ten seconds of all
+    """The tick, bytes of the PC in both directions and the program's own locks may all stand in its way. Two seconds of all
     of them at the full rate, and then the same on purpose: a byte comes from the PC at every place of the interrupt that
     ends a packet, and the tick with it."""
     board = walker()
     board.bus_turn_us(forget=True)
-    board.send(pattern(int(10 * LINE_BYTES_PER_S)), wait=True)
+    board.send(pattern(int(2 * LINE_BYTES_PER_S)), wait=True)
     flooded = board.bus_turn_us(forget=True)
     longest = 0
     state = board.variable("core")
-    for place in range(0, 480, 3):
+    for place in range(0, 480, 13):
         while board.ram[state] != BUS_TURNING:  # a packet is being sent, up to its last two bytes
             board.run_to("__vector_20", ms=20)
             for _ in range(INTERRUPT_INSTRUCTIONS):
@@ -115,8 +114,8 @@ def test_bad_answers_are_counted_and_never_stop_the_walk(fault):
     board.run(ms=300)
     board.servos[5].fault(fault)
     board.clear_trace()
-    board.run(ticks=500)
-    assert len(board.trace) in (499, 500, 501)
+    board.run(ticks=250)
+    assert len(board.trace) in (249, 250, 251)
     assert word(board, "walker_missed") == 0
     counts = bus_counts(board)
     bad = sum(counts[name] for name in ("timeouts", "checksums", "framing", "wrong_ids", "lengths"))
