@@ -44,7 +44,7 @@ def test_verify_after_a_download(board):
     assert say(board, "verify").endswith(f"{sum(data) & 0xFF:02X}-{sum(data):08X}-{sum(data):08X}")
 
 
-@pytest.mark.parametrize("address, count", [(0x0000, 4096), (0xF000, 16384)])
+@pytest.mark.parametrize("address, count", [(0x0000, 16384), (0xF000, 16384)])
 def test_long_downloads_at_line_rate(board, address, count):
     before, data = bytes(board.flash), noise(count, 8)
     begin_load(board, address)
@@ -55,7 +55,7 @@ def test_long_downloads_at_line_rate(board, address, count):
     check_flash(board, before, address, data)
     line = (count + 1) / LINE_RATE
     print(f"load of {count} bytes: {seconds:.2f} s, line {line:.2f} s")
-    assert seconds < line * 1.05
+    assert seconds < line * 1.05 + 0.15  # its end: 111 ms of silence, and the last page
 
 
 def test_type_ahead_needs_no_ready(board):
