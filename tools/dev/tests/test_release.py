@@ -4,6 +4,7 @@ that the same sources give the same bytes, built twice in two folders, is shown 
 
 import os
 import pathlib
+import platform
 import re
 import subprocess
 import sys
@@ -93,7 +94,7 @@ def installed(made, tmp_path_factory):
         ).stdout.strip()
     )
     (site / "needs.pth").write_text(sysconfig.get_path("purelib") + "\n")
-    wheels = sorted((made / "python").glob("*.whl"))
+    wheels = [wheel for wheel in sorted((made / "python").glob("*.whl")) if wheel.stem.endswith(("any", platform.machine()))]
     subprocess.run(
         [
             sys.executable,
@@ -125,6 +126,19 @@ def as_a_user(program, *arguments, cwd):
         env={**environment, "PATH": "/usr/bin:/bin"},
         stdin=subprocess.DEVNULL,
     )
+
+
+def test_release_names_on_the_wheels_of_programs_what_they_need(made, tmp_path):
+    """manylinux_2_NN_MACHINE: such a processor, and no symbol of a C library younger than 2.NN."""
+    wheels = list((made / "python").glob("motion512-*.whl"))
+    assert wheels
+    for wheel in wheels:
+        minor, machine = re.search(r"-py3-none-manylinux_2_(\d+)_(\w+)\.whl$", wheel.name).groups()
+        with zipfile.ZipFile(wheel) as files:
+            programs = [files.extract(f"motion512/motion512-{image}", tmp_path / machine) for image in ("play", "edit")]
+        said = subprocess.run(["readelf", "-h", "-V", "-W", *programs], check=True, capture_output=True, text=True, env={"LC_ALL": "C"}).stdout
+        assert {name.lower().replace("-", "_") for name in re.findall(r"Machine: .*?([Xx]86-64|AArch64)", said)} == {machine}
+        assert max(int(young) for young in re.findall(r"Name: GLIBC_2\.(\d+)", said)) <= int(minor)
 
 
 def test_release_brings_the_terms_of_what_the_simulator_links(made):
