@@ -8,6 +8,8 @@ What is special to the chip (interrupts, stack, its loader, timing) is not here;
 """
 
 import collections
+import itertools
+import json
 
 from tests.campaigns import proof
 from tests.campaigns.simtime import board, chance, runs
@@ -16,6 +18,7 @@ TITLE = "Sessions in simulated time"
 PROMISE = "Whatever a person, servos, lines, a computer and the power do at any tick: no leap, nothing moves unasked, text and pages stand."
 SESSIONS, SAMPLE, CHUNK, SHOWN = 8400, 150, 25, 6
 BOTH = 100  # sessions that the strict board plays as well: 4 s each
+PLAYED = proof.RESULTS / "board_sessions.jsonl"
 MISSED_IN_SAMPLE = 12  # places that a sample need not reach
 PLACES = (
     "approach",
@@ -121,7 +124,7 @@ def add_arguments(group):
     group.add_argument("--only", type=int, metavar="SEED", help="repeat one session; if it fails, make it short")
     group.add_argument("--list", metavar="FILE", help="repeat a list of actions from a file")
     group.add_argument("--on-board", action="store_true", help="with --only or --list: what the strict board makes of it (Play alone)")
-    group.add_argument("--both", type=int, metavar="COUNT", help=f"sessions that the strict board plays as well (default: {BOTH})")
+    group.add_argument("--both", type=int, metavar="COUNT", help=f"more sessions that the strict board plays as well (default: {BOTH})")
     group.add_argument("--from", dest="first", type=int, metavar="SEED", help="the first session (default: the seed times a million)")
     group.add_argument("--sessions", type=int, help=f"how many (default: {SESSIONS})")
 
@@ -154,29 +157,50 @@ def run(options):
             make_short(outcomes[0], actions)
     else:
         options.keep = options.keep and options.sessions is None and options.first is None
-        count = SAMPLE if options.sample else options.sessions or SESSIONS
+        count = SAMPLE if options.sample else SESSIONS if options.sessions is None else options.sessions
         first = options.seed * 1_000_000 if options.first is None else options.first
         chunks = [range(at, min(at + CHUNK, first + count)) for at in range(first, first + count, CHUNK)]
-        outcomes = [outcome for part in proof.each(chunk, chunks, "chunks of sessions", options.jobs) for outcome in part]
-    return figures(options, outcomes) + both(options)
+        kept = proof.Kept("sessions", is_whole=options.keep and not options.sample)
+        parts = kept.each(chunk, chunks, "chunks of sessions", options.jobs)
+        outcomes = [runs.Outcome(*outcome) for part in parts for outcome in part]
+        kept.finish()
+    return (figures(options, outcomes) if outcomes else []) + both(options)
+
+
+def board_sessions():
+    """Sessions that the strict board has played as well, by seed: (frames, ticks, what differs). They count for the code that is here now, and
+    are kept, so that an hour today and an hour tomorrow are two hours."""
+    code = proof.code("sessions")
+    lines = map(json.loads, PLAYED.read_text(encoding="utf-8").splitlines()) if PLAYED.exists() else ()
+    return code, {line["seed"]: line["found"] for line in lines if line["code"] == code}
 
 
 def both(options):
     """The figure of what the strict board has played as well. (Of a sample the test prove.simtime has it.)"""
     count = BOTH if options.both is None else options.both
-    if options.sample or options.list or options.only is not None or (options.sessions and options.both is None) or not count:
+    if options.sample or options.list or options.only is not None or (options.sessions is not None and options.both is None):
         return []
-    found = proof.each(board.difference, range(options.seed * 1000, options.seed * 1000 + count), "sessions on the board", options.jobs)
-    wrong = [(seed, words) for seed, (_, words) in zip(range(options.seed * 1000, options.seed * 1000 + count), found) if words]
+    code, played = board_sessions()
+    seeds = itertools.islice((seed for seed in itertools.count(options.seed * 1000) if seed not in played), count)
+
+    def keep(seed, found):
+        played[seed] = found
+        PLAYED.parent.mkdir(parents=True, exist_ok=True)
+        with PLAYED.open("a", encoding="utf-8") as file:
+            file.write(json.dumps({"code": code, "seed": seed, "found": found}) + "\n")
+
+    proof.each(board.difference, seeds, "sessions on the board", options.jobs, done=keep)
+    wrong = [(seed, words) for seed, (_, _, words) in sorted(played.items()) if words]
     for seed, words in wrong[:SHOWN]:
         print(f"   session {seed} of both: {words}")
+    hours = sum(ticks for _, ticks, _ in played.values()) / 128 / 3600
     return [
         proof.Figure(
             "The strict board with the shipped image does the same",
             "plays, layers, shapes, pauses, settings and the remote by chance; every frame of goals, the console, motion pages and settings "
-            "are compared",
-            f"{sum(frames for frames, _ in found):,} frames in {count} sessions, {len(wrong)} differ",
-            not wrong,
+            "are compared; the hours of all runs of this code are added up",
+            f"{hours:.1f} simulated hours, {sum(frames for frames, _, _ in played.values()):,} frames in {len(played):,} sessions, {len(wrong)} differ",
+            not wrong and bool(played),
             headline=True,
         )
     ]

@@ -37,6 +37,7 @@ class Trace(NamedTuple):
     text: bytes
     pages: bytes
     settings: bytes
+    ticks: int
 
 
 def made(seed):
@@ -132,7 +133,8 @@ def simulated(actions, servos=SERVOS):
     text = re.sub(rb"\nbus \d+ [0-9a-f ]+\n", b"", out).partition(b"ticks ")[0]
     eeprom = kept[-0x1000:]
     settings = eeprom[SETTINGS_AT : SETTINGS_AT + SETTINGS_BYTES]
-    return Trace([goal for goal in goals if goal], text, kept[:PAGES_BYTES], settings), into_tick
+    ticks = int(re.search(rb"ticks (\d+)", out)[1])
+    return Trace([goal for goal in goals if goal], text, kept[:PAGES_BYTES], settings, ticks), into_tick
 
 
 # ---- on the board ----
@@ -173,7 +175,8 @@ def on_board(actions, into_tick, servos=SERVOS):
         goals = [frame.goals for frame in board.trace]
         flash, eeprom = bytes(board.flash), bytes(board.eeprom)
         text = board.console.translate(None, b"\x11\x13")
-    return Trace(goals, text, flash[PAGES_AT : PAGES_AT + PAGES_BYTES], eeprom[SETTINGS_AT : SETTINGS_AT + SETTINGS_BYTES])
+        ticks = tick_at(board.now_cycles)
+    return Trace(goals, text, flash[PAGES_AT : PAGES_AT + PAGES_BYTES], eeprom[SETTINGS_AT : SETTINGS_AT + SETTINGS_BYTES], ticks)
 
 
 def lines_of(text):
@@ -182,18 +185,22 @@ def lines_of(text):
 
 
 def difference(seed):
-    """(frames of goals, what differs: "" or words) of a session in both."""
+    """(frames of goals, ticks, what differs: "" or words) of a session in both."""
     actions = made(seed)
     here, into_tick = simulated(actions)
-    there = on_board(actions, into_tick)
+    return len(here.goals), here.ticks, differs(here, on_board(actions, into_tick))
+
+
+def differs(here, there):
+    """What differs between two traces, in words; "": nothing."""
     for frame, (ours, theirs) in enumerate(zip(here.goals, there.goals)):
         if ours != theirs:
-            return len(here.goals), f"goals of frame {frame}: {ours}, on the board {theirs}"
+            return f"goals of frame {frame}: {ours}, on the board {theirs}"
     if len(here.goals) != len(there.goals):
-        return len(here.goals), f"{len(here.goals)} frames, on the board {len(there.goals)}"
+        return f"{len(here.goals)} frames, on the board {len(there.goals)}"
     if lines_of(here.text) != lines_of(there.text):
-        return len(here.goals), "the console"
-    return len(here.goals), "" if here[2:] == there[2:] else "motion pages or settings"
+        return "the console"
+    return "" if (here.pages, here.settings) == (there.pages, there.settings) else "motion pages or settings"
 
 
 # ---- a list of sessions.py ----

@@ -73,6 +73,10 @@ void calls_typed(const char *line)
     char name[32], more;
     unsigned page, code;
     line += *line == '@' ? 1 : 0;
+    if (calls.asked != UNKNOWN) {   /* one line was typed before the other was answered */
+        forget();
+        calls.is_begun = true;
+    }
     if (!session.typed_is_known || strncmp(line, "code", 4) == 0) {
         forget();
         calls.is_begun = true;

@@ -458,7 +458,8 @@ void law_typed(const char *line)
         return;
     }
     law.is_quiet = (law.is_quiet && !begins(line, "settings talk 1")) || begins(line, "settings talk 0");
-    law.is_classic = (law.is_classic && !begins(line, "settings law 0")) || begins(line, "settings law 1");
+    const bool is_exact = begins(line, "settings law 0") || begins(line, "law exact");
+    law.is_classic = (law.is_classic && !is_exact) || begins(line, "settings law 1") || begins(line, "law classic");
     law.was_quiet = law.was_quiet || law.is_quiet;
     law.was_classic = law.was_classic || law.is_classic;
     law.has_modes = law.has_modes || begins(line, "settings remote");

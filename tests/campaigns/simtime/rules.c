@@ -50,7 +50,7 @@ static bool long_ago(uint32_t tick, uint32_t most)
 static bool may_move(const char *line)
 {
     static const char *const words[] = {"play", "p", "on", "aim", "swing", "layer", "resume", "code", "free",
-                                        "move", "torque"};
+                                        "move", "torque", "drive"};   /* whose end is a stop, which ends a pause */
     char word[16] = "";
     line += *line == '@' ? 1 : 0;
     (void)sscanf(line, "%15[^ ,.:;]", word);
