@@ -19,6 +19,12 @@ def test_convert_mtn_to_image_equals_the_image_made_from_the_description(m512, s
     assert out.read_bytes() == sample("robot_128p.bin").read_bytes()
 
 
+def test_a_mtn_is_one_by_its_contents(m512, sample, tmp_path):
+    (tmp_path / "robot.txt").write_bytes(sample("robot.mtn").read_bytes())
+    assert m512("convert", tmp_path / "robot.txt", tmp_path / "out.bin").exit_code == 0
+    assert (tmp_path / "out.bin").read_bytes() == sample("robot_128p.bin").read_bytes()
+
+
 @pytest.mark.parametrize("name", ["robot_128p.bin", "robot_12bit_256p.bin"])
 @pytest.mark.parametrize("suffix", [".m512", ".hex"])
 def test_convert_every_image_to_text_and_hex_and_back(m512, sample, tmp_path, name, suffix):

@@ -113,6 +113,67 @@ def test_pages_merge_takes_a_trim_over_as_a_trim(m512, lib, tmp_path):
     assert image(lib)[0].data == other[0].data
 
 
+TRIM = "motion512 1\npage 0\n  offset 1:-5 2:+3\npage 1 stand\n  step 1s | 1:512\n"
+
+
+@pytest.fixture
+def trimmed(tmp_path):
+    path = tmp_path / "trimmed.bin"
+    path.write_bytes(read_text(TRIM).to_bytes())
+    return path
+
+
+def test_pages_a_trim_is_not_overwritten_unasked(m512, lib, trimmed):
+    before = trimmed.read_bytes()
+    refused = m512("pages", trimmed, "merge", lib, "0", "--in-place")
+    assert refused.exit_code == 5 and "page 0 is not empty" in refused.stderr and trimmed.read_bytes() == before
+    assert m512("pages", trimmed, "merge", lib, "0", "--replace", "--in-place").exit_code == 0
+    assert bytes(image(trimmed)[0]) == EMPTY
+
+
+@pytest.mark.parametrize("words", [("mirror", "0"), ("retime", "0", "2")])
+def test_pages_a_trim_is_not_changed_as_a_motion_is(m512, trimmed, words):
+    before = trimmed.read_bytes()
+    assert m512("pages", trimmed, *words, "--in-place").exit_code == 5
+    assert trimmed.read_bytes() == before
+
+
+def test_pages_a_trim_that_goes_is_told(m512, trimmed, tmp_path):
+    assert "the robot's trim, is left behind" in m512("pages", trimmed, "extract", "1", "-o", tmp_path / "a.bin").stderr
+    assert "trim" not in m512("pages", trimmed, "extract", "0", "1", "-o", tmp_path / "b.bin").stderr
+    assert "held the robot's trim" in m512("pages", trimmed, "delete", "0", "-o", tmp_path / "c.bin").stderr
+
+
+def test_pages_a_trim_is_shown_in_its_own_words(m512, trimmed):
+    assert "offset 1:-5 2:+3" in m512("pages", trimmed, "show", "0").stdout
+
+
+def test_diff_of_trims_names_the_joints(m512, trimmed, tmp_path):
+    (tmp_path / "other.m512").write_text(TRIM.replace("1:-5 2:+3", "2:+5"))
+    (tmp_path / "erased.m512").write_text(TRIM.replace("offset 1:-5 2:+3", "erased"))
+    found = m512("diff", trimmed, tmp_path / "other.m512")
+    assert found.exit_code == 3 and found.stdout.splitlines() == ["page 0, ID 1: trim -5 -> 0", "page 0, ID 2: trim 3 -> 5 (+2)"]
+    found = m512("diff", tmp_path / "erased.m512", trimmed)
+    assert found.exit_code == 3 and found.stdout.splitlines() == ["page 0, ID 1: trim 0 -> -5", "page 0, ID 2: trim 0 -> 3 (+3)"]
+
+
+def test_pages_delete_of_page_0_is_no_loss_of_links(m512, lib):
+    """0 as a link means none."""
+    assert m512("pages", lib, "delete", "0", "--in-place").stderr == ""
+
+
+def test_pages_renumber_names_its_own_option(m512, lib):
+    refused = m512("pages", lib, "renumber", "walk", "5", "--in-place")
+    assert refused.exit_code == 5 and "--swap" in refused.stderr and "--replace" not in refused.stderr
+    before = lib.read_bytes()
+    assert m512("pages", lib, "renumber", "walk", "3", "--in-place").exit_code == 0 and lib.read_bytes() == before
+
+
+def test_pages_of_a_backup_are_in_its_file(m512, tmp_path):
+    found = m512("pages", tmp_path, "list")
+    assert found.exit_code == 4 and "motions.bin" in found.stderr
+
+
 def test_pages_time_of_an_empty_page_is_an_error(m512, lib):
     result = m512("pages", lib, "time", "12")
     assert result.exit_code == 4 and "page 12 has no action" in result.stderr and not result.stdout

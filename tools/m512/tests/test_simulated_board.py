@@ -317,3 +317,11 @@ def test_the_simulated_board_is_the_one_that_the_image_is_for(monkeypatch, board
     monkeypatch.setenv("M512_CM5SIM", "/bin/echo")
     with pytest.raises(MissingError, match=f"--board={board} "):
         Simulator([f"play-{board}.hex"])
+
+
+def test_a_pose_of_a_servo_that_is_not_there_is_an_error(m512, started):
+    play = started("play-cm5.hex", servos=range(1, 4))
+    result = m512("pose", "2:600", "25:512", "-p", play.path)
+    assert result.exit_code == 8 and "servos 25" in result.stderr
+    found = json.loads(m512("pose", "--json", "-p", play.path).stdout)
+    assert found["2"] == {"position": 512, "torque": False}

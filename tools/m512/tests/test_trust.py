@@ -16,7 +16,7 @@ from test_flash import make_app
 from m512 import __version__
 from m512.board.link import Link
 from m512.board.memory import plan
-from m512.errors import FileError, M512Error, PortError, TextError
+from m512.errors import FileError, M512Error, PortError, RefusedError, TextError
 from m512.files import formats, storage
 from m512.files.image import Image, to_hex
 from m512.files.page import EMPTY, Page
@@ -105,7 +105,40 @@ def test_hex_with_some_motion_pages_changes_only_those(tmp_path):
         plan(hex_file(tmp_path / "half.hex", (0xE000 + 3 * 512, page[:256])))
 
 
+def test_motions_at_an_address_are_judged_as_a_motion_file(tmp_path):
+    image = read_text(TEXT)
+    (tmp_path / "x.bin").write_bytes(image.to_bytes())
+    found = plan(tmp_path / "x.bin", 0xE000)
+    assert min(found.pages) == 0xE200 // 256 and "keeps its own" in found.remarks[0]
+    image[3].data[70] ^= 1
+    (tmp_path / "damaged.bin").write_bytes(bytes(image[3]))
+    with pytest.raises(RefusedError, match="page 3: checksum"):
+        plan(tmp_path / "damaged.bin", 0xE600)
+    (tmp_path / "half.bin").write_bytes(bytes(image[1])[:300])
+    with pytest.raises(FileError, match="whole 512-byte motion pages"):
+        plan(tmp_path / "half.bin", 0xE200)
+
+
+def test_an_address_below_the_flash_is_refused(tmp_path):
+    (tmp_path / "x.bin").write_bytes(bytes(300))
+    with pytest.raises(RefusedError, match="no address -5"):
+        plan(tmp_path / "x.bin", -5)
+
+
 # Files that are there
+
+
+@pytest.mark.parametrize("name", ["x.bin holding hex", "x.mtn holding image", "x.txt holding mtn"])
+def test_in_place_keeps_the_kind_of_file_whatever_its_name_says(m512, files, name):
+    """Raw areas of the CM-2 were called .mtn, too."""
+    name, _, suffix = name.split()
+    kind = {"hex": formats.HEX, "image": formats.BINARY, "mtn": formats.MTN}[suffix]
+    (files / name).unlink(missing_ok=True)
+    (files / name).write_bytes(formats.encode(files / f"y.{suffix.replace('image', 'bin')}", read_text(TEXT))[0])
+    result = m512("pages", files / name, "rename", "3", "new", "--in-place")
+    assert result.exit_code == 0, result.stderr
+    assert formats.recognise((files / name).read_bytes(), files / name) == kind
+    assert formats.load(files / name)[3].name == b"new"
 
 
 def test_in_place_does_not_make_numbers_of_a_hand_written_text(m512, files):
@@ -440,6 +473,34 @@ def test_a_name_that_no_file_can_have_is_a_sentence(files):
 def test_a_closed_output_is_a_sentence(files):
     found = subprocess.run(f"{sys.executable} -m m512 convert x.bin >&-", shell=True, stderr=subprocess.PIPE, cwd=files, timeout=300)
     assert found.returncode == 4 and b"standard output is closed" in found.stderr
+
+
+def test_a_reader_that_goes_away_ends_results_and_no_work(files):
+    """Results that nobody reads end the command, which is no success; remarks that nobody reads end nothing."""
+    for words, streams, code in (("pages x.bin list", "", 141), ("pages x.bin rename 3 stand -o y.bin", "2>&1", 0), ("pages no.bin list", "2>&1", 4)):
+        subprocess.run(f"({sys.executable} -m m512 {words}; echo $? > rc) {streams} | true", shell=True, cwd=files, timeout=300, check=True)
+        assert int((files / "rc").read_text()) == code, words
+    assert (files / "y.bin").exists()
+
+
+@pytest.mark.parametrize(
+    "words, says",
+    [
+        (["convert", "x.bin", "y.bin", "--page", "3"], "--page is for a .csv"),
+        (["convert", "x.bin", "y.bin", "--mtn-version", "1.00"], "--mtn-version is for a .mtn"),
+        (["convert", "x.bin", "y.bin", "--onto", "x.bin"], "--onto is for a .mtn"),
+        (["convert", "x.bin", "--json"], "--json wants a file"),
+        (["pages", "x.bin", "rename", "3", "new", "-o", "y.bin", "--in-place"], "say one of the two"),
+    ],
+)
+def test_options_that_would_be_ignored_are_refused(m512, files, monkeypatch, words, says):
+    monkeypatch.chdir(files)
+    result = m512(*words)
+    assert result.exit_code == 2 and says in result.stderr and not (files / "y.bin").exists()
+
+
+def test_put_offers_no_simulator(m512):
+    assert "--sim" not in m512("put", "--help").stdout and m512("put", "x", "all", "--sim").exit_code == 2
 
 
 @pytest.mark.parametrize(

@@ -49,7 +49,7 @@ def opened(name, data, leave_out=False):
     lost = image.beyond(BOARD_PAGES)
     if lost and not leave_out:
         return {"no_room": named_pages_text(lost)}
-    image, cut = conversion.fitted(image, BOARD_PAGES, path, IMAGE)
+    image, cut = conversion.fitted(image, BOARD_PAGES, IMAGE)
     return {"image": image.to_bytes(), "notes": notes, "losses": losses + cut}
 
 

@@ -27,8 +27,13 @@ def show(text: str) -> None:
 
 
 def say(text: str) -> None:
-    """Remarks go to stderr: stdout is for results."""
-    click.echo(plain(text), err=True)
+    """Remarks go to stderr: stdout is for results. The work goes on when nobody reads them any more (`2>&1 | head`)."""
+    try:
+        click.echo(plain(text), err=True)
+    except BrokenPipeError:
+        from m512.files.storage import drop
+
+        drop(sys.stderr)
 
 
 @contextmanager

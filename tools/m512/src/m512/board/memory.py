@@ -84,6 +84,8 @@ class Plan:
 
 
 def _refuse_outside(start: int, end: int, what: str) -> None:
+    if start < 0:
+        raise RefusedError(f"{what}: there is no address {start}")
     if end > BOOT[0]:
         raise RefusedError(
             f"{what} reaches 0x{end - 1:05X}, into the boot loader ({_area(BOOT)}). That area can only be written with an ISP programmer"
@@ -98,7 +100,7 @@ def _area(area: tuple[int, int]) -> str:
 
 def plan(path: Path, address: int | None = None, board: str | None = None, with_trim: bool = False, damaged: str = "ask") -> Plan:
     """What flashing a file means. `board`: cm5 or cm2 if known, to refuse code for the other one.
-    `address`: of a raw binary that is no motion image. `with_trim`: page 0 goes too although it holds no trim."""
+    `address`: of a raw binary; what it puts among the motion pages is judged as a motion file is. `with_trim`: page 0 goes too although it holds no trim."""
     data = formats.read_bytes(path)
     out = Plan()
     for start, piece in _segments(path, data, address, out, with_trim, damaged):
@@ -117,22 +119,20 @@ def _segments(path: Path, data: bytes, address: int | None, out: Plan, with_trim
     is_hex = data[:200].lstrip(b"\xef\xbb\xbf \r\n").startswith(b":")
     if is_hex and address is not None:
         raise RefusedError("Intel HEX says its addresses itself; --address is for raw binaries")
-    if is_hex:
-        segments = hex_segments(data.decode("ascii", "replace"))
-        if segments and segments[0][0] >= 0x20000:
-            raise RefusedError(f"{path.name} begins at 0x{segments[0][0]:05X}, beyond this board's flash (a CM-510 image?)")
-        for start, piece in segments:
-            _refuse_outside(start, start + len(piece), path.name)
-        code = [(start, piece[: MOTIONS[0] - start]) for start, piece in segments if start < MOTIONS[0]]
-        motions = [(max(start, MOTIONS[0]), piece[max(MOTIONS[0] - start, 0) :]) for start, piece in segments if start + len(piece) > MOTIONS[0]]
-        return code + (_hex_motions(path, motions, out, with_trim, damaged) if motions else [])
-    if address is not None:
-        return [(address, data)]
-    return _motions(path, formats.decode(data, path), out, with_trim, damaged)
+    if not is_hex and address is None:
+        return _motions(path, formats.decode(data, path), out, with_trim, damaged)
+    segments = hex_segments(data.decode("ascii", "replace")) if address is None else [(address, data)]
+    if segments and segments[0][0] >= 0x20000:
+        raise RefusedError(f"{path.name} begins at 0x{segments[0][0]:05X}, beyond this board's flash (a CM-510 image?)")
+    for start, piece in segments:
+        _refuse_outside(start, start + len(piece), path.name)
+    code = [(start, piece[: MOTIONS[0] - start]) for start, piece in segments if start < MOTIONS[0]]
+    motions = [(max(start, MOTIONS[0]), piece[max(MOTIONS[0] - start, 0) :]) for start, piece in segments if start + len(piece) > MOTIONS[0]]
+    return code + (_placed_motions(path, motions, out, with_trim, damaged) if motions else [])
 
 
-def _hex_motions(path: Path, segments: Segments, out: Plan, with_trim: bool, damaged: str) -> Segments:
-    """The motion pages of an Intel HEX file, judged as those of every other file. Pages that it leaves out stay as they are."""
+def _placed_motions(path: Path, segments: Segments, out: Plan, with_trim: bool, damaged: str) -> Segments:
+    """The motion pages of a file with addresses, judged as those of every other file. Pages that it leaves out stay as they are."""
     image, given = Image.empty(), set()
     for start, piece in segments:
         if (start - MOTIONS[0]) % PAGE_BYTES or len(piece) % PAGE_BYTES:

@@ -82,9 +82,11 @@ class LazyGroup(click.Group):
         except (KeyboardInterrupt, click.Abort):
             click.echo("m512: stopped", err=True)
             sys.exit(EXIT_CANCELLED)
-        except BrokenPipeError:
-            sys.stderr.close()
-            sys.exit(0)
+        except BrokenPipeError:  # the results' reader went away, as `| head` does: ended early, which is no success
+            from m512.files.storage import end_results
+
+            end_results()
+            sys.exit(128 + 13)
 
 
 @click.group(

@@ -89,7 +89,7 @@ Examples:
     help="Damaged pages: keep byte for byte, replace by empty ones, or refuse to go on.",
     show_default=True,
 )
-@click.option("--mtn-version", type=click.Choice(["1.00", "1.01"]), default="1.01", help="Version of a .mtn to write.")
+@click.option("--mtn-version", type=click.Choice(["1.00", "1.01"]), help="Version of a .mtn to write (default: 1.01).")
 @click.option("--force", is_flag=True, help="Overwrite TARGET.")
 @click.option("--json", "as_json", is_flag=True, help="Report on stdout as JSON.")
 def convert(
@@ -118,14 +118,23 @@ def convert(
     """
     if storage.exists(target) and not force:
         raise RefusedError(f"{target} is there already (--force overwrites it)")
+    to = formats.BY_SUFFIX.get(target.suffix.lower())
+    if number and to != formats.CSV:
+        raise click.UsageError("--page is for a .csv as TARGET; --only takes some pages of many")
+    if mtn_version and to != formats.MTN:
+        raise click.UsageError("--mtn-version is for a .mtn as TARGET")
+    if as_json and str(target) in ("-", "/dev/stdout"):
+        raise click.UsageError("--json wants a file as TARGET: standard output has the motions")
     image = formats.load(source, int(bits) if bits else None, formats.load(onto) if onto else None)
+    if onto and image.form != formats.MTN:
+        raise click.UsageError(f"--onto is for a .mtn as SOURCE; {source} has a page 0 of its own")
     notes, losses = list(image.notes), []
     moved, left = {}, []
     if only:
         from m512.pages.excerpt import excerpt
 
         whole, wanted = image, page_numbers(only, image)
-        part = excerpt(whole, wanted, count and int(count) or conversion.fitting(whole, source, target))
+        part = excerpt(whole, wanted, count and int(count) or conversion.fitting(whole, target))
         image, moved, left = part.image, part.moved, part.left
         notes += part.notes(whole, wanted)
     if joints:
@@ -138,9 +147,9 @@ def convert(
         image, report = scale12.scaled(image, int(scale))
         losses += report
     bad = conversion.treat_damaged(image, source, damaged, notes)
-    image, lost = conversion.fitted(image, count and int(count), source, target)
+    image, lost = conversion.fitted(image, count and int(count), target)
     losses += lost
-    losses += formats.save(target, image, image.find(number) if number else None, mtn_version)
+    losses += formats.save(target, image, image.find(number) if number else None, mtn_version or "1.01")
     if as_json:
         ui.show(
             json.dumps(

@@ -39,6 +39,8 @@ class Source:
             image = read_motions(self.word, self.which_board)
             self.found = image.resized(image.end)[0]
             return image
+        if Path(self.word).is_dir():
+            raise FileError(f"{self.word} is a folder; the motions of a backup are its file motions.bin")
         image = formats.load(Path(self.word), self.bits)
         for note in image.notes:
             ui.say(f"note: {note}")
@@ -46,6 +48,8 @@ class Source:
 
     def store(self, remarks: Iterable[str], output: Any, in_place: bool, force: bool, yes: bool) -> None:
         """Writes the changed image where it was asked for."""
+        if output and in_place:
+            raise click.UsageError("-o FILE or --in-place: say one of the two")
         for remark in remarks:
             ui.say(f"note: {remark}")
         if output:
@@ -62,7 +66,7 @@ class Source:
                     f"{self.word} is somebody's text: --in-place would make numbers of its comments, poses, names "
                     "and includes. Change the text itself, or write the result elsewhere: -o new.m512"
                 )
-            for loss in formats.save(Path(self.word), self.image):
+            for loss in formats.save(Path(self.word), self.image, kind=self.image.form):
                 ui.say(f"loss: {loss}")
         else:
             raise RefusedError("say where the result goes: -o FILE, or --in-place")
@@ -232,6 +236,8 @@ def extract(source: Source, page: Sequence[str], **where: Any) -> None:
     """Keep these pages only, at their numbers."""
     numbers = set(page_numbers(page, source.image))
     remarks = []
+    if 0 not in numbers and source.image.first == 0 and any(source.image[0].trims()):
+        remarks.append("page 0, the robot's trim, is left behind: extract 0 as well keeps it")
     for number, here in source.image.items():
         if number not in numbers:
             source.image[number] = Page()

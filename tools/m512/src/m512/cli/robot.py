@@ -15,7 +15,7 @@ import click
 from m512 import ui
 from m512.cli.board import json_option, only_the_simulator, port_option
 from m512.cli.files import page_moves, page_numbers
-from m512.errors import NoAnswerError, RefusedError, WordError
+from m512.errors import BoardError, NoAnswerError, RefusedError, WordError
 
 if TYPE_CHECKING:
     from m512.board.client import Client
@@ -43,7 +43,7 @@ def robot(options: dict[str, Any], image: Any = "play") -> Iterator[Client]:
     from m512.board.client import Client
     from m512.board.link import Link
 
-    if options["motions"] and not options["sim"]:
+    if options.get("motions") and not options["sim"]:
         raise click.UsageError("--motions is for --sim; a robot gets its motions with `m512 flash` or `put`")
     if options["sim"]:
         only_the_simulator()
@@ -161,6 +161,9 @@ def pose(positions: Sequence[str], speed: int, as_text: bool, **options: Any) ->
     wanted = positions_of(positions)
     with robot(options) as client:
         if wanted:
+            missing = sorted(wanted.keys() - client.pose().keys())
+            if missing:
+                raise BoardError(f"no answer from servos {' '.join(map(str, missing))}: nothing was moved")
             client.move(wanted, speed)
             ui.say("moving; waiting for the end")
             _follow(client)
@@ -256,7 +259,9 @@ Examples:
 @click.argument("source", type=click.Path(path_type=Path))
 @click.argument("pages", nargs=-1, required=True)
 @click.option("--yes", is_flag=True, help="Do not ask before a page of another name is lost.")
-@robot_options
+@click.option("--sim", is_flag=True, hidden=True)
+@json_option
+@port_option
 def put(source: Path, pages: Sequence[str], yes: bool, **options: Any) -> None:
     """Save PAGES of a motion file to the board, one by one, while Edit runs there: 3, wave, 20..25, `all`, or wave:40 to number 40.
 

@@ -43,10 +43,10 @@ def treat_damaged(image: Image, source: Path, how: str, notes: list[str]) -> lis
     return [page for page, _ in bad]
 
 
-def fitted(image: Image, count: int | None, source: Path, target: Path) -> tuple[Image, list[str]]:
+def fitted(image: Image, count: int | None, target: Path) -> tuple[Image, list[str]]:
     """The image with as many pages as the result has (`count`; None: what suits the two kinds of file), and what that loses.
     RefusedError: pages of the user's would be lost and nobody asked for that count."""
-    wanted = count or fitting(image, source, target)
+    wanted = count or fitting(image, target)
     if wanted == image.end:
         return image, []
     lost = image.beyond(wanted)
@@ -59,8 +59,8 @@ def fitted(image: Image, count: int | None, source: Path, target: Path) -> tuple
     return image.resized(wanted)
 
 
-def fitting(image: Image, source: Path, target: Path) -> int:
+def fitting(image: Image, target: Path) -> int:
     """As many as the source has. A .mtn always has 255, whatever the robot has: one is made from what there is, and read
     for a board of 128."""
-    from_mtn, to_mtn = (formats.BY_SUFFIX.get(path.suffix.lower()) == formats.MTN for path in (source, target))
-    return 128 if from_mtn and not to_mtn else image.end
+    to_mtn = formats.BY_SUFFIX.get(target.suffix.lower()) == formats.MTN
+    return 128 if image.form == formats.MTN and not to_mtn else image.end

@@ -71,6 +71,12 @@ def decode(data: bytes, path: Path, bits: int | None = None, base: Image | None 
 
 def _decoded(data: bytes, path: Path, bits: int | None, base: Image | None) -> Image:
     kind = recognise(data, path)
+    image = _image(kind, data, path, bits, base)
+    image.form = kind
+    return image
+
+
+def _image(kind: str, data: bytes, path: Path, bits: int | None, base: Image | None) -> Image:
     if kind == BINARY:
         return scale12.judged(raw.from_bytes(data, bits or 10), bits)
     if kind == HEX:
@@ -88,15 +94,15 @@ def _decoded(data: bytes, path: Path, bits: int | None, base: Image | None) -> I
     return csvpage.read(_text_of(data, path), str(path))
 
 
-def save(path: Path, image: Image, number: int | None = None, mtn_version: str = "1.01") -> list[str]:
-    """Writes an image in the format of the path's suffix; returns the losses. `number`: the page of a CSV."""
-    data, losses = encode(path, image, number, mtn_version)
+def save(path: Path, image: Image, number: int | None = None, mtn_version: str = "1.01", kind: str | None = None) -> list[str]:
+    """Writes an image in the format of the path's suffix, or as `kind`; returns the losses. `number`: the page of a CSV."""
+    data, losses = encode(path, image, number, mtn_version, kind)
     write_bytes(path, data)
     return losses
 
 
-def encode(path: Path, image: Image, number: int | None = None, mtn_version: str = "1.01") -> tuple[bytes, list[str]]:
-    kind = BY_SUFFIX.get(path.suffix.lower(), TEXT if storage.is_stream(path) else None)
+def encode(path: Path, image: Image, number: int | None = None, mtn_version: str = "1.01", kind: str | None = None) -> tuple[bytes, list[str]]:
+    kind = kind or BY_SUFFIX.get(path.suffix.lower(), TEXT if storage.is_stream(path) else None)
     if kind is None:
         raise FileError(f"{path}: the suffix decides the format: {' '.join(BY_SUFFIX)}")
     if kind == BINARY:

@@ -35,6 +35,7 @@ class Image:
     bits: int = 10
     notes: list[str] = field(default_factory=list)
     joints: dict[int, str] = field(default_factory=dict)  # names, where the file gives some
+    form: str = ""  # what kind of file it was read from (formats.TEXT, BINARY, ...)
 
     @classmethod
     def empty(cls, count: int = 128) -> Image:
@@ -96,7 +97,7 @@ class Image:
     def resized(self, count: int) -> tuple[Image, list[str]]:
         """The same as pages 0..count-1, with a list of what is lost. Links to pages that are no longer there become empty."""
         losses = []
-        out = Image([Page() for _ in range(count)], 0, self.bits, list(self.notes), dict(self.joints))
+        out = Image([Page() for _ in range(count)], 0, self.bits, list(self.notes), dict(self.joints), self.form)
         lost = self.beyond(count)
         if lost:
             losses.append(f"{named_pages_text(lost)}: no room among {count} pages, left out")

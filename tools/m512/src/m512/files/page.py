@@ -207,15 +207,17 @@ class Page:
         more = f" and {len(bad) - 3} more" if len(bad) > 3 else ""
         return f"position beyond {kind.pos_max}: " + ", ".join(bad[:3]) + more
 
+    def trims(self) -> list[int]:
+        """What a robot whose page 0 this is adds to its joints' goals: the third step holds it, signed (motion/PAGE_FORMAT.md)."""
+        if self.data == b"\xff" * PAGE_BYTES:
+            return [0] * JOINTS
+        return [0 if POS_UNUSED <= word < POS_UNUSED + 0x2000 else word - 0x10000 if word & 0x8000 else word for word in self.words(2)]
+
     def trim_problem(self) -> str:
-        """For page 0: why it is no trim, in words; empty when it may be one. Its third step holds the signed trim of each joint, which is
-        the second step less the first where both hold a pose (motion/PAGE_FORMAT.md)."""
-        for joint in range(JOINTS):
-            master, own, word = (self.word(step, joint) for step in range(3))
-            if POS_UNUSED <= word < POS_UNUSED + 0x2000:  # none
-                trim = 0
-            else:
-                trim = word - 0x10000 if word & 0x8000 else word
+        """For page 0: why it is no trim, in words; empty when it may be one. A joint's trim is its position in the second
+        step less that in the first, where both hold a pose."""
+        for joint, trim in enumerate(self.trims()):
+            master, own = self.word(0, joint), self.word(1, joint)
             if master <= 1023 and own <= 1023 and trim != own - master:
                 return (
                     f"the trim belongs here, and this looks like a motion: ID {joint} has {trim} in its third step, "

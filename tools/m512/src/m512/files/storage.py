@@ -10,6 +10,7 @@ import stat
 import sys
 import tempfile
 from pathlib import Path
+from typing import TextIO
 
 from m512.errors import FileError
 
@@ -86,10 +87,14 @@ def write(path: Path, data: bytes) -> None:
 
 
 def end_results() -> None:
-    """After stdout has refused something: what still waits for it is dropped, because it would be refused again at the end, with a
-    traceback."""
+    """After stdout has refused something: what still waits for it is dropped."""
+    drop(sys.stdout)
+
+
+def drop(stream: TextIO) -> None:
+    """What waits for a stream that refuses it, and what comes, is lost: it would be refused again at the end, with a traceback."""
     with contextlib.suppress(OSError, AttributeError):
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 def _replace(path: Path, data: bytes) -> None:

@@ -131,6 +131,10 @@ def _softness(page: Page, joint: int) -> str:
 
 def _whole(number: int, a: Page, b: Page) -> list[Change]:
     """Pages that came, went or have nothing in common."""
+    if number == 0 and all(is_erased(page) or page.is_empty and not page.fault() for page in (a, b)):
+        trims = [Change(0, "", "trim", str(x), str(y), joint=joint) for joint, (x, y) in enumerate(zip(a.trims(), b.trims())) if x != y]
+        if trims:
+            return trims
     if is_erased(a) or is_erased(b):
         other = b if is_erased(a) else a
         before, after = (("erased flash" if is_erased(p) else _summary(p)) for p in (a, b))

@@ -47,7 +47,7 @@ def excerpt(image: Image, wanted: Iterable[int], count: int) -> Excerpt:
     kept = {number: number for number in taken if number in room}
     free = iter(sorted(set(room) - set(kept)))
     moved = {**kept, **{number: next(free) for number in sorted(taken - set(kept))}}
-    out = Image([Page() for _ in range(count)], 0, image.bits, list(image.notes), dict(image.joints))
+    out = Image([Page() for _ in range(count)], 0, image.bits, list(image.notes), dict(image.joints), image.form)
     if image.first == 0:
         out[0] = image[0]
     for old, new in moved.items():

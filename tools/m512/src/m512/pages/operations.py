@@ -104,16 +104,23 @@ def rename(image: Image, number: int, name: str) -> list[str]:
     return [f"page {' and '.join(same)} is called {name!r}, too: only the numbers tell them apart"] if same else []
 
 
-def _must_be_free(image: Image, number: int, replace: bool) -> None:
+def _must_be_free(image: Image, number: int, replace: bool, how: str = "--replace overwrites it") -> None:
     page = image[number]
-    if not page.is_empty and not is_erased(page) and not replace:
-        raise RefusedError(f'page {number} "{page.title}" is not empty (--replace overwrites it)')
+    title = f' "{page.title}"' if page.name else ""
+    is_free = is_erased(page) or page.is_empty and not (number == 0 and any(page.trims()))
+    if not is_free and not replace:
+        raise RefusedError(f"page {number}{title} is not empty ({how})")
 
 
 def keep_trim(source: int, target: int) -> None:
     """Page 0 goes to page 0 alone, and nothing else goes there: a robot with a motion for a trim stands askew."""
     if (source == 0) != (target == 0):
         raise RefusedError("page 0 is a robot's trim and no motion: it stays page 0, and no other page becomes it")
+
+
+def _no_trim(number: int) -> None:
+    if number == 0:
+        raise RefusedError("page 0 is a robot's trim and no motion")
 
 
 def copy(image: Image, source: int, target: int, replace: bool = False) -> list[str]:
@@ -128,8 +135,11 @@ def copy(image: Image, source: int, target: int, replace: bool = False) -> list[
 def delete(image: Image, numbers: Iterable[int]) -> list[str]:
     remarks = []
     gone = set(numbers)
+    if 0 in gone and any(image[0].trims()):
+        remarks.append("page 0 held the robot's trim")
     for number in gone:
         image[number] = Page()
+    gone -= {0}  # a link of 0 is none
     for number, page in image.items():
         if number not in gone:
             remarks += [
@@ -157,9 +167,11 @@ def renumber(image: Image, source: int, target: int, swap: bool = False) -> list
     """Moves a page; all links in the image follow."""
     if not source or not target:
         raise RefusedError("page 0 is the trim and stays where it is")
-    if not swap:
-        _must_be_free(image, target, False)
     need_good(image, source)
+    if source == target:
+        return []
+    if not swap:
+        _must_be_free(image, target, False, "--swap exchanges the two")
     moved = {source: target, target: source}
     image[source].data, image[target].data = image[target].data, image[source].data
     if not swap:
@@ -192,6 +204,7 @@ def mirror(image: Image, number: int, pairs: dict[int, int], target: int | None 
     """Left for right: joints of a pair exchange positions (p becomes 1024 - p) and softness."""
     target = number if target is None else target
     keep_trim(number, target)
+    _no_trim(number)
     _must_be_free(image, target, replace or target == number)
     old, remarks, top = need_good(image, number), [], image.kind.pos_max
     page = old.copy()
@@ -214,6 +227,7 @@ def retime(image: Image, number: int, factor: float) -> list[str]:
     """Makes a page take `factor` times as long: step times, pauses and ramp, rounded to ticks."""
     if not 0.01 <= factor <= 100:
         raise FileError("the factor is 0.01..100")
+    _no_trim(number)
     page = need_good(image, number)
     before = page_seconds(page)
     for step in range(page.steps):

@@ -170,7 +170,16 @@ def _header(page: Page, number: int, style: Style) -> list[str]:
     return out
 
 
-def _steps(page: Page, style: Style) -> list[str]:
+def _offset(page: Page, fill: bytes) -> str:
+    """The trim of page 0 in FORMAT.md's words; empty if they do not say its third step."""
+    base, block = block_words(fill), block_words(page.step_bytes(2))
+    trims = {joint: word - 0x10000 if word & 0x8000 else word for joint, word in block.items() if word != base[joint]}
+    if any(page.step_bytes(2)[-2:]) or not all(abs(trim) <= 1023 for trim in trims.values()):
+        return ""
+    return " ".join(["offset"] + grouped({joint: f"{trim:+d}" for joint, trim in trims.items()}))
+
+
+def _steps(page: Page, number: int, style: Style) -> list[str]:
     fill, base = style.fill_of(page), block_words(style.fill_of(page))
     count = min(page.steps, STEPS)
     table = [
@@ -186,7 +195,8 @@ def _steps(page: Page, style: Style) -> list[str]:
         cells = [cell.ljust(width) if i in (0, 2) else cell.rjust(width) for i, (cell, width) in enumerate(zip(line, widths)) if width]
         out.append(" ".join(cells).rstrip())
     spares = [k for k in range(count, STEPS) if page.step_bytes(k) != fill]
-    out += [_sparse(f"spare {k}", page.step_bytes(k), fill, style.pos_max).strip() for k in spares]
+    offset = _offset(page, fill) if number == 0 and 2 in spares else ""
+    out += [offset if offset and k == 2 else _sparse(f"spare {k}", page.step_bytes(k), fill, style.pos_max).strip() for k in spares]
     if page.steps != count:
         out.append(f"steps {page.steps}")
     return out
@@ -205,7 +215,7 @@ def page_text(page: Page, numbers: tuple[int, int], style: Style) -> str:
     fault = page.fault_text(style.image.kind)
     if fault:
         out.append(f"# damaged: {fault}")
-    out += _header(page, numbers[0], style) + _steps(page, style)
+    out += _header(page, numbers[0], style) + _steps(page, numbers[0], style)
     if page.fault() is Fault.CHECKSUM:
         out.append(f"checksum 0x{page.checksum:02X}")
     return "\n  ".join(out) + "\n"
