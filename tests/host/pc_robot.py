@@ -16,7 +16,7 @@ import time
 TOP = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ.get("M512_BUILD", TOP / "build"))
 PROGRAMS = BUILD / "host" / "firmware"
-CM5SIM = BUILD / "host" / "tools" / "sim" / "cm5sim"
+CM5SIM = TOP / "tools" / "sim" / "cm5sim"
 PATIENCE_S = 120
 SYNC_WRITE, GOAL, READ = 0x83, 30, 2
 LATE = b"The computer came 0.1 s late"  # the program has broken its play off, as it should

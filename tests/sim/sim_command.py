@@ -11,7 +11,7 @@ import time
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ.get("M512_BUILD", TOP / "build"))
-CM5SIM = BUILD / "host" / "tools" / "sim" / "cm5sim"
+CM5SIM = TOP / "tools" / "sim" / "cm5sim"
 ROBOT = BUILD / "firmware" / "tests" / "robot.hex"  # tests/sim/robot/robot.c
 
 

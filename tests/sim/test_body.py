@@ -14,7 +14,6 @@ from body.hand import Hand
 from body.physics import Physics
 from body.trial import try_motion
 from cm5sim import Board
-from cm5sim.library import build_folder
 from m512.files.formats import load as load_motions
 from tests.sim.snapshot import attempt
 
@@ -91,7 +90,7 @@ def test_detached_servos_stay_where_they_are_and_turn_by_themselves(on_its_feet)
 
 
 def cm5sim(*words, script=None, tmp_path=None):
-    command = [str(build_folder() / "host" / "tools" / "sim" / "cm5sim"), *words]
+    command = [str(TOP / "tools" / "sim" / "cm5sim"), *words]
     if script:
         (tmp_path / "script.txt").write_text(script)
         command += ["--script", str(tmp_path / "script.txt")]
@@ -133,7 +132,7 @@ def test_command_takes_the_body_as_any_option_is_written():
 @pytest.fixture(name="demo")
 def _demo(tmp_path):
     """demo(words, display) -> what tools/demo says, and the words that it starts cm5sim with. Setup and build are left out."""
-    for path, text in (("tools/dev/setup", ""), ("tools/dev/build", ""), ("build/host/tools/sim/cm5sim", 'echo "cm5sim $@"')):
+    for path, text in (("tools/dev/setup", ""), ("tools/dev/build", ""), ("tools/sim/cm5sim", 'echo "cm5sim $@"')):
         stub = tmp_path / path
         stub.parent.mkdir(parents=True, exist_ok=True)
         stub.write_text(f"#!/bin/sh\n{text}\n")

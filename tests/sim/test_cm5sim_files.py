@@ -4,10 +4,11 @@
 import csv
 import socket
 import subprocess
+import sys
 import time
 import xml.etree.ElementTree
 
-from tests.sim.sim_command import ROBOT, Running, play, run
+from tests.sim.sim_command import ROBOT, TOP, Running, play, run
 
 # --- what is kept, what is written ---
 
@@ -71,11 +72,10 @@ def test_plot_is_a_picture(tmp_path):
     assert png.read_bytes().startswith(b"\x89PNG")
 
 
-def test_plot_without_matplotlib_says_so(tmp_path, monkeypatch):
-    (tmp_path / "python").write_text('#!/bin/sh\nexec python3 -I -S "$@"\n')  # no site-packages
-    (tmp_path / "python").chmod(0o755)
-    monkeypatch.setenv("M512_PYTHON", str(tmp_path / "python"))
-    done = play(tmp_path, MOVE, "--plot", tmp_path / "move.svg")
+def test_plot_without_matplotlib_says_so(tmp_path):
+    (tmp_path / "script.txt").write_text(MOVE)
+    bare = [sys.executable, "-S", TOP / "tools" / "sim" / "python" / "start.py"]  # no site-packages
+    done = subprocess.run([*bare, ROBOT, "--script", tmp_path / "script.txt", "--plot", tmp_path / "move.svg"], capture_output=True, check=False)
     assert done.returncode == 4
     assert b"no picture without matplotlib" in done.stderr
 

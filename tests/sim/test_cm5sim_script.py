@@ -5,6 +5,8 @@ import subprocess
 
 import pytest
 
+from cm5sim import words
+from cm5sim.bus import ends_whole
 from tests.sim.sim_command import CM5SIM, ROBOT, Running, play
 
 # --- scripts ---
@@ -175,3 +177,68 @@ def test_script_goes_on_when_nobody_reads(tmp_path):
 def test_script_tells_all_mistakes_at_once(tmp_path):
     done = play(tmp_path, "jump\nwait 1s\nhop\n")
     assert ":1: " in done.stderr.decode() and ":3: " in done.stderr.decode()
+
+
+# --- words ---
+
+
+@pytest.mark.parametrize(
+    "text, cycles",
+    [
+        ("1s", 16000000),
+        ("1.5s", 24000000),
+        ("500ms", 8000000),
+        ("20us", 320),
+        ("128ticks", 16000000),  # 128 to a second
+        ("1tick", 125000),
+        ("2min", 1920000000),
+        ("7cycles", 7),
+        ("0", 0),
+        *((wrong, None) for wrong in ("", "s", "5", "5x", "-1s", "1s2", "nan", "inf", "1e99s", "five", "9999999999s")),
+    ],
+)
+def test_duration_is_in_cycles_of_16_mhz(text, cycles):
+    assert words.duration(text) == cycles
+
+
+@pytest.mark.parametrize("text, value", [("253", 253), ("0x1f", 31), ("010", 10), *((wrong, None) for wrong in ("254", "-1", "", "12a", "0x", "1f"))])
+def test_number_keeps_to_its_range(text, value):
+    assert words.number(text, 0, 253) == value
+
+
+@pytest.mark.parametrize(
+    "text, word", [("U", 1), ("d+L+r", 14), ("1+6", 16 + 512), ("u+U", 1), ("0", 0), *((wrong, None) for wrong in ("", "7", "U+", "UD", "+"))]
+)
+def test_rc_keys_are_the_bits_of_the_remote(text, word):
+    assert words.rc_keys(text) == word
+
+
+@pytest.mark.parametrize(
+    "line, found",
+    [
+        (rb'  send	"a # \r\n\x41\"\\" within 2s# rest', [(b"send", False), (b'a # \r\nA"\\', True), (b"within", False), (b"2s", False)]),
+        (rb'"a\0b\x00"', [(b"a\0b\0", True)]),
+        ('note "müde"'.encode(), [(b"note", False), ("müde".encode(), True)]),
+        (b'"a""b"c', [(b"a", True), (b"b", True), (b"c", False)]),
+        (b"   # nothing", []),
+        (b"", []),
+    ],
+)
+def test_split_finds_words_texts_and_comments(line, found):
+    assert words.split(line) == found
+
+
+@pytest.mark.parametrize("line", [b'"open', rb'"\q"', rb'"\x4"', b'"\\', rb'a "\"'])
+def test_split_names_what_is_wrong(line):
+    with pytest.raises(ValueError, match="closing|unknown escape"):
+        words.split(line)
+
+
+PING = bytes([0xFF, 0xFF, 3, 2, 1, 0xF9])
+
+
+@pytest.mark.parametrize("before", [b"", b"\x00", b"\xff", PING, PING[:5]])
+def test_end_of_a_packet_is_seen(before):
+    """Not behind one that is cut short: what follows fills it."""
+    assert ends_whole(before + PING) == (before != PING[:5])
+    assert not any(ends_whole(PING[:count]) for count in range(len(PING)))

@@ -14,7 +14,7 @@ WORN = b"worn before"
 @pytest.fixture(name="demo")
 def _demo(tmp_path):
     """demo(words) -> the terminal of tools/demo, where a stand-in for cm5sim says its words and ends with Enter. Nothing is built."""
-    for path, text in (("tools/dev/build", ""), ("build/host/tools/sim/cm5sim", 'echo "cm5sim $*"; read -r line')):
+    for path, text in (("tools/dev/build", ""), ("tools/sim/cm5sim", 'echo "cm5sim $*"; read -r line')):
         stub = tmp_path / path
         stub.parent.mkdir(parents=True, exist_ok=True)
         stub.write_text(f"#!/bin/sh\n{text}\n")

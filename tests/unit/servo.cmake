@@ -9,9 +9,3 @@ foreach(test test_servo test_servo_motor test_servo_bus test_servo_fault)
         target_link_libraries(${test} PRIVATE m)
     endif()
 endforeach()
-
-# Words of cm5sim's command line and scripts.
-m512_unit_test(test_cli_text SOURCES tools/sim/cm5sim/cli_text.c INCLUDES tools/sim/cm5sim)
-if(TARGET test_cli_text)
-    target_link_libraries(test_cli_text PRIVATE m)
-endif()

@@ -15,7 +15,7 @@ set(M512_SANITIZE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-om
 # m512_needs(<test> WORLD:TARGET...): what must be built before the test runs, so that `tools/test NAME` builds no more than
 # that. WORLD is host or avr. `web`: the page in the browser; `node`: Node alone. A test of which nothing is noted needs everything.
 # m512_write_needs() writes build/host/test_needs.txt, a line a test.
-set(M512_NEEDS_BOARD host:cm5sim host:cm5sim_shared host:target_runner host:motion_image avr:images avr:sim_programs)
+set(M512_NEEDS_BOARD host:cm5sim_shared host:target_runner host:motion_image avr:images avr:sim_programs)
 function(m512_needs test)
     string(REPLACE ";" " " needs "${ARGN}")
     set_property(GLOBAL APPEND PROPERTY M512_NEEDS "${test} ${needs}\n")

@@ -61,6 +61,7 @@ double servo_api_state(servo_t *servo, uint64_t now_cycles, servo_api_state_t wh
     case SERVO_API_HELD: return servo->held;
     case SERVO_API_LATE_US: return servo->late_us;
     case SERVO_API_TORQUE: return servo->motor_nm;
+    case SERVO_API_POWERED: return servo->powered;
     }
     return 0;
 }
@@ -77,6 +78,32 @@ void servo_api_set_state(servo_t *servo, uint64_t now_cycles, servo_api_state_t 
     default: break;
     }
     servo_advance(servo, now_cycles);
+}
+
+void servo_api_restore(servo_t *servo, const uint8_t *eeprom)
+{
+    memcpy(servo->table, eeprom, SERVO_EEPROM_BYTES);
+}
+
+void servo_api_row(servo_bus_t *bus, uint64_t now_cycles, int count, double *goals_and_positions)
+{
+    for (int i = 0; i < count; i++) {
+        servo_t *servo = bus->servos[i];
+        servo_advance(servo, now_cycles);
+        const bool driven = servo->powered && servo->table[SERVO_TORQUE_ENABLE];
+        goals_and_positions[2 * i] = driven ? servo_get(servo, SERVO_GOAL, 2) : -1;
+        goals_and_positions[2 * i + 1] = servo->position;
+    }
+}
+
+void servo_api_listen(servo_bus_t *bus, servo_bus_byte_fn heard)
+{
+    bus->on_byte = heard;
+}
+
+uint64_t servo_api_next_cycles(const servo_bus_t *bus)
+{
+    return servo_bus_next_cycles(bus);
 }
 
 uint32_t servo_api_counter(const servo_t *servo, int index)

@@ -32,10 +32,21 @@ typedef enum {
     SERVO_API_CELSIUS,   /* temperature, degrees C */
     SERVO_API_HELD,      /* not 0: blocked */
     SERVO_API_LATE_US,   /* how late the fault "late" answers */
-    SERVO_API_TORQUE     /* of the motor, N m, positive towards larger positions */
+    SERVO_API_TORQUE,    /* of the motor, N m, positive towards larger positions */
+    SERVO_API_POWERED    /* not 0: it has power */
 } servo_api_state_t;
 double servo_api_state(servo_t *servo, uint64_t now_cycles, servo_api_state_t which);
 void servo_api_set_state(servo_t *servo, uint64_t now_cycles, servo_api_state_t which, double value);
+
+/* Puts the EEPROM area (addresses 0..SERVO_EEPROM_BYTES - 1) back as it was kept. Before the servo gets power. */
+void servo_api_restore(servo_t *servo, const uint8_t *eeprom);
+
+/* For a trace: of each of the first `count` servos its goal (-1: limp) and its position, with fractions. */
+void servo_api_row(servo_bus_t *bus, uint64_t now_cycles, int count, double *goals_and_positions);
+
+/* The bus without a board: who hears the servos' bytes, and when the bus has its next event by itself. */
+void servo_api_listen(servo_bus_t *bus, servo_bus_byte_fn heard);
+uint64_t servo_api_next_cycles(const servo_bus_t *bus);
 
 /* Counters in the order of servo_stats_t: packets, answers, checksum errors, framing errors, gaps, oversize, deaf. */
 uint32_t servo_api_counter(const servo_t *servo, int index);

@@ -75,7 +75,9 @@ class Board(Inside, Wear):
         servos: Iterable[int] = (),
         seed: int = 1,
         bootrst: bool | None = None,
+        keep_packets: bool = True,
     ) -> None:
+        """keep_packets: for `packets` and `trace`; a run of hours would fill the memory with them."""
         self._lib = library.load()
         self._pointer = self._lib.board_new({"cm5": 0, "cm2": 1}[kind], seed)
         if not self._pointer:
@@ -94,7 +96,8 @@ class Board(Inside, Wear):
         self.servos = Servos(self._lib, self._lib.board_servo_bus(self._pointer), lambda: self.now_cycles)
         for number in servos:
             self.servos.add(number)
-        self._lib.board_trace_start(self._pointer)
+        if keep_packets:
+            self.clear_trace()
 
     def _memory(self, size: int, name: str) -> Memory:
         return Memory(self, size, getattr(self._lib, f"board_{name}_read"), getattr(self._lib, f"board_{name}_write"))
@@ -168,6 +171,10 @@ class Board(Inside, Wear):
         if why == _POWER_CUT:
             raise PowerCut(f"at cycle {self.now_cycles}, operation {self.operations}")
         return why
+
+    def stop(self) -> None:
+        """Ends a run. From another thread as well, and also where it waits for GDB."""
+        self._lib.board_stop(self._pointer)
 
     def run_to(self, function: int | str, ms: float = 1000) -> None:
         """Runs to the first instruction of a function (a name or a flash byte address)."""

@@ -1,27 +1,89 @@
 # SPDX-License-Identifier: MIT
-"""The command `cm5sim` of the wheel: starts the program that the wheel brings, with its images and libraries beside it."""
+"""The command cm5sim: the simulated robot at a terminal, on ports, or under a script. `cm5sim --help` and ../../README.md say what it does."""
 
-import os
+from __future__ import annotations
+
+import signal
 import sys
+import threading
+from typing import TYPE_CHECKING
 
-from . import library
+from . import options as opt
+from .options import Options
+
+if TYPE_CHECKING:
+    from .script import Script
+    from .session import Session
+
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+class Stop:
+    """A signal ends a run between two slices. A thread of its own waits for it, because a system call that one interrupts upsets simavr's
+    GDB server (it then waits for a client for ever)."""
+
+    def __init__(self) -> None:
+        self.asked = False
+        self.session: Session | None = None  # the one that runs
+        signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
+        threading.Thread(target=self._wait, daemon=True).start()
+
+    def _wait(self) -> None:
+        signal.sigwait(SIGNALS)
+        self.asked = True
+        session = self.session
+        if session:
+            session.interrupt()
 
 
 def main() -> None:
-    """Does not return: the program takes this process over."""
-    program = library.build_folder() / "host" / "tools" / "sim" / "cm5sim"
-    if not program.exists():
-        sys.exit(f"cm5sim: {program} is missing; in the source tree tools/demo builds it")
-    environment = dict(os.environ, M512_BUILD=str(library.build_folder()))
-    if library.ROBOT.exists():
-        path = [str(library.ROBOT / "lib")] + [old for old in [environment.get("LD_LIBRARY_PATH")] if old]
-        environment["LD_LIBRARY_PATH"] = os.pathsep.join(path)
-        environment.setdefault("M512_PYTHON", sys.executable)
-        scripts = library.ROBOT / "tools"
-        environment.setdefault("M512_PLOT_SCRIPT", str(scripts / "sim" / "cm5sim" / "plot_trace.py"))
-        environment.setdefault("M512_BODY_SCRIPT", str(scripts / "body" / "src" / "with_body.py"))  # as setup.py puts it
-    os.execve(program, ["cm5sim", *sys.argv[1:]], environment)
+    stop = Stop()
+    try:
+        sys.exit(run(opt.parse(sys.argv[1:]), stop))
+    except OSError as error:
+        from .files import reason
+
+        print(f"cm5sim: {reason(error)}", file=sys.stderr)
+        sys.exit(opt.EXIT_FILE)
 
 
-if __name__ == "__main__":
-    main()
+def run(options: Options, stop: Stop) -> int:
+    """Returns the exit code. OSError: a file or port cannot be used."""
+    from .script import Script
+
+    try:
+        script = Script(options.script) if options.script else None
+    except ValueError as mistakes:
+        print(mistakes, file=sys.stderr)
+        return opt.EXIT_USAGE
+    if options.bus_pty is not None:
+        from . import bus
+
+        bus.main(options, lambda: stop.asked)
+        return opt.EXIT_GOOD
+    return run_board(options, stop, script)
+
+
+def run_board(options: Options, stop: Stop, script: Script | None) -> int:
+    from .session import Session
+
+    watch = None
+    if options.body:
+        from .in_body import Watch
+
+        watch = Watch(options.body, options.view)
+    session = Session(options, script, watch)
+    opened = False
+    try:
+        session.open()
+        opened = True
+        stop.session = session
+        if stop.asked:
+            session.interrupt()
+        session.run()
+    finally:
+        stop.session = None
+        session.close(opened)
+    if watch:
+        watch.report()
+    return session.exit_code

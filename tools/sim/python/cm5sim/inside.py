@@ -104,3 +104,8 @@ class Inside:
     def step(self) -> int:
         """Runs one instruction or interrupt response and returns its cycles."""
         return int(self._lib.board_step(self._pointer))
+
+    def gdb(self, port: int) -> None:
+        """Waits for avr-gdb on this port of 127.0.0.1, and runs as it says from then on."""
+        if not self._lib.board_gdb(self._pointer, port, True):
+            raise OSError(self._lib.board_error(self._pointer).decode())

@@ -77,6 +77,7 @@ _FUNCTIONS: dict[str, tuple[Any, ...]] = {  # name: result, arguments...
     "board_resets": (U32, P),
     "board_reset_cause": (I, P),
     "board_run": (I, P, U64),
+    "board_stop": (None, P),
     "board_now": (U64, P),
     "board_busy_cycles": (U64, P),
     "board_stop_on_text": (None, P, S),
@@ -154,7 +155,7 @@ def load() -> ctypes.CDLL:
     """The library, declared. Built by: cmake --build build/host --target cm5sim_shared."""
     path = build_folder() / "host" / "tools" / "sim" / "libcm5sim.so"
     if not path.exists():
-        raise FileNotFoundError(f"{path} is missing: build target cm5sim_shared of the host preset first")
+        raise FileNotFoundError(f"{path} is missing; in the source tree tools/dev/build makes it")
     for needed in sorted(path for path in (ROBOT / "lib").glob("*.so*") if path.suffix != ".copyright"):
         ctypes.CDLL(str(needed), mode=ctypes.RTLD_GLOBAL)
     lib = ctypes.CDLL(str(path))

@@ -17,8 +17,9 @@ import ctypes
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
-TABLE_BYTES = 50
+TABLE_BYTES, EEPROM_BYTES = 50, 24
 ALWAYS = 0xFFFFFFFF
+MODELS = ("ax12", "ax18", "dx117")
 FAULTS = (
     "silent",
     "dead",
@@ -37,8 +38,8 @@ FAULTS = (
 )
 ERROR_NAMES = {1: "voltage", 2: "angle-limit", 4: "overheating", 8: "range", 16: "checksum", 32: "overload", 64: "instruction"}
 COUNTERS = ("packets", "answers", "checksum_errors", "framing_errors", "gaps", "oversize", "deaf")
-_STATES = ("position", "velocity", "output", "outside_load", "ambient", "celsius", "held", "late_us", "torque_nm")
-_SETTABLE = _STATES[3:-1]
+_STATES = ("position", "velocity", "output", "outside_load", "ambient", "celsius", "held", "late_us", "torque_nm", "powered")
+_SETTABLE = _STATES[3:8]
 _REGISTERS = {  # name: (address, bytes)
     "model": (0, 2),
     "id": (3, 1),
@@ -57,6 +58,9 @@ _REGISTERS = {  # name: (address, bytes)
 }
 
 
+BYTE_HEARD = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_uint64, ctypes.c_uint8, ctypes.c_uint32, ctypes.c_bool)
+
+
 def declare(lib: ctypes.CDLL) -> None:
     """Tells ctypes the signatures; harmless when repeated."""
     p, u8, u16, u32, u64 = ctypes.c_void_p, ctypes.c_uint8, ctypes.c_uint16, ctypes.c_uint32, ctypes.c_uint64
@@ -73,6 +77,14 @@ def declare(lib: ctypes.CDLL) -> None:
         ("servo_api_fault", ctypes.c_bool, [p, u64, p, ctypes.c_char_p, u32]),
         ("servo_api_clear", None, [p, u64, p]),
         ("servo_api_model", ctypes.c_int, [ctypes.c_char_p]),
+        ("servo_api_restore", None, [p, ctypes.c_char_p]),
+        ("servo_api_row", None, [p, u64, ctypes.c_int, ctypes.POINTER(ctypes.c_double)]),
+        ("servo_api_listen", None, [p, BYTE_HEARD]),
+        ("servo_api_next_cycles", u64, [p]),
+        ("servo_bus_new", p, []),
+        ("servo_bus_free", None, [p]),
+        ("servo_bus_advance", None, [p, u64]),
+        ("servo_bus_host_byte", None, [p, u64, u8, u32]),
         ("servo_bus_add", p, [p, u8, ctypes.c_int, u32]),
         ("servo_bus_find", p, [p, u8]),
         ("servo_bus_noise", None, [p, u64, ctypes.c_char_p, u8, u32]),
@@ -93,13 +105,14 @@ class Servo:
         object.__setattr__(self, "_servos", servos)
         object.__setattr__(self, "_pointer", pointer)
 
-    def _get(self, address: int, count: int) -> int:
+    def register(self, address: int, count: int) -> int:
+        """One or two bytes of the control table."""
         return int(self._servos.lib.servo_api_get(self._pointer, self._servos.now(), address, count))
 
     def __getattr__(self, name: str) -> Any:  # a register or counter: int; a state: float
         servos = self._servos
         if name in _REGISTERS:
-            return self._get(*_REGISTERS[name])
+            return self.register(*_REGISTERS[name])
         if name in _STATES:
             return servos.lib.servo_api_state(self._pointer, servos.now(), _STATES.index(name))
         if name in COUNTERS:
@@ -113,23 +126,23 @@ class Servo:
 
     @property
     def torque(self) -> bool:
-        return bool(self._get(24, 1)) and self._get(34, 2) > 0
+        return bool(self.register(24, 1)) and self.register(34, 2) > 0
 
     @property
     def led(self) -> bool:
-        return bool(self._get(25, 1))
+        return bool(self.register(25, 1))
 
     @property
     def moving(self) -> bool:
-        return bool(self._get(46, 1))
+        return bool(self.register(46, 1))
 
     @property
     def voltage(self) -> float:
-        return self._get(42, 1) / 10
+        return self.register(42, 1) / 10
 
     @property
     def rate(self) -> int:
-        return 2_000_000 // (self._get(4, 1) + 1)
+        return 2_000_000 // (self.register(4, 1) + 1)
 
     @property
     def load(self) -> float:
@@ -138,18 +151,25 @@ class Servo:
         return (value & 1023) / 1023 * (-1 if value & 1024 else 1)
 
     @property
+    def alarm_bits(self) -> int:
+        return int(self._servos.lib.servo_api_alarms(self._pointer, self._servos.now()))
+
+    @property
     def alarms(self) -> set[str]:
         """Names of the alarms that its answers carry now."""
-        bits = self._servos.lib.servo_api_alarms(self._pointer, self._servos.now())
-        return {name for bit, name in ERROR_NAMES.items() if bits & bit}
+        return {name for bit, name in ERROR_NAMES.items() if self.alarm_bits & bit}
 
     @property
     def table(self) -> bytes:
-        return bytes(self._get(address, 1) for address in range(TABLE_BYTES))
+        return bytes(self.register(address, 1) for address in range(TABLE_BYTES))
 
     def write(self, address: int, values: Iterable[int]) -> int:
         data = bytes(values)
         return int(self._servos.lib.servo_api_write(self._pointer, self._servos.now(), address, data, len(data)))
+
+    def restore(self, eeprom: bytes) -> None:
+        """Puts its EEPROM area (EEPROM_BYTES) back as it was kept."""
+        self._servos.lib.servo_api_restore(self._pointer, eeprom)
 
     def push_to(self, position: float) -> None:
         self._servos.lib.servo_push_to(self._pointer, self._servos.now(), float(position))
@@ -182,7 +202,7 @@ class Servos:
     def add(self, servo_id: int, model: str = "ax12", rate: int | None = None) -> Servo:
         number = self.lib.servo_api_model(model.encode())
         if number < 0:
-            raise ValueError(f"no servo model {model!r}; known: ax12, ax18, dx117")
+            raise ValueError(f"no servo model {model!r}; known: {', '.join(MODELS)}")
         pointer = self.lib.servo_bus_add(self.bus, servo_id, number, rate or (57142 if model == "dx117" else 1_000_000))
         if not pointer:
             raise MemoryError("no memory for a servo")
@@ -215,6 +235,12 @@ class Servos:
     @property
     def goals(self) -> dict[int, int]:
         return {servo.id: servo.goal for servo in self}
+
+    def row(self, count: int) -> Iterator[tuple[float, float]]:
+        """(goal, position) of the first `count` servos, with fractions; the goal of a limp one is -1."""
+        row = (ctypes.c_double * (2 * count))()
+        self.lib.servo_api_row(self.bus, self.now(), count, row)
+        return zip(row[::2], row[1::2])
 
     def noise(self, data: bytes, rate: int = 1_000_000) -> None:
         """Stray bytes on the wire from now on."""

@@ -17,14 +17,14 @@ import { distinct, goalsOfBoard, posesOf } from '../board-goals.ts';
 import { BROWSER, FLAGS, PageServer, Visitor } from './page-bench.ts';
 
 const BUILD = new URL('../../../../build/', import.meta.url).pathname;
-const SIMULATOR = join(BUILD, 'host/tools/sim/cm5sim');
+const SIMULATOR = new URL('../../../sim/cm5sim', import.meta.url).pathname;
 const POLICIES = '/etc/chromium/policies/managed';
 const PATIENT_MS = 240_000;
 
 function reasonToLeaveOut(): string | null {
     if (process.getuid?.() !== 0) return 'it needs root';
     if (!existsSync('/dev/ttyS0')) return 'there is no /dev/ttyS0';
-    if (!existsSync(SIMULATOR)) return 'cm5sim is not built';
+    if (!existsSync(join(BUILD, 'host/tools/sim/libcm5sim.so'))) return 'cm5sim is not built';
     if (spawnSync('unshare', ['-m', 'mount', '--bind', '/dev/null', '/dev/ttyS0']).status !== 0) return 'mounts are not allowed here';
     return null;
 }

@@ -3,7 +3,7 @@
 
 The simulated board keeps real time while this PC has time for it. On a busy PC it is late: m512 waits for minutes before it gives up.
 
-It is looked for in $M512_CM5SIM, in the build folder of a source tree that this package lies in, beside this Python (`pip install cm5sim`
+It is looked for in $M512_CM5SIM, in a source tree that this package lies in, if it is built, beside this Python (`pip install cm5sim`
 puts it there, with firmware images and motions), and in the PATH.
 """
 
@@ -30,7 +30,7 @@ from m512.errors import FileError, MissingError, NoAnswerError, RefusedError
 from m512.files.image import hex_segments
 from m512.files.scale12 import HINT
 from m512.files.wording import named_pages_text
-from m512.places import build_folder, wheel_folder
+from m512.places import build_folder, source_tree, wheel_folder
 
 START_SECONDS = 300.0
 SOON = (0.6, 1.5, 4.0, 15.0)  # seconds for the answer to each first request: one comes before the board listens
@@ -40,9 +40,10 @@ SET_PARENT_DEATH_SIGNAL = 1  # PR_SET_PDEATHSIG of linux/prctl.h
 
 
 def find_cm5sim() -> Path:
-    given, build = os.environ.get("M512_CM5SIM"), build_folder()
+    given, tree, build = os.environ.get("M512_CM5SIM"), source_tree(), build_folder()
     places = [Path(given)] if given else []
-    places += [build / "host" / "tools" / "sim" / "cm5sim"] if build else []
+    if tree and build and (build / "host" / "tools" / "sim" / "libcm5sim.so").exists():
+        places += [tree / "tools" / "sim" / "cm5sim"]
     places += [Path(sys.executable).with_name("cm5sim")]
     found = shutil.which("cm5sim")
     places += [Path(found)] if found else []

@@ -1,31 +1,24 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws a trace of cm5sim: joints over time, goal and present position.
+"""Draws a trace: joints over time, goal and present position. One small diagram for each joint that moved or had a goal; the others are
+listed below. Needs matplotlib."""
 
-    plot_trace.py TRACE.csv OUT.svg|OUT.png [--joints 1,3,5]
+from __future__ import annotations
 
-One small diagram for each joint that moved or had a goal; the others are listed below. Needs matplotlib.
-"""
-
-import argparse
 import csv
 import pathlib
-import re
-import sys
 
 COLUMNS = 3
 DEGREES_PER_UNIT = 300 / 1023
+Joint = tuple[list["float | None"], list[float]]  # goals (None: limp) and present positions
 
 
-def read_trace(path):
-    """Returns the time in s and {ID: (goals, presents)}; a limp servo's goal is None."""
+def read_trace(path: str) -> tuple[list[float], dict[int, Joint]]:
+    """The time in s, and the joints by their ID."""
+    times: list[float] = []
     with open(path, newline="", encoding="ascii") as file:
         rows = csv.reader(file)
-        head = next(rows, [])
-        ids = [int(match[1]) for name in head if (match := re.fullmatch(r"goal(\d+)", name))]
-        if head[:2] != ["tick", "ms"] or len(head) != 2 + 2 * len(ids):
-            sys.exit(f"plot_trace: {path} is not a trace of cm5sim")
-        times, joints = [], {number: ([], []) for number in ids}
+        ids = [int(name[len("goal") :]) for name in next(rows) if name.startswith("goal")]
+        joints: dict[int, Joint] = {number: ([], []) for number in ids}
         for row in rows:
             times.append(float(row[1]) / 1000)
             for index, number in enumerate(ids):
@@ -35,16 +28,22 @@ def read_trace(path):
     return times, joints
 
 
-def is_active(goals, presents):
+def is_active(goals: list[float | None], presents: list[float]) -> bool:
     return any(goal is not None for goal in goals) or max(presents) > min(presents)
 
 
-def draw(times, joints, title, out):
-    import matplotlib
-
+def draw(path: str, out: str) -> None:
+    """OSError: there is no picture, and why."""
+    if pathlib.Path(out).suffix not in (".svg", ".png"):
+        raise OSError(f"{out}: the name must end in .svg or .png")
+    try:
+        import matplotlib
+    except ImportError:
+        raise OSError("no picture without matplotlib (pip install matplotlib)") from None
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
+    times, joints = read_trace(path)
     active = [number for number in joints if times and is_active(*joints[number])]
     still = [number for number in joints if number not in active]
     columns = min(COLUMNS, max(1, len(active)))
@@ -72,31 +71,8 @@ def draw(times, joints, title, out):
         axis.set_xlabel("s", fontsize=8)
     if active:
         cells[0].legend(fontsize=6, loc="best")
-    text = f"{title}: servo units (left), degrees from 512 (right)"
+    text = f"{pathlib.Path(out).stem}: servo units (left), degrees from 512 (right)"
     if still:
         text += f"\nstood still: {', '.join(map(str, still))}"
     figure.suptitle(text, fontsize=9)
     figure.savefig(out, dpi=110)
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
-    parser.add_argument("trace")
-    parser.add_argument("out", help="file name ending in .svg or .png")
-    parser.add_argument("--joints", help="only these IDs, as 1,3,5")
-    arguments = parser.parse_args()
-    if pathlib.Path(arguments.out).suffix not in (".svg", ".png"):
-        sys.exit(f"plot_trace: {arguments.out}: the name must end in .svg or .png")
-    try:
-        import matplotlib  # noqa: F401
-    except ImportError:
-        sys.exit(f"plot_trace: no picture without matplotlib ({sys.executable} -m pip install matplotlib)")
-    times, joints = read_trace(arguments.trace)
-    if arguments.joints:
-        wanted = {int(text) for text in arguments.joints.split(",")}
-        joints = {number: joint for number, joint in joints.items() if number in wanted}
-    draw(times, joints, pathlib.Path(arguments.out).stem, arguments.out)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: MIT
+"""cm5sim --bus-pty: servos without a board, on a serial port, in real time. Any PC program that speaks Dynamixel protocol 1.0 can be tried
+against them."""
+
+from __future__ import annotations
+
+import select
+import sys
+import time
+from collections.abc import Callable
+
+from . import library
+from .board import CYCLES_PER_TICK
+from .files import keep_servos, plug_in_servos
+from .library import CYCLES_PER_MS
+from .options import Options
+from .serial_port import SerialPort
+from .servo import BYTE_HEARD, Servos
+from .trace import Trace
+
+# A USB adapter sends a packet in one piece. The kernel may hand it to us in several, so a packet that has begun is given this long to become
+# whole before it goes on the wire as it is.
+GATHER_CYCLES = 3 * CYCLES_PER_MS
+GATHERED_MAX = 4096
+LOOK_CYCLES = 200 * CYCLES_PER_MS  # asleep at most so long: signals, --time
+CYCLES_PER_S = 1000 * CYCLES_PER_MS
+FACTORY_BPS = 1_000_000
+
+
+def ends_whole(data: bytes) -> bool:
+    """Do these bytes end with a whole packet? FF FF ID length ..., `length` bytes behind it."""
+    at = data.find(b"\xff\xff")
+    while 0 <= at <= len(data) - 4:
+        if data[at + 2] == 0xFF:  # no ID: the header begins later
+            at += 1
+            continue
+        end = at + 4 + data[at + 3]
+        if end == len(data):
+            return True
+        at = data.find(b"\xff\xff", end)
+    return False
+
+
+class Bus:
+    """The servos, their port, and time as the wall clock has it."""
+
+    def __init__(self, options: Options) -> None:
+        """OSError: a file or port cannot be used."""
+        self._lib, self._options = library.load(), options
+        self._bus = self._lib.servo_bus_new()
+        self._now = 0  # of the servos
+        self.servos = Servos(self._lib, self._bus, lambda: self._now)
+        plug_in_servos(self.servos, options)
+        self._trace = Trace(self.servos, options.trace, options.plot) if options.trace or options.plot else None
+        self.port = SerialPort(options.bus_pty or "", FACTORY_BPS)
+        self._heard = BYTE_HEARD(self._hear)  # kept alive as long as the bus
+        self._lib.servo_api_listen(self._bus, self._heard)
+        self._answer = bytearray()
+        self._gathered, self._gathered_at = b"", 0
+        self._line_free = 0  # the PC's last byte has left
+        self._next_tick = 0
+        self._rate = FACTORY_BPS
+        self._start = time.monotonic_ns()
+
+    def _clock(self) -> int:
+        return (time.monotonic_ns() - self._start) * 16 // 1000
+
+    def _hear(self, _context: int, _now: int, byte: int, _rate: int, bad: bool) -> None:
+        """A byte of a servo. It answers at the rate it was asked at; a collision leaves a byte that no checksum fits."""
+        self._answer.append(byte ^ 0x80 if bad else byte)
+
+    def _advance(self, now: int) -> None:
+        self._now = now
+        self._lib.servo_bus_advance(self._bus, now)
+
+    def _trace_up_to(self, now: int) -> None:
+        """Writes the rows of all ticks up to this cycle. Servos that have been brought up to a later moment do not go back: this comes
+        before whatever happens on the wire at that cycle."""
+        while self._trace and self._next_tick <= now:
+            self._advance(self._next_tick)
+            self._trace.row(self._next_tick // CYCLES_PER_TICK, self._next_tick)
+            self._next_tick += CYCLES_PER_TICK
+
+    def _put_on_wire(self, now: int) -> None:
+        """Puts the gathered bytes on the wire, back to back. Servo time may run ahead of the clock by the packet's length; it waits for
+        the clock afterwards."""
+        at = max(now, self._line_free)
+        for byte in self._gathered:
+            at += 160_000_000 // self._rate
+            self._trace_up_to(at)
+            self._now = at
+            self._lib.servo_bus_host_byte(self._bus, at, byte, self._rate)
+        self._line_free, self._gathered = at, b""
+
+    def _wait(self) -> bool:
+        """Sleeps until bytes come, or something is to do without them."""
+        now = self._clock()
+        wake = min(now + LOOK_CYCLES, self._lib.servo_api_next_cycles(self._bus), self._options.time)
+        if self._gathered:
+            wake = min(wake, now + CYCLES_PER_MS)
+        if self._trace:
+            wake = min(wake, self._next_tick)
+        return bool(select.select([self.port.master], [], [], max(wake - now, 0) / CYCLES_PER_S)[0])
+
+    def step(self) -> None:
+        if self._wait():
+            self._gathered += self.port.read()
+            self._gathered_at = self._clock()
+            self._rate = self.port.rate if 1200 <= self.port.rate <= 4_000_000 else FACTORY_BPS
+        now = self._clock()
+        late = now - self._gathered_at > GATHER_CYCLES or len(self._gathered) >= GATHERED_MAX
+        if self._gathered and (late or ends_whole(self._gathered)):
+            self._put_on_wire(now)
+        if now > self._line_free:
+            self._trace_up_to(now)
+            self._advance(now)
+        if self._answer:
+            self.port.write(bytes(self._answer))
+            self._answer.clear()
+
+    def run(self, interrupted: Callable[[], bool]) -> None:
+        """Until a signal, or --time."""
+        while not interrupted() and self._clock() < self._options.time:
+            self.step()
+        self._trace_up_to(self._clock())
+
+    def close(self) -> None:
+        """OSError: something that is to be kept could not be written."""
+        self.port.close()
+        try:
+            if self._trace:
+                self._trace.close()
+            keep_servos(self.servos, self._options)
+        finally:
+            self._lib.servo_bus_free(self._bus)
+
+
+def main(options: Options, interrupted: Callable[[], bool]) -> None:
+    bus = Bus(options)
+    print(f"cm5sim: servo bus: {bus.port.path}", file=sys.stderr, flush=True)
+    bus.run(interrupted)
+    bus.close()

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: MIT
+"""Files of cm5sim: what is loaded into the robot, and what is kept of it from run to run."""
+
+from __future__ import annotations
+
+import errno
+import os
+from collections.abc import Callable
+
+from .board import MOTIONS_ADDRESS, Board, find_image
+from .options import Options
+from .servo import EEPROM_BYTES, Servos
+
+MOTION_BYTES, MOTION_PAGE_BYTES = 0x10000, 512  # a file of 65,024 bytes has no page 0
+
+
+def load_image(board: Board, name: str) -> None:
+    if not find_image(name).exists():
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), name)
+    board.load(name)
+
+
+def load_motions(board: Board, path: str) -> None:
+    if path.endswith(".hex"):
+        board.load(path)
+        return
+    with open(path, "rb") as file:
+        area = file.read(MOTION_BYTES + 1)
+    if len(area) not in (MOTION_BYTES, MOTION_BYTES - MOTION_PAGE_BYTES):
+        raise OSError(f"{path}: a motion area has 65,536 bytes (or 65,024 without page 0)")
+    end = MOTIONS_ADDRESS + MOTION_BYTES
+    board.flash[end - len(area) : end] = area
+
+
+def read_kept(path: str, size: int) -> bytes | None:
+    """A file of exactly this size; None: there is none yet."""
+    try:
+        with open(path, "rb") as file:
+            data = file.read(size + 1)
+    except FileNotFoundError:
+        return None
+    if len(data) != size:
+        raise OSError(f"{path}: not a file of this kind: it must have {size} bytes")
+    return data
+
+
+def write_kept(path: str, data: bytes) -> None:
+    """Writes beside the file first, so that a full disk costs no robot its pages."""
+    beside = f"{path}.new"
+    with open(beside, "wb") as file:
+        file.write(data)
+    os.replace(beside, path)
+
+
+def load_memories(board: Board, options: Options, say: Callable[[str], None]) -> None:
+    """Flash and EEPROM as they were kept, images over them, and motions where none were kept."""
+    flash = read_kept(options.flash, len(board.flash)) if options.flash else None
+    eeprom = read_kept(options.eeprom, len(board.eeprom)) if options.eeprom else None
+    if flash:
+        board.flash[:] = flash
+    if eeprom:
+        board.eeprom[:] = eeprom
+    for image in options.images:
+        load_image(board, image)
+    if options.motions and flash:
+        say(f"{options.flash} keeps its motion pages; --motions {options.motions} was not loaded over them")
+    elif options.motions:
+        load_motions(board, options.motions)
+
+
+def plug_in_servos(servos: Servos, options: Options) -> None:
+    for plan in options.servos:
+        servos.add(*plan)
+    if options.servo_eeprom:
+        kept = read_kept(options.servo_eeprom, EEPROM_BYTES * len(servos)) or b""
+        for index, servo in enumerate(servos if kept else ()):
+            servo.restore(kept[EEPROM_BYTES * index :][:EEPROM_BYTES])
+    for number, name in options.fault:
+        if number not in servos:
+            raise OSError("--fault: there is no servo with that ID")
+        servos[number].fault(name)
+
+
+def keep_servos(servos: Servos, options: Options) -> None:
+    if options.servo_eeprom:
+        write_kept(options.servo_eeprom, b"".join(servo.table[:EEPROM_BYTES] for servo in servos))
+
+
+def keep_memories(board: Board, options: Options) -> None:
+    if options.flash:
+        write_kept(options.flash, bytes(board.flash))
+    if options.eeprom:
+        write_kept(options.eeprom, bytes(board.eeprom))
+    keep_servos(board.servos, options)
+
+
+def reason(error: Exception) -> str:
+    """What a user is told of an error."""
+    if isinstance(error, OSError) and error.strerror:
+        return f"{error.filename}: {error.strerror}" if error.filename else error.strerror
+    return str(error)
