@@ -149,6 +149,18 @@ def test_in_place_does_not_make_numbers_of_a_hand_written_text(m512, files):
     assert "new" in (files / "own.m512").read_text()
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="takes root's privilege away by a tool of Linux")
+@pytest.mark.parametrize("words", [["pages", "x.bin", "rename", "3", "new", "--in-place"], ["convert", "own.m512", "x.bin", "--force"]])
+def test_a_write_protected_file_stays(files, words):
+    """A file is replaced by another of its name, for which its folder's permission would be enough."""
+    before = (files / "x.bin").read_bytes()
+    (files / "x.bin").chmod(0o444)
+    plain = ["setpriv", "--bounding-set=-dac_override"] if os.geteuid() == 0 else []
+    found = subprocess.run([*plain, sys.executable, "-m", "m512", *words], cwd=files, capture_output=True, timeout=300, check=False)
+    assert found.returncode == 4 and b"cannot write x.bin: Permission denied" in found.stderr
+    assert (files / "x.bin").read_bytes() == before
+
+
 def test_output_that_is_there_wants_force(m512, files):
     (files / "there.bin").write_bytes(b"mine")
     result = m512("pages", files / "x.bin", "delete", "3", "-o", files / "there.bin")
