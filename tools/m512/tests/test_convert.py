@@ -332,6 +332,11 @@ def files_of_every_kind(data_of):
     }
 
 
+def test_csv_of_a_trim_says_that_the_trim_is_lost(m512, tmp_path):
+    (tmp_path / "x.m512").write_text("motion512 1\npage 0\n  offset 1:-5\n")
+    assert "loss: page 0: the robot's trim is not in a .csv" in m512("convert", tmp_path / "x.m512", tmp_path / "p.csv", "--page", "0").stderr
+
+
 def test_csv_with_any_line_ends(tmp_path):
     """A lone CR was an exception of the csv module (found by tools/prove fuzz)."""
     image = Image.empty()

@@ -54,6 +54,7 @@ def write(image: Image, which: int | None) -> tuple[bytes, list[str]]:
         words = ["" if word == 0x4000 else position_text(word, image.kind.pos_max) for word in page.words(step)]
         table.writerow([step, page.time(step), page.pause(step)] + words)
     data = out.getvalue()
+    trim = ["page 0: the robot's trim is not in a .csv"] if which == 0 and any(page.trims()) else []
     again = read(data, "csv")[which]
     losses = (
         []
@@ -63,7 +64,7 @@ def write(image: Image, which: int | None) -> tuple[bytes, list[str]]:
             + (" and its wrong checksum" if page.fault_text() else "")
         ]
     )
-    return data.encode(), losses
+    return data.encode(), trim + losses
 
 
 def read(text: str, where: str) -> Image:
