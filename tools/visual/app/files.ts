@@ -209,11 +209,11 @@ export class DocumentFiles implements Files {
     }
 
     /** One thing at a time; trouble in words, never thrown. Null: it went wrong. */
-    private async busy<T>(words: string, deed: () => Promise<T>): Promise<T | null> {
+    private async busy<T>(words: string, action: () => Promise<T>): Promise<T | null> {
         this.state.set({ ...NOTHING, busy: words });
         this.isCancelled = false;
         try {
-            return await deed();
+            return await action();
         } catch (error) {
             if (!this.isCancelled) this.state.set({ trouble: noPython(error) });
             return null;

@@ -98,10 +98,10 @@ export class RobotImages {
         return new Promise((resolve, reject) => {
             let unwatch = (): void => undefined;
             const timer = setTimeout(() => end(() => reject(new RobotError('no-answer'))), READY_MS);
-            const end = (deed: () => void): void => {
+            const end = (action: () => void): void => {
                 clearTimeout(timer);
                 queueMicrotask(() => unwatch());
-                deed();
+                action();
             };
             unwatch = this.parts.state.watch(
                 ({ source, connection, version, image, physics }) =>

@@ -105,8 +105,8 @@ export class SimulatedSource {
     }
 
     /** One robot at a time: who presses twice gets the second one when the first is there. */
-    private inTurn(deed: () => Promise<void>): Promise<void> {
-        const done = this.turn.then(deed);
+    private inTurn(action: () => Promise<void>): Promise<void> {
+        const done = this.turn.then(action);
         this.turn = done.catch(() => undefined); // its caller hears of it
         return done;
     }

@@ -91,12 +91,12 @@ export class RobotTransfer implements Transfer {
     }
 
     /** Edit takes its time to start; who stops the transfer does not wait for it. */
-    private orStopped(deed: Promise<void>): Promise<void> {
+    private orStopped(action: Promise<void>): Promise<void> {
         const { signal } = this.stop;
         const stopped = new Promise<never>((_, reject) =>
             signal.addEventListener('abort', () => reject(new RobotError('cancelled')), { once: true }),
         );
-        return Promise.race([deed, stopped]);
+        return Promise.race([action, stopped]);
     }
 
     private async begin(document: MotionDocument, pages: readonly number[]): Promise<PageWrite> {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The states of a connection as a table. Pure: whoever runs it (connection.ts) does the deeds and reports the events.
+// The states of a connection as a table. Pure: whoever runs it (connection.ts) acts and reports the events.
 //
 //   closed --connect--> opening --opened--> asking --known--> ready
 //     ^                  |  ^                 | \                |

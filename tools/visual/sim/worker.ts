@@ -152,9 +152,9 @@ function crash(cause: unknown): void {
 ready.port1.onmessage = () => guarded(loop);
 self.onmessage = (event: MessageEvent<ToSim>) => guarded(() => handle(event.data));
 
-function guarded(deed: () => void): void {
+function guarded(action: () => void): void {
     try {
-        deed();
+        action();
     } catch (cause) {
         crash(cause);
     }

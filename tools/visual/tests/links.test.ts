@@ -38,8 +38,8 @@ def done(case):
     image = raw.from_bytes(base64.b64decode(case["image"]))
     a, b = case["from"], case["to"]
     try:
-        if case["deed"] == "copy": operations.copy(image, a, b, True)
-        else: operations.renumber(image, a, b, case["deed"] == "swap")
+        if case["action"] == "copy": operations.copy(image, a, b, True)
+        else: operations.renumber(image, a, b, case["action"] == "swap")
     except M512Error:
         return None
     return base64.b64encode(image.to_bytes()).decode()
@@ -51,8 +51,8 @@ test('copied, moved and exchanged pages, and the links that follow them: as m512
     const cases = Array.from({ length: 60 }, (_, i) => {
         const document = tangle(random);
         const [from, to] = [1 + Math.floor(random() * 30), 1 + Math.floor(random() * 30)];
-        const deed = (['copy', 'move', 'swap'] as const)[i % 3] ?? 'copy';
-        return { document, deed, from, to: from === to ? 31 : to };
+        const action = (['copy', 'move', 'swap'] as const)[i % 3] ?? 'copy';
+        return { document, action, from, to: from === to ? 31 : to };
     });
     const input = JSON.stringify(
         cases.map(({ document, ...rest }) => ({ ...rest, image: Buffer.from(imageOf(document)).toString('base64') })),
@@ -61,15 +61,15 @@ test('copied, moved and exchanged pages, and the links that follow them: as m512
         execFileSync(`${ROOT}build/venv/bin/python`, ['-c', PEER], { input, encoding: 'utf8', maxBuffer: 1 << 26 }),
     ) as (string | null)[];
     let compared = 0;
-    for (const [i, { document, deed, from, to }] of cases.entries()) {
-        const edit = { copy: edits.copyPage, move: edits.movePage, swap: edits.swapPages }[deed](document, from, to, {
+    for (const [i, { document, action, from, to }] of cases.entries()) {
+        const edit = { copy: edits.copyPage, move: edits.movePage, swap: edits.swapPages }[action](document, from, to, {
             linksFollow: true,
-            replace: deed === 'copy',
+            replace: action === 'copy',
         });
         const answer = answers[i] ?? null;
         if (!edit.ok || answer === null) continue; // each has its own rules of what it does at all
         const after = imageOf(withChanges(document, edit.value.changes));
-        expect(Buffer.from(after).equals(Buffer.from(answer, 'base64')), `seed ${SEED}, case ${i}: ${deed} ${from} to ${to}`).toBe(true);
+        expect(Buffer.from(after).equals(Buffer.from(answer, 'base64')), `seed ${SEED}, case ${i}: ${action} ${from} to ${to}`).toBe(true);
         compared++;
     }
     expect(compared).toBeGreaterThan(30);

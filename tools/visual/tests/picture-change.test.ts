@@ -45,9 +45,9 @@ test.each<[string, (parts: ReturnType<typeof room>) => void]>([
     ['an alarm instead of the mark', ({ hand }) => (hand.material.emissive = new Color(0xe5484d))],
     ['a ghost that comes or goes', ({ ghost }) => (ghost.visible = false)],
     ['size or theme', ({ change }) => change.touch()],
-])('%s', (_, deed) => {
+])('%s', (_, action) => {
     const parts = room();
-    deed(parts);
+    action(parts);
     expect(parts.take()).toBe(true);
     expect(parts.take()).toBe(false);
 });

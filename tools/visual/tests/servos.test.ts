@@ -18,15 +18,15 @@ async function library(): Promise<Uint8Array> {
     return pages;
 }
 
-/** The program with these servos, until the deed is done. */
+/** The program with these servos, until the action is done. */
 async function withProgram(
     image: 'play' | 'edit',
     options: Partial<FakeOptions>,
-    deed: (servos: FakeServos) => Promise<void>,
+    action: (servos: FakeServos) => Promise<void>,
 ): Promise<FakeServos> {
     const servos = new FakeServos({ ids: SERVO_IDS, kept: [await library(), null, null], ...options });
     const run = servos.run(await wasmModule(`servos-${image}`));
-    await Promise.race([deed(servos), run]);
+    await Promise.race([action(servos), run]);
     servos.stop();
     await run;
     return servos;

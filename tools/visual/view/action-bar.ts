@@ -107,8 +107,8 @@ export class ActionBar extends HTMLElement {
         if (page) void this.session.play(page.page);
     }
 
-    private button(title: string, isReady: boolean, deed: () => Promise<void>, kind = ''): HTMLButtonElement {
-        return make('button', { class: kind, disabled: !isReady, onclick: () => void deed() }, title);
+    private button(title: string, isReady: boolean, action: () => Promise<void>, kind = ''): HTMLButtonElement {
+        return make('button', { class: kind, disabled: !isReady, onclick: () => void action() }, title);
     }
 
     private list(pages: readonly PageEntry[], isReady: boolean): HTMLSelectElement {

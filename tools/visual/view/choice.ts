@@ -2,13 +2,13 @@
 // A list whose choice does something. A choice by mouse acts at once. By keyboard the arrows and letters pass over what nobody
 // means, so there Enter acts; Escape, or leaving the list, takes the choice back.
 
-/** deed: gets the value that was chosen; it may set another one. */
-export function onChoice(list: HTMLSelectElement, deed: (value: string) => void): void {
+/** action: gets the value that was chosen; it may set another one. */
+export function onChoice(list: HTMLSelectElement, action: (value: string) => void): void {
     let isKeyDown = false;
     let before: string | null = null; // while a choice by keyboard waits: what was chosen before it
     const act = (): void => {
         before = null;
-        deed(list.value);
+        action(list.value);
     };
     const takeBack = (): void => {
         isKeyDown = false;

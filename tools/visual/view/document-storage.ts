@@ -149,12 +149,12 @@ export class BrowserStorage implements DocumentStorage {
         });
     }
 
-    private write(deed: (store: (name: string) => IDBObjectStore) => unknown): Promise<void> {
+    private write(action: (store: (name: string) => IDBObjectStore) => unknown): Promise<void> {
         return new Promise((resolve, reject) => {
             const transaction = this.database.transaction(Object.keys(KEYS), 'readwrite');
             transaction.oncomplete = () => resolve();
             transaction.onabort = transaction.onerror = () => reject(transaction.error ?? new Error('nothing was kept'));
-            deed(name => transaction.objectStore(name));
+            action(name => transaction.objectStore(name));
             transaction.commit();
         });
     }

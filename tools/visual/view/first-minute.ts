@@ -25,8 +25,8 @@ export class FirstMinute extends HTMLElement {
         if (this.hidden) return;
         this.setAttribute('role', 'region');
         this.setAttribute('aria-label', TEXTS.first.region);
-        const button = (title: string, deed: () => void, kind = ''): HTMLButtonElement =>
-            make('button', { class: kind, onclick: () => this.choose(deed) }, title);
+        const button = (title: string, action: () => void, kind = ''): HTMLButtonElement =>
+            make('button', { class: kind, onclick: () => this.choose(action) }, title);
         this.replaceChildren(
             make('p', {}, TEXTS.first.what),
             make(
@@ -63,9 +63,9 @@ export class FirstMinute extends HTMLElement {
         for (const dispose of this.disposals.splice(0)) dispose();
     }
 
-    private choose(deed: () => void): void {
+    private choose(action: () => void): void {
         this.close();
-        deed();
+        action();
     }
 
     /** As the key of the remote that is pressed once: one that comes too early is kept. */

@@ -26,10 +26,10 @@ async function open(): Promise<IDBDatabase> {
     return request(asked);
 }
 
-async function withStore<T>(mode: IDBTransactionMode, deed: (store: IDBObjectStore) => IDBRequest<T>): Promise<T> {
+async function withStore<T>(mode: IDBTransactionMode, action: (store: IDBObjectStore) => IDBRequest<T>): Promise<T> {
     const database = await open();
     try {
-        return await request(deed(database.transaction(STORE, mode).objectStore(STORE)));
+        return await request(action(database.transaction(STORE, mode).objectStore(STORE)));
     } finally {
         database.close();
     }

@@ -110,7 +110,7 @@ interface Bench {
 }
 
 /** What somebody does with a robot on the port of this computer. */
-async function atTheRobot(image: 'play' | 'edit', deed: (bench: Bench) => Promise<void>, hand = ''): Promise<void> {
+async function atTheRobot(image: 'play' | 'edit', action: (bench: Bench) => Promise<void>, hand = ''): Promise<void> {
     const folder = mkdtempSync(join(tmpdir(), 'm512-serial-'));
     const server = await PageServer.start();
     const robot = new Robot(folder, image, hand);
@@ -126,7 +126,7 @@ async function atTheRobot(image: 'play' | 'edit', deed: (bench: Bench) => Promis
         await new Keyboard(person).enter('Your robot …'); // the chooser would be the browser's
         await person.button('serial port').waitFor();
         await person.closeMenu();
-        await deed({ person, robot, folder });
+        await action({ person, robot, folder });
         await person.leave();
     } finally {
         await browser.close();
@@ -345,7 +345,7 @@ function hide(isHidden: boolean): void {
 async function atTheServos(
     { task, skip }: TestContext,
     ids: string,
-    deed: (bench: { person: Visitor; servos: Servos; folder: string }) => Promise<void>,
+    action: (bench: { person: Visitor; servos: Servos; folder: string }) => Promise<void>,
 ): Promise<void> {
     let [lastMs, wasHeldUp] = [performance.now(), false];
     const watch = setInterval(() => {
@@ -366,7 +366,7 @@ async function atTheServos(
         await person.untilStanding();
         person.page.setDefaultTimeout(PATIENT_WITH_SERVOS_MS);
         await person.press('My servos …');
-        await deed({ person, servos, folder }).catch(async (error: unknown) => {
+        await action({ person, servos, folder }).catch(async (error: unknown) => {
             console.log(`the page says: ${await person.page.locator('status-bar').innerText()}`);
             await person.open('Terminal');
             console.log(await person.screen());

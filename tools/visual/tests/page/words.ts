@@ -16,9 +16,9 @@ export interface Words {
 
 /** In the browser: what is seen now of the page, or of the dialog that is open. */
 function look(): Words {
-    /** What is quoted: the terminal, names of motions and documents, what the board or m512 says, what stands on the board. */
+    /** What is quoted: the terminal, names of motions, what the board or m512 says, what stands on the board. */
     const QUOTED =
-        '.xterm, script, style, noscript, status-bar .message, status-bar .facts, .leds, .words, page-card .name, language-choice option, select[data-names], canvas';
+        '.xterm, script, style, noscript, status-bar .message, status-bar .facts, [lang="en"]:not(html), .leds, page-card .name, language-choice, canvas';
     const root = document.querySelector('dialog[open]') ?? document.body;
     const isSeen = (element: Element): boolean => element.checkVisibility({ visibilityProperty: true, opacityProperty: true });
     const plain = new Set<string>();
@@ -127,7 +127,8 @@ export class Walk {
         await this.look('steps of a motion');
         await page.keyboard.press('Escape');
         const documents = page.locator('edit-bar select');
-        for (const deed of ['new', 'copy', 'rename', 'remove']) await this.dialog(`document ${deed}`, () => documents.selectOption(deed));
+        for (const action of ['new', 'copy', 'rename', 'remove'])
+            await this.dialog(`document ${action}`, () => documents.selectOption(action));
         await this.open('pages');
         await this.dialog('rename', () => button(texts.motions.rename));
         await this.dialog('clear', () => button(texts.motions.clear));

@@ -32,6 +32,8 @@ interface Shown {
     readonly tab: Tab;
     /** Told from the poses alone: a trial in physics knows better. */
     readonly isGuess?: boolean;
+    /** In the words of m512, which are English. */
+    readonly isQuoted?: boolean;
 }
 
 export class ChecksPane extends HTMLElement {
@@ -123,7 +125,7 @@ export class ChecksPane extends HTMLElement {
 
     private shownOfM512({ page, text, isFault }: Finding): Shown {
         const isOfLinks = /leads to page|linked page/.test(text);
-        return { page, step: null, joint: null, text, isFault, tab: isOfLinks ? 'links' : 'pages' };
+        return { page, step: null, joint: null, text, isFault, tab: isOfLinks ? 'links' : 'pages', isQuoted: true };
     }
 
     private show(document: MotionDocument, all: readonly Shown[], note: string): void {
@@ -204,7 +206,7 @@ export class ChecksPane extends HTMLElement {
             { class: one.isFault ? 'fault' : 'note' },
             make('span', { class: 'sign' }, one.isFault ? TEXTS.checks.fault : TEXTS.checks.note),
             make('b', {}, title),
-            make('span', { class: 'words' }, one.text),
+            make('span', { class: 'words', ...(one.isQuoted ? { lang: 'en' } : {}) }, one.text),
             make(
                 'button',
                 {

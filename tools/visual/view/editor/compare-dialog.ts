@@ -29,7 +29,7 @@ export class CompareDialog extends HTMLElement {
     private readonly rows = make('ul', { class: 'rows', 'aria-label': TEXTS.compare.differing });
     private readonly status = make('p', { class: 'status', role: 'status', 'aria-label': TEXTS.compare.transfer });
     private readonly bar = make('progress', { hidden: true, 'aria-label': TEXTS.compare.progress });
-    private readonly go = make('button', { class: 'primary', onclick: () => void this.deed() });
+    private readonly go = make('button', { class: 'primary', onclick: () => void this.action() });
     private readonly stop = make('button', { hidden: true, onclick: () => this.cancel() }, TEXTS.page.stop);
     private readonly again = make('button', { hidden: true, onclick: () => void this.tryAgain() }, TEXTS.compare.tryAgain);
     private readonly shut = make('button', { onclick: () => this.dialog.close() }, TEXTS.page.close);
@@ -198,15 +198,14 @@ export class CompareDialog extends HTMLElement {
         if (mine !== this.looked) return;
         for (const [page] of this.ticks) {
             const words = this.rows.querySelector(`[data-page="${page}"] .words`);
-            const lines = differences
-                ?.filter(one => one.page === page)
-                .map(one => one.text.replace(/^page \d+( "[^"]*")?(, |: ?)?/, '')) ?? [TEXTS.compare.noWords];
-            if (lines.length > 0) words?.replaceChildren(...this.wordsOf(lines));
+            const lines = differences?.filter(one => one.page === page).map(one => one.text.replace(/^page \d+( "[^"]*")?(, |: ?)?/, ''));
+            if (!lines) words?.replaceChildren(TEXTS.compare.noWords);
+            else if (lines.length > 0) words?.replaceChildren(...this.wordsOf(lines));
         }
     }
 
     private wordsOf(lines: readonly string[]): HTMLElement[] {
-        const list = (some: readonly string[]): HTMLElement => make('ul', {}, ...some.map(line => make('li', {}, line)));
+        const list = (some: readonly string[]): HTMLElement => make('ul', { lang: 'en' }, ...some.map(line => make('li', {}, line)));
         if (lines.length <= LINES + 1) return [list(lines)];
         return [
             list(lines.slice(0, LINES)),
@@ -218,7 +217,7 @@ export class CompareDialog extends HTMLElement {
         return [...this.ticks].filter(([, tick]) => tick.checked).map(([page]) => page);
     }
 
-    private async deed(): Promise<void> {
+    private async action(): Promise<void> {
         this.trouble = null;
         if (this.key !== 'robot') return this.takeOver(this.chosen);
         await this.session.transfer.write(this.chosen);

@@ -54,14 +54,14 @@ export class EditBar extends HTMLElement {
         const { document: texts } = TEXTS;
         const options = documents.map(({ id, name }) => make('option', { value: id, selected: id === openId }, name));
         const damaged = unreadable.map(name => make('option', { disabled: true }, TEXTS.document.unreadable(name)));
-        const deeds = [
+        const actions = [
             [NEW, texts.create],
             [COPY, texts.copy],
             [FROM_ROBOT, texts.fromRobot],
             [RENAME, texts.rename],
             [REMOVE, texts.remove],
         ].map(([value = '', title = '']) => make('option', { value }, title));
-        this.documents.replaceChildren(...options, ...damaged, make('hr'), ...deeds);
+        this.documents.replaceChildren(...options, ...damaged, make('hr'), ...actions);
         this.documents.value = openId;
         this.saving.textContent = savingText(saving);
         this.saving.dataset.state = saving;

@@ -185,9 +185,9 @@ function addressOf(hash: string): string {
     return address.href;
 }
 
-/** Scrolls when it is long, also by keyboard. */
+/** In the words of m512. Scrolls when it is long, also by keyboard. */
 function lines(texts: readonly string[]): HTMLElement | null {
-    return texts.length === 0 ? null : make('ul', { tabindex: 0 }, ...texts.map(text => make('li', {}, text)));
+    return texts.length === 0 ? null : make('ul', { tabindex: 0, lang: 'en' }, ...texts.map(text => make('li', {}, text)));
 }
 
 define('files-menu', FilesMenu);

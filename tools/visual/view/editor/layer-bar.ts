@@ -48,7 +48,7 @@ export class LayerBar extends HTMLElement {
     private readonly jointName = make('span', { class: 'joint' });
     private readonly status = make('p', { class: 'hint', role: 'status', 'aria-label': TEXTS.layers.state });
     private readonly startPlay = make('button', { onclick: () => this.session.runImage('play') }, TEXTS.layers.startPlay);
-    private readonly deeds: readonly HTMLButtonElement[] = [
+    private readonly actions: readonly HTMLButtonElement[] = [
         make('button', { onclick: () => this.lay() }, TEXTS.layers.lay),
         make('button', { onclick: () => void this.session.overlay({ kind: 'layer', page: null, joints: [] }) }, TEXTS.layers.off),
         make('button', { title: TEXTS.layers.aimHint, onclick: () => this.aim() }, TEXTS.layers.aim),
@@ -67,7 +67,7 @@ export class LayerBar extends HTMLElement {
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
-        const [lay, off, aim, swing, free] = this.deeds;
+        const [lay, off, aim, swing, free] = this.actions;
         const [to, by, time] = [
             make('label', {}, TEXTS.layers.to, ' ', this.position),
             make('label', {}, '± ', this.amplitude),
@@ -101,7 +101,7 @@ export class LayerBar extends HTMLElement {
         const { document, gesture } = this.session.editor.state.get();
         if (this.shown !== document.pages && !gesture) this.list(document.pages); // not at every frame of a drag
         const isPlay = version?.image === 'play';
-        for (const button of this.deeds) button.disabled = !isPlay;
+        for (const button of this.actions) button.disabled = !isPlay;
         this.startPlay.hidden = isPlay || version === null || source === 'yours';
         this.showJoint();
         const text =

@@ -8,7 +8,7 @@ import { PAGE_COUNT } from '../../model/motion.ts';
 import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import { PageCard } from './page-card.ts';
-import { PageDeeds } from './page-deeds.ts';
+import { PageActions } from './page-actions.ts';
 import { TEXTS } from '../texts/texts.ts';
 import './pages-pane.css';
 
@@ -34,13 +34,13 @@ export class PagesPane extends HTMLElement {
     );
     private readonly list = make('div', { class: 'cards', role: 'listbox', 'aria-label': TEXTS.motions.list });
     private readonly nothing = make('p', { class: 'nothing', hidden: true }, TEXTS.motions.nothingFound);
-    private deeds!: PageDeeds; // made with the session
+    private actions!: PageActions; // made with the session
     private dragged = 0;
     private playing = 0;
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
-        this.deeds = new PageDeeds(this.session.editor);
+        this.actions = new PageActions(this.session.editor);
         this.makeCards();
         this.replaceChildren(make('p', { class: 'purpose' }, TEXTS.motions.purpose), this.tools(), this.list, this.nothing);
         this.listen();
@@ -65,15 +65,15 @@ export class PagesPane extends HTMLElement {
     }
 
     private tools(): HTMLElement {
-        const button = (title: string, deed: () => unknown): HTMLButtonElement => make('button', { onclick: () => void deed() }, title);
+        const button = (title: string, action: () => unknown): HTMLButtonElement => make('button', { onclick: () => void action() }, title);
         return make(
             'div',
             { class: 'tools', role: 'toolbar', 'aria-label': TEXTS.motions.chosen },
             this.search,
             this.which,
-            button(TEXTS.motions.rename, () => this.deeds.rename(this.current)),
-            button(TEXTS.motions.transfer, () => this.deeds.transferByNumber(this.current)),
-            button(TEXTS.motions.clear, () => this.deeds.clear(this.current)),
+            button(TEXTS.motions.rename, () => this.actions.rename(this.current)),
+            button(TEXTS.motions.transfer, () => this.actions.transferByNumber(this.current)),
+            button(TEXTS.motions.clear, () => this.actions.clear(this.current)),
             button(TEXTS.motions.compare, () => this.onCompare()),
         );
     }
@@ -152,7 +152,7 @@ export class PagesPane extends HTMLElement {
             event.preventDefault();
             const from = this.dragged;
             this.mark(null);
-            void this.deeds.transfer(from, over.page);
+            void this.actions.transfer(from, over.page);
         });
     }
 
@@ -173,21 +173,21 @@ export class PagesPane extends HTMLElement {
 
     private key(event: KeyboardEvent): void {
         const control = event.ctrlKey || event.metaKey;
-        const deed =
+        const action =
             this.move(event.key) ??
             {
                 Enter: () => this.openSteps(),
-                F2: () => this.deeds.rename(this.current),
-                Delete: () => this.deeds.clear(this.current),
+                F2: () => this.actions.rename(this.current),
+                Delete: () => this.actions.clear(this.current),
                 ...(control && {
-                    c: () => this.deeds.take(this.current),
-                    x: () => this.deeds.take(this.current),
-                    v: () => this.deeds.putTaken(this.current),
+                    c: () => this.actions.take(this.current),
+                    x: () => this.actions.take(this.current),
+                    v: () => this.actions.putTaken(this.current),
                 }),
             }[event.key];
-        if (!deed) return;
+        if (!action) return;
         event.preventDefault();
-        void deed();
+        void action();
     }
 
     /** Arrows go through what is shown, rows as they stand. */

@@ -36,11 +36,11 @@ export class SentCard extends HTMLElement {
     }
 
     private show(name: string, page: number): void {
-        const button = (title: string, deed: () => void, kind = ''): HTMLButtonElement =>
-            make('button', { class: kind, onclick: deed }, title);
-        const leave = (deed: () => void): void => {
+        const button = (title: string, action: () => void, kind = ''): HTMLButtonElement =>
+            make('button', { class: kind, onclick: action }, title);
+        const leave = (action: () => void): void => {
             this.hidden = true;
-            deed();
+            action();
         };
         this.replaceChildren(
             make('h2', {}, TEXTS.sent.title(name)),

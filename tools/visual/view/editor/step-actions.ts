@@ -13,7 +13,7 @@ interface Action {
     readonly name: 'insert' | 'duplicate' | 'between' | 'mirrorLeft' | 'mirrorRight' | 'exchange' | 'copy' | 'paste' | 'remove';
     /** Works with the row of steps under the keyboard. */
     readonly key?: string;
-    readonly deed: () => void;
+    readonly run: () => void;
     readonly needs: 'nothing' | 'step' | 'two';
 }
 
@@ -23,15 +23,15 @@ export class StepActions extends HTMLElement {
     private readonly buttons = new Map<Action, HTMLButtonElement>();
     private readonly disposals: (() => void)[] = [];
     readonly actions: readonly Action[] = [
-        { name: 'insert', key: 'Insert', deed: () => this.insert(), needs: 'step' },
-        { name: 'duplicate', key: 'd', deed: () => this.duplicate(), needs: 'step' },
-        { name: 'between', key: 'b', deed: () => this.between(), needs: 'two' },
-        { name: 'mirrorLeft', key: 'm', deed: () => this.mirror('right'), needs: 'step' },
-        { name: 'mirrorRight', key: 'M', deed: () => this.mirror('left'), needs: 'step' },
-        { name: 'exchange', key: 'x', deed: () => this.exchange(), needs: 'step' },
-        { name: 'copy', deed: () => void this.copy(), needs: 'step' },
-        { name: 'paste', deed: () => void this.paste(), needs: 'nothing' },
-        { name: 'remove', key: 'Delete', deed: () => this.deleteSteps(), needs: 'step' },
+        { name: 'insert', key: 'Insert', run: () => this.insert(), needs: 'step' },
+        { name: 'duplicate', key: 'd', run: () => this.duplicate(), needs: 'step' },
+        { name: 'between', key: 'b', run: () => this.between(), needs: 'two' },
+        { name: 'mirrorLeft', key: 'm', run: () => this.mirror('right'), needs: 'step' },
+        { name: 'mirrorRight', key: 'M', run: () => this.mirror('left'), needs: 'step' },
+        { name: 'exchange', key: 'x', run: () => this.exchange(), needs: 'step' },
+        { name: 'copy', run: () => void this.copy(), needs: 'step' },
+        { name: 'paste', run: () => void this.paste(), needs: 'nothing' },
+        { name: 'remove', key: 'Delete', run: () => this.deleteSteps(), needs: 'step' },
     ];
 
     connectedCallback(): void {
@@ -41,7 +41,7 @@ export class StepActions extends HTMLElement {
             ...this.actions.map(action => {
                 const hint = TEXTS.steps[`${action.name}Hint`];
                 const title = action.key ? TEXTS.steps.withKey(hint, keyName(action.key)) : hint;
-                const button = make('button', { title, onclick: action.deed }, TEXTS.steps[action.name]);
+                const button = make('button', { title, onclick: action.run }, TEXTS.steps[action.name]);
                 this.buttons.set(action, button);
                 return button;
             }),
@@ -62,7 +62,7 @@ export class StepActions extends HTMLElement {
         const action = this.actions.find(({ key }) => key === event.key);
         const button = action && this.buttons.get(action);
         if (!button || button.disabled) return false;
-        action.deed();
+        action.run();
         return true;
     }
 

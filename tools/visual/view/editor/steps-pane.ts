@@ -41,13 +41,13 @@ export class StepsPane extends HTMLElement {
             row.focusCursor();
         });
         row.listenForAll();
-        for (const [name, deed] of [
+        for (const [name, action] of [
             ['copy', actions.onCopy],
             ['cut', actions.onCut],
             ['paste', actions.onPaste],
         ] as const) {
             row.addEventListener(name, event => {
-                if (!(event.target instanceof HTMLInputElement)) deed.call(actions, event);
+                if (!(event.target instanceof HTMLInputElement)) action.call(actions, event);
             });
         }
     }

@@ -8,7 +8,7 @@ import { make } from '../element.ts';
 import { ask, askText } from './ask-dialog.ts';
 import { TEXTS } from '../texts/texts.ts';
 
-export class PageDeeds {
+export class PageActions {
     private readonly editor: Editor;
     /** The page that Ctrl+C or Ctrl+X took; 0: none. */
     private taken = 0;
