@@ -18,7 +18,7 @@ export interface Words {
 function look(): Words {
     /** What is quoted: the terminal, names of motions, what the board or m512 says, what stands on the board. */
     const QUOTED =
-        '.xterm, script, style, noscript, status-bar .message, status-bar .facts, [lang="en"]:not(html), .leds, page-card .name, language-choice, canvas';
+        '.xterm, script, style, noscript, status-bar .message, status-bar .facts, [lang="en"]:not(html), .leds, page-card .name, language-choice option, canvas';
     const root = document.querySelector('dialog[open]') ?? document.body;
     const isSeen = (element: Element): boolean => element.checkVisibility({ visibilityProperty: true, opacityProperty: true });
     const plain = new Set<string>();
