@@ -46,9 +46,9 @@ export function chooseLanguage(language: string): void {
     store('language', language);
     const address = new URL(window.location.href);
     address.searchParams.delete('lang');
-    if (!recall('language')) address.searchParams.set('lang', language); // a browser that keeps nothing
-    window.location.replace(address);
+    if (recall('language') !== language) address.searchParams.set('lang', language); // a browser that keeps nothing
     if (address.href === window.location.href) window.location.reload();
+    else window.location.replace(address);
 }
 
 /** Of the start page in the language that is used. */
