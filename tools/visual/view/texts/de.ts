@@ -60,7 +60,7 @@ const DE: Texts = {
                 ],
             ],
             [
-                'Fernsteuerung',
+                'Steuern',
                 [
                     ['↑ ↓ ← →, W A S D', 'gehen und drehen'],
                     ['1 … 4', 'andere Bewegungen'],
@@ -119,7 +119,7 @@ const DE: Texts = {
                 ],
             ],
             [
-                'Verknüpfungen',
+                'Verknüpfen',
                 [
                     ['← → ↑ ↓', 'die nächste Bewegung in dieser Richtung'],
                     ['Enter', 'ihre Schritte'],
@@ -143,7 +143,7 @@ const DE: Texts = {
             steps: 'Schritte',
             curves: 'Kurven',
             pages: 'Bewegungen',
-            links: 'Folgen',
+            links: 'Verknüpfen',
             checks: 'Prüfen',
             terminal: 'Terminal',
             robot: 'Roboter',
