@@ -37,7 +37,7 @@ async function library(): Promise<Uint8Array> {
     return new Uint8Array(await readFile(join(ROOT, 'build/motions/motions.bin')));
 }
 
-test.each(Object.keys(SUFFIXES))('our library as %s: written and read as m512 does', async suffix => {
+test.each(SUFFIXES)('our library as %s: written and read as m512 does', async suffix => {
     const image = await library();
     await writeFile(join(folder, 'library.bin'), image);
     const told = JSON.parse(await m512('convert', 'library.bin', `one${suffix}`, '--json')) as Told;
