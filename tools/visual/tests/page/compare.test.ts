@@ -44,10 +44,10 @@ test('a file to compare with: a reading that does not end is cancelled, by the b
     expect(await status.textContent()).not.toContain('Reading theirs');
 
     await choose(); // the robot is still being read, and what that brings takes no sentence away
-    await status.filter({ hasText: /could not be loaded .* Nothing was changed/ }).waitFor();
+    await status.filter({ hasText: /could not be loaded\. Nothing was changed/ }).waitFor();
     await dialog.getByRole('button', { name: 'Stop' }).waitFor({ state: 'hidden' });
     await dialog.getByText('The words could not be loaded').waitFor();
-    expect(await status.textContent()).toMatch(/could not be loaded .* Nothing was changed/);
+    expect(await status.textContent()).toMatch(/could not be loaded\. Nothing was changed/);
     person.faults.splice(0); // the console says that a file was not there
     await person.leave();
 });
