@@ -56,11 +56,25 @@ static inline uint32_t fix_share(uint32_t value, uint16_t share_q0_16)
     return mul_u32_u16_shift16(value, share_q0_16);
 }
 
-/* part / whole as q0.16, 0 <= part <= whole, whole not 0; 1 becomes 65535. One 32-bit division. */
+/* part / whole as q0.16, 0 <= part <= whole, whole not 0; 1 becomes 65535. The plain expression is (part << 16) / whole. By
+ * hand it takes 350 cycles less: with the library's division the worst tick misses half a tick (tools/bench --strict). */
 uint16_t fix_ratio(uint16_t part, uint16_t whole);
 ONE_COPY NOINLINE uint16_t fix_ratio(uint16_t part, uint16_t whole)
 {
-    return (uint16_t)(part >= whole ? UINT16_MAX : ((uint32_t)part << 16) / whole);
+    if (part >= whole) {
+        return UINT16_MAX;
+    }
+    uint16_t quotient = 0;
+    for (uint8_t left = 16; left != 0; left--) {
+        const bool has_17_bits = part > INT16_MAX;
+        part = (uint16_t)(part << 1);
+        quotient = (uint16_t)(quotient << 1);
+        if (has_17_bits || part >= whole) {
+            part = (uint16_t)(part - whole);
+            quotient++;
+        }
+    }
+    return quotient;
 }
 
 /* The reciprocal of a ramp of 1..255 ticks, for fix_by_ramp: 2^16 / ticks below 16 ticks, 2^20 / ticks from there on, so
