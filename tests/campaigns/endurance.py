@@ -240,7 +240,7 @@ def run(options):
     minutes, saves = options.minutes, options.saves
     options.keep = minutes >= 60 and saves >= 3000
     if options.sample:
-        items = [("walk", options.seed, 1.5), ("crowd", options.seed, 0.3), ("edit", options.seed, 40)]
+        items = [("walk", options.seed, 0.5), ("crowd", options.seed, 0.2), ("edit", options.seed, 15)]
     else:
         items = [
             ("walk", options.seed, minutes),

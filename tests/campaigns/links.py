@@ -17,8 +17,8 @@ from tests.campaigns.badlinks import ours, runs
 TITLE = "Bad lines to a boot loader"
 PROMISE = "No byte outside the pages that m512 names ever changes, whatever the line does."
 SCHEDULES = 4000
-SAMPLE = 150
-OUR_SCHEDULES, OUR_SAMPLE = 2000, 10  # our own loader runs instruction by instruction: 0.4 s each
+SAMPLE = 50
+OUR_SCHEDULES, OUR_SAMPLE = 2000, 4  # our own loader runs instruction by instruction: 0.4 s each
 CHUNK = 25
 SHOWN = 12
 

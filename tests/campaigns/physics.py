@@ -215,7 +215,7 @@ def stand_figures(options, image, library, campaign):
             continue
         count = promise.bodies if options.bodies is None else options.bodies
         work = functools.partial(body_stands, image, promises.number_of(library, promise.page))
-        results = campaign.results(work, promise, 2 if options.sample else count)
+        results = campaign.results(work, promise, 1 if options.sample else count)
         begin = f", from its {promise.lie}, arms anyhow" if promise.lie else ""
         how = f" {promise.how}" if promise.how else ""
         what = f"`{promise.page}`{how}{begin}: it ends on its feet."

@@ -135,8 +135,8 @@ def test_a_call_to_nowhere_is_refused(tmp_path):
 
 
 # A frame by the compiler's common routine, as the images have it.
-@pytest.mark.parametrize("options", [(), ("-mcall-prologues",), ("-mcall-prologues", "-mrelax", "-g")], ids=" ".join)
-@pytest.mark.parametrize("size", [1, 2, 5, 6, 7, 8, 40, 63, 64, 300])
+@pytest.mark.parametrize("options", [(), ("-mcall-prologues", "-mrelax", "-g")], ids=" ".join)
+@pytest.mark.parametrize("size", [1, 6, 7, 63, 64, 300])
 def test_frames_of_every_size_are_counted(tmp_path, size, options):
     done = built(
         tmp_path,
