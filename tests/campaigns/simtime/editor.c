@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * editor.c - a second model of Edit, from firmware/edit/ORIGINAL.md, edit/DIFFERENCES.md and the words of `help`: what lines and
+ * editor.c - a second model of Edit, from edit/ORIGINAL.md, edit/DIFFERENCES.md and the words of `help`: what lines and
  * keys do to the table, and to the servos. It is read off the screen while nothing happens, changed by what is typed, and
  * compared with the screen when nothing happens again. What those pages leave open is UNKNOWN until then. */
 #include "session.h"
