@@ -8,7 +8,7 @@ from tests.models import classic, hand_over, jumps, shaped
 
 # --- what is played ---
 
-CASES, SAMPLE_CASES, STEPS, SAMPLE_STEPS = 5000, 100, 1000, 60
+CASES, STEPS = 5000, 1000
 PIECE = 100
 
 
@@ -23,24 +23,23 @@ def changed(first):
 
 
 def law_figures(options):
-    cases, steps = (SAMPLE_CASES, SAMPLE_STEPS) if options.sample else (CASES, STEPS)
-    firsts = range(options.seed, options.seed + cases, PIECE)
+    firsts = range(options.seed, options.seed + CASES, PIECE)
     plain = [said for found in proof.each(unset, firsts, "nothing set", options.jobs) for said in found]
     wrong = [said for found in proof.each(changed, firsts, "set at any tick", options.jobs) for said in found]
-    jumped = {what: jumps.broken(what, steps, options.seed) for what in jumps.WHATS}
+    jumped = {what: jumps.broken(what, STEPS, options.seed) for what in jumps.WHATS}
     bad = {what: said for what, (said, _) in jumped.items() if said}
     return [
         proof.Figure(
             "Nothing set: every goal as the original's.",
             "classic law, motion areas by chance, every call of every joint against the "
             "model of the page of the spec (which gives the twelve recordings of the original); exact law: unit.player_golden",
-            f"{len(plain)} of {cases} plays differ" + (f"; the first: {plain[0]}" if plain else ""),
+            f"{len(plain)} of {CASES} plays differ" + (f"; the first: {plain[0]}" if plain else ""),
             not plain,
         ),
         proof.Figure(
             "Rate, amplitude, blend and centre change at any tick: every way-point, length and way as the page of the spec says.",
             "exact law, motion areas by chance",
-            f"{len(wrong)} of {cases} plays differ" + (f"; the first: {wrong[0]}" if wrong else ""),
+            f"{len(wrong)} of {CASES} plays differ" + (f"; the first: {wrong[0]}" if wrong else ""),
             not wrong,
         ),
         proof.Figure(
@@ -65,11 +64,10 @@ def came_at(offs, item):
 
 
 def hand_over_figures(options):
-    offs, chances = (range(3, hand_over.DEPTH, 40), 100) if options.sample else (EVERY_DEPTH, BY_CHANCE)
     items = [(law, name, on) for law in hand_over.LAWS for name in hand_over.LAYERS for on in range(hand_over.CYCLE)]
-    results = proof.each(functools.partial(came_at, offs), items, "layer", options.jobs)
+    results = proof.each(functools.partial(came_at, EVERY_DEPTH), items, "layer", options.jobs)
     bad = [said for _, found in results for said in found]
-    seeds = range(options.seed, options.seed + chances)
+    seeds = range(options.seed, options.seed + BY_CHANCE)
     strange = [said for said in proof.each(hand_over.by_chance, seeds, "pages by chance", options.jobs) if said]
     walks = sum(count for count, _ in results)
     how = "the player on the PC against the page of the spec; a joint that changes hands: 60 degrees/s, however many ticks one looks at"
@@ -84,7 +82,7 @@ def hand_over_figures(options):
         proof.Figure(
             "The same with pages, joints, moments and speeds by chance.",
             how,
-            f"{len(strange)} of {chances} walks wrong" + (f"; the first: {strange[0]}" if strange else ""),
+            f"{len(strange)} of {BY_CHANCE} walks wrong" + (f"; the first: {strange[0]}" if strange else ""),
             not strange,
         ),
     ]
