@@ -74,6 +74,8 @@ static struct {
         unsigned to, amplitude, lowest, highest;
     } aim[JOINTS];
     char asked[LINE_BYTES];        /* the newest line, until it is answered */
+    uint32_t asked_tick;
+    bool is_mixed;                 /* it was typed before the other was answered: which answer comes next? */
 } law;
 
 static unsigned position(unsigned page, unsigned step, unsigned id)
@@ -389,7 +391,7 @@ static void take_answer(void)
     const bool is_swing = sscanf(law.asked, "swing %u %u %u %u", &id, &to, &amplitude, &period_ms) == 4;
     const bool is_aim = is_swing || sscanf(law.asked, "aim %u %u %u", &id, &to, &speed) >= 2;
     /* The end of a play that is stopped ends it too. */
-    if (is_aim && id < JOINTS && speed > 0 && !law.is_stopped && !law.was_paused) {
+    if (is_aim && !law.is_mixed && id < JOINTS && speed > 0 && !law.is_stopped && !law.was_paused) {
         const double is = session.joint[id].servo == NULL ? to : session.joint[id].servo->position;
         const double way = fabs(is - to) + amplitude + SECOND;
         law.aim[id].due = session.tick + SECOND + (uint32_t)(way / (speed * DEGREES) * SECOND);
@@ -452,6 +454,8 @@ void law_typed(const char *line)
                                        "faults", "watch", NULL};
     static const char *const shapes[] = {"rate", "amplitude", "blend", "drive", "layer", "aim", "swing", NULL};
     unsigned number, code;
+    law.is_mixed = law.asked[0] != '\0' && session.tick - law.asked_tick < SECOND;
+    law.asked_tick = session.tick;
     snprintf(law.asked, sizeof law.asked, "%s", line);
     law.paused_tick = NEVER_TICK;
     if (line[0] == '\0' || (session.typed_is_known && is_one_of(line, asks))) {

@@ -10,7 +10,7 @@
  *   views.c     what lists show
  *   screen.c    a terminal for Edit, and its table as it is shown
  *   table.c     such tables, from flash and compared
- *   editor.c    a second model of Edit: what lines and keys do to its table
+ *   editor*.c   a second model of Edit: what lines and keys do to its table
  *   facts.c     pages as bytes, as PAGE_FORMAT.md has them; nothing of the firmware's
  *   marks.c     places that a campaign must have reached
  *
@@ -67,6 +67,7 @@ typedef struct {
     uint32_t writes;               /* of memory, so far */
     uint32_t cut_at_write;         /* the power is cut at this one; 0: at none */
     bool cut_now;
+    uint32_t latency;              /* of the adapter, half microseconds */
     uint32_t typed_tick;           /* the last byte came from the person or the remote */
     uint32_t printed_tick;
     uint32_t asked_tick;           /* the last time that somebody asked for what may move since the last start */

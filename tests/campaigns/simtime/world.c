@@ -324,7 +324,7 @@ bool world_do(char *words)
     } else if (strcmp(verb, "press") == 0 && numbers == 1) {
         press(a);
     } else if (strcmp(verb, "latency") == 0 && numbers == 2) {
-        line.latency = a;
+        line.latency = session.latency = a;
         line.lump = b;
     } else if (strcmp(verb, "lose") == 0 && numbers == 1) {
         line.lose = a;

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: MIT
+ * editor.h - a second model of Edit: how its files see each other.
+ *
+ *   editor.c            keys and lines
+ *   editor_commands.c   what commands do
+ *   editor_look.c       the model and the screen compared
+ *
+ * From edit/ORIGINAL.md, edit/DIFFERENCES.md and the words of `help`: what lines and keys do to the table, and to the
+ * servos. It is read off the screen while nothing happens, changed by what is typed, and compared with the screen when
+ * nothing happens again. What those pages leave open is UNKNOWN until then. */
+#ifndef EDITOR_H
+#define EDITOR_H
+
+#include "session.h"
+
+#define STEPS_MOST 7
+#define WORDS 8u
+#define LONG_LINE 40u              /* a message behind a longer one may need the row */
+#define TABLE_LOWEST 34u           /* rows above the command line */
+
+typedef enum { ANY, GOOD, BAD_COMMAND, BAD_PARAMETER, BAD_RANGE } message_t;
+
+typedef struct {
+    table_t now;                   /* what the table must show */
+    table_t before, after;         /* the pages that UNDO and REDO bring */
+    bool is_known, can_undo, can_redo, has_cursor;
+    enum { LOST, TABLE, ESCAPE, LINE, QUESTION, UNSURE } mode;
+    bool is_view;                  /* UNSURE: a list or help, and only keys that leave it are typed */
+    bool is_request;               /* a line for programs: the next key has its meaning for the table */
+    bool is_edited;                /* perhaps, since the last look */
+    bool is_key_edit;              /* the newest edit was a key's, and several may be one for UNDO */
+    uint8_t key;                   /* the newest */
+    uint32_t look_tick, line_tick;
+    char line[LINE_BYTES];
+    unsigned count;
+    char sequence[8];
+    unsigned sequence_count;
+    char *word[WORDS];
+    int number[WORDS];             /* UNKNOWN: it is none */
+    unsigned words;
+    void (*if_yes)(void);
+    message_t message;
+    unsigned lines;                /* since the last look */
+    int torque[JOINTS];            /* must be so: 0, 1, UNKNOWN */
+    int saved_as;                  /* a save of the page; UNKNOWN: there was none */
+    table_t noted;                 /* by TAKE */
+    int noted_first, noted_count;
+    int played[JOINTS];            /* where a play must end */
+    bool is_play;
+    bool is_repainted;             /* the screen was as it is kept, and nothing but RE has been typed since */
+    uint32_t kept_tick;
+    char kept[TABLE_LOWEST][SCREEN_COLUMNS + 1];
+    bool is_pose_copied, is_play_line;
+    bool has_pairs;                /* PAIRS may have been changed */
+} editor_t;
+
+extern editor_t editor;
+
+/* editor.c */
+void editor_lose(void);            /* nothing is known until the next look */
+bool editor_is_there(unsigned id);
+
+/* editor_commands.c */
+void editor_split_line(void);
+void editor_run_line(void);        /* the words of the line */
+void editor_view(void);            /* something that puts the table away until a key */
+void editor_edit_begins(void);
+void editor_edit_ends(void);
+int *editor_cell(void);            /* under the cursor */
+void editor_put(int value);        /* there */
+bool editor_is_cell(int x, int y);
+bool editor_has_all_rows(void);
+bool editor_is_whole(unsigned page);
+bool editor_differs_from_flash(void);
+
+#endif
