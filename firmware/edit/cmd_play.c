@@ -87,13 +87,16 @@ static void tell_faults(void)
     if (the_dialog.broken_off) {
         TEXT("Ended: a servo failed.");
     }
+    uint32_t joints[ARRAY_COUNT(names)] = {0};   /* by bit; each joint is asked once, or the next goals would be late */
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        uint8_t state = state_of(joint);
+        for (uint8_t bit = 0; state != 0; bit++, state >>= 1) {
+            servo_link_put(&joints[bit], joint, (state & 1u) != 0);
+        }
+    }
     const uint8_t column = the_screen.line_column;
     for (uint8_t bit = 0; bit < ARRAY_COUNT(names); bit++) {
-        uint32_t joints = 0;
-        for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-            servo_link_put(&joints, joint, (state_of(joint) >> bit & 1u) != 0);
-        }
-        dialog_tell_joints(pgm_read_ptr(&names[bit]), joints);
+        dialog_tell_joints(pgm_read_ptr(&names[bit]), joints[bit]);
     }
     the_screen.lead = true;
     the_dialog.faults_stand = the_performer.battery_reported || the_screen.line_column != column;

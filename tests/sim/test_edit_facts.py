@@ -343,10 +343,10 @@ def test_ids_outside_the_table_are_left_alone():
 
 
 def test_play_ignores_other_keys_and_the_last_of_stop_and_exit_counts():
-    """A repetition takes 3.1 s: all keys come before its end."""
+    """The exit is chosen when a repetition's last step begins, after 1.6 s: all keys come well before, or after."""
     pages = {1: page("one", [(200, {1: 560}), (200, {1: 464})], schedule=10, repeat=20, exit=2), 2: page("two", [(40, {1: 700})])}
     with robot(pages=pages) as r:
-        r.keys("play\r", ms=1500)
+        r.keys("play\r", ms=2200)
         r.keys("abc]{5\t", ms=200)
         assert re.fullmatch(r"Page 1 step [01] repetition \d", r.message), r.message
         assert r.board.servos[1].goal != 700 and not r.unsaved
