@@ -144,11 +144,20 @@ void rules_remote(unsigned buttons)
 
 static bool has_fault(const joint_t *joint)
 {
-    bool has = false;
-    for (unsigned fault = 0; fault < SERVO_FAULTS && joint->servo != NULL; fault++) {
-        has = has || servo_fault_is_on(joint->servo, (servo_fault_t)fault);
+    return !long_ago(joint->fault_tick, TROUBLE);
+}
+
+/* A fault for so many answers ends by itself, also long after it was asked for. */
+static void note_faults(void)
+{
+    for (unsigned id = 0; id < JOINTS; id++) {
+        joint_t *joint = &session.joint[id];
+        for (unsigned fault = 0; fault < SERVO_FAULTS && joint->servo != NULL; fault++) {
+            if (servo_fault_is_on(joint->servo, (servo_fault_t)fault)) {
+                joint->fault_tick = session.tick;
+            }
+        }
     }
-    return has || !long_ago(joint->fault_tick, TROUBLE);
 }
 
 bool rules_is_well(void)
@@ -544,6 +553,7 @@ static void servos_must_be_named(void)
 
 void rules_tick(void)
 {
+    note_faults();
     text_must_stand();
     law_tick();
     editor_tick();
