@@ -12,6 +12,7 @@ from typing import Callable
 import click
 
 from m512.errors import RefusedError
+from m512.streams import drop
 
 Progress = Callable[[int, int], None]
 
@@ -31,8 +32,6 @@ def say(text: str) -> None:
     try:
         click.echo(plain(text), err=True)
     except BrokenPipeError:
-        from m512.files.storage import drop
-
         drop(sys.stderr)
 
 

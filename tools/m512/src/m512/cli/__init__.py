@@ -59,7 +59,7 @@ class LazyGroup(click.Group):
             return super().main(*args, **kwargs)
         except OSError as error:
             from m512.errors import EXIT_BAD_FILE
-            from m512.files.storage import end_results
+            from m512.streams import end_results
             from m512.ui import say
 
             end_results()
@@ -83,7 +83,7 @@ class LazyGroup(click.Group):
             click.echo("m512: stopped", err=True)
             sys.exit(EXIT_CANCELLED)
         except BrokenPipeError:  # the results' reader went away, as `| head` does: ended early, which is no success
-            from m512.files.storage import end_results
+            from m512.streams import end_results
 
             end_results()
             sys.exit(128 + 13)

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import errno
 import os
 import re
@@ -11,9 +10,9 @@ import stat
 import sys
 import tempfile
 from pathlib import Path
-from typing import TextIO
 
 from m512.errors import FileError
+from m512.streams import end_results
 
 MOST_BYTES = 4 << 20  # no motion file, firmware or backup is larger; /dev/zero is. Readers take time in proportion to it
 
@@ -85,17 +84,6 @@ def write(path: Path, data: bytes) -> None:
             _replace(Path(os.path.realpath(path)), data)
     except OSError as error:
         raise FileError(f"cannot write {path}: {error.strerror}") from None
-
-
-def end_results() -> None:
-    """After stdout has refused something: what still waits for it is dropped."""
-    drop(sys.stdout)
-
-
-def drop(stream: TextIO) -> None:
-    """What waits for a stream that refuses it, and what comes, is lost: it would be refused again at the end, with a traceback."""
-    with contextlib.suppress(OSError, AttributeError):
-        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 def _replace(path: Path, data: bytes) -> None:
