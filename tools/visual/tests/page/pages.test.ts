@@ -26,18 +26,19 @@ test('a hobbyist: renames and copies pages, sees what will change, writes with a
     await button(page, /^Redo: name \(motion 2\)/).click();
     await card(page, /^motion 3 wave/).dragTo(card(page, /^motion 2 curtsy/));
     await button(page, 'Cancel').click(); // it was the wrong place
+    await page.setViewportSize({ width: 1440, height: 900 }); // both places of the drag are in sight
     await page.getByRole('searchbox', { name: 'Search motions' }).fill('7'); // page 7 beside many that are empty
     await person.untilSeen();
-    await card(page, /^motion 7 stand/).dragTo(card(page, /^motion 70, empty/));
+    await card(page, /^motion 7 stand/).dragTo(card(page, /^motion 57, empty/));
     await page.getByRole('dialog').getByRole('button', { name: 'Copy' }).click();
-    await card(page, /^motion 70 stand/).waitFor();
+    await card(page, /^motion 57 stand/).waitFor();
     await page.getByRole('searchbox', { name: 'Search motions' }).fill('');
     await page.screenshot({ path: `${SHOTS}pages.png` });
 
     await button(page, 'To the robot (2) …').click();
     const rows = page.getByRole('list', { name: 'Motions that differ' });
     await rows.getByText('name "bow" -> "curtsy"').waitFor(); // m512's words: Python is loaded for them
-    await rows.getByText('motion 70 (stand)').waitFor();
+    await rows.getByText('motion 57 (stand)').waitFor();
     expect(await rows.getByRole('button', { name: "Take the robot's motion 2 (curtsy)" }).count()).toBe(1); // what stands on it, and which page
     await page.screenshot({ path: `${SHOTS}to-the-robot.png` });
     await button(page, 'Write 2 motions into the robot').click();
