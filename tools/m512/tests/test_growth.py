@@ -50,9 +50,9 @@ FILES = {  # what is read, by how much of it; and how much to begin with
     "joints.m512": (lambda n: ONE_STEP + b"1," * n + b"1:5\n", 10_000),
     "statements of a line.m512": (lambda n: TEXT + b"page 1\n" + b"speed 5;" * n + b"\n", 5_000),
     "raw bytes.m512": (lambda n: TEXT + b"raw 0 00\n" * n + b"page 1\n", 4_000),
-    "links.m512": (lambda n: TEXT + b"page 1\n" + b"next 1\n" * n, 6_000),
+    "links.m512": (lambda n: TEXT + b"next 1\n" * n + b"page 1\n", 6_000),
     "quotes.m512": (lambda n: TEXT + b"page 1 " + b'"a" ' * n, 10_000),
-    "rows.csv": (lambda n: b"page,1\n" + b"repeat,1\n" * n, 10_000),
+    "rows.csv": (lambda n: b"page,1\n" + b",\n" * n, 10_000),
     "records.hex": (hex_lines, 1_500),
 }
 

@@ -207,11 +207,34 @@ def test_text_continued_line_and_comments():
         ('include "nowhere.m512"', "cannot read nowhere.m512"),
         ("bits 11", "bits are 10 or 12"),
         ("page 5; offset 1:2", "offset belongs into page 0"),
+        ("page 5; next 1; next 2", "page 5: next is here a second time, after line 3"),
+        ("page 5..9 a; exit 1; exit 1", "page 5..9: exit is here a second time"),
+        ("page 5; blend left 1; blend right 2; blend left 3", "page 5: blend left is here a second time"),
+        ("page 5; spare 2 1 | 1:1; spare 0x2 1 | 1:1", "page 5: spare 2 is here a second time"),
+        ("page 5; softness 1:3; softness 5", "the level of all joints comes first"),
+        ("page 0; offset 1:2 3:4; offset 1..2:5", "page 0: the offset of joint 1 is here a second time"),
+        ("pages 0..255; pages 0..127", "pages 0..255 was said before"),
+        ("bits 12; bits 10", "bits 12 was said before"),
     ],
 )
 def test_text_error(line, says):
     message = error("motion512 1\nrow 1..4\n" + line)
     assert says in message and message.startswith("text:3: ")
+
+
+@pytest.mark.parametrize(
+    "word", "repeat 1,speed 9,accel 9,base time,code U,link1 U 1,link2 U 1,dxl_setup 1,byte63 1,steps 0,checksum 0,fill 1 | 1:1,erased".split(",")
+)
+def test_text_a_page_says_one_value_once(word):
+    name = word.split()[0]
+    assert f"page 5: {name} is here a second time, after line 3" in error(f"motion512 1\npage 5\n{word}\n{word}\n")
+
+
+def test_text_defaults_may_be_said_again_and_a_page_goes_its_own_way():
+    image = read_text(
+        "motion512 1\nbits 10; bits 10\nspeed 40; speed 41; softness 1:3; softness 6\npage 1; speed 50; page 2\ndefaults; speed 42\npage 3\n"
+    )
+    assert [image[n].speed for n in (1, 2, 3)] == [50, 41, 42] and image[1].compliance(1) == 0x66
 
 
 def test_text_wrong_start_and_version():

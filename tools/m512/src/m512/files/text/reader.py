@@ -20,6 +20,7 @@ from m512.files.text.steps import Draft, JointWords, block_words, make_block
 from m512.files.text.words import IDENTIFIER, Token, code, continues, joint_list, joint_pairs, joints_of, name_bytes, number, ticks, tokenize
 
 VERSION = 1
+ONCE = set("repeat speed accel base code next exit link1 link2 dxl_setup byte63 steps checksum fill erased".split())  # in a page
 MAX_INCLUDE_DEPTH = 8
 
 
@@ -27,6 +28,7 @@ class Reader(JointWords):
     def __init__(self) -> None:
         super().__init__()
         self.first, self.end = 0, 128
+        self.said: dict[str, str] = {}  # of the file: what was said of pages and bits
         self.template = Draft()
         self.draft = self.template
         self.pages: dict[int, Draft] = {}
@@ -73,12 +75,28 @@ class Reader(JointWords):
         handler = getattr(self, f"_do_{word}", None)
         if handler is None or tokens[0].quoted:
             raise WordError(f"unknown word {tokens[0]}")
+        if word in ONCE:
+            self._once(word)
+        elif word == "blend" and rest:
+            self._once(f"blend {rest[0]}")
         handler(rest)
 
     @staticmethod
     def _count(rest: list[Token], low: int, high: int | None, usage: str) -> None:
         if len(rest) < low or (high is not None and len(rest) > high):
             raise WordError(f"usage: {usage}")
+
+    def _once(self, what: str) -> None:
+        """WordError: the open page has said it before. The defaults may be changed from page to page."""
+        if self.draft is not self.template:
+            if what in self.draft.said:
+                raise WordError(f"page {self.draft.which}: {what} is here a second time, after line {self.draft.said[what]}")
+            self.draft.said[what] = self.line
+
+    def _same_as_before(self, what: str, text: str) -> None:
+        """WordError: the file, or one that it includes, has said otherwise."""
+        if self.said.setdefault(what, text) != text:
+            raise WordError(f"{what} {text}: {what} {self.said[what]} was said before")
 
     # Statements about the file
 
@@ -89,6 +107,7 @@ class Reader(JointWords):
             raise WordError("pages are 0..127, 1..127 or 0..255")
         if self.pages:
             raise WordError('"pages" comes before the first page')
+        self._same_as_before("pages", rest[0].text)
         self.first, self.end = kinds[rest[0].text]
 
     def _do_bits(self, rest: list[Token]) -> None:
@@ -96,6 +115,7 @@ class Reader(JointWords):
         self.bits = number(rest[0], 10, 12, "bits")
         if self.bits == 11 or self.pages or self.poses:
             raise WordError("bits are 10 or 12, said before the first pose or page")
+        self._same_as_before("bits", rest[0].text)
 
     def _do_include(self, rest: list[Token]) -> None:
         self._count(rest, 1, 1, 'include "file"')
@@ -156,7 +176,7 @@ class Reader(JointWords):
         if not self.first <= low <= high < self.end:
             raise WordError(f"page must be {self.first}..{self.end - 1}, not {rest[0]}")
         self.draft = Draft(self.template)
-        self.draft.line = self.line
+        self.draft.line, self.draft.which = self.line, rest[0].text
         if len(rest) == 2:
             self.draft.page.data[:14] = name_bytes(rest[1]).ljust(14, b"\0")
         for page in range(low, high + 1):
@@ -233,13 +253,15 @@ class Reader(JointWords):
         self._count(rest, 1, None, "softness [LEVEL] joint:LEVEL ... (LEVEL 1..7, or CW/CCW)")
         for place, token in enumerate(rest):
             joints, _, level = token.text.rpartition(":")
-            if not joints and place:
+            if not joints and (place or "softness" in self.draft.said):
                 raise WordError(f"{token}: the level of all joints comes first, then joint:level")
             parts = [number(Token(part), 0, 15, "softness") for part in level.split("/")]
             if len(parts) > 2:
                 raise WordError(f"{token}: a level, or clockwise/counter-clockwise levels")
             for joint in joints_of(joints, self.joints) if joints else range(JOINTS):
                 self.draft.page.set_compliance(joint, parts[0] << 4 | parts[-1])
+        if self.draft is not self.template:
+            self.draft.said["softness"] = self.line
 
     def _do_steps(self, rest: list[Token]) -> None:
         self._count(rest, 1, 1, "steps N")
@@ -284,6 +306,7 @@ class Reader(JointWords):
         self._page_only("spare")
         self._count(rest, 3, None, "spare K TIME [pause TIME] | joints")
         k = number(rest[0], 0, STEPS - 1, "step")
+        self._once(f"spare {k}")
         self.draft.spares[k] = self.block(self.draft, self.line, rest[1:], "spare K", None)
 
     def _do_offset(self, rest: list[Token]) -> None:
@@ -295,6 +318,7 @@ class Reader(JointWords):
             joints, _, value = token.text.rpartition(":")
             signed = number(Token(value.lstrip("+")), -1023, 1023, "an offset")
             for joint in joints_of(joints, self.joints):
+                self._once(f"the offset of joint {joint}")
                 words[joint] = signed & 0xFFFF
         self.draft.spares[2] = make_block(words, 0, 0)
 

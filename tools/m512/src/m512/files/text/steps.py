@@ -26,6 +26,8 @@ class Draft:
         self.links: list[tuple[str, Token, int]] = list(template.links) if template else []
         self.units: list[tuple[str, int]] = []
         self.line = 0
+        self.which = ""  # the page, as the text has it
+        self.said: dict[str, int] = {}  # what a page says once -> its line
 
     def build(self) -> Page:
         page = self.page.copy()
