@@ -4,6 +4,7 @@
 import json
 import random
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 
@@ -335,6 +336,26 @@ def files_of_every_kind(data_of):
 def test_csv_of_a_trim_says_that_the_trim_is_lost(m512, tmp_path):
     (tmp_path / "x.m512").write_text("motion512 1\npage 0\n  offset 1:-5\n")
     assert "loss: page 0: the robot's trim is not in a .csv" in m512("convert", tmp_path / "x.m512", tmp_path / "p.csv", "--page", "0").stderr
+
+
+def test_csv_of_one_page_tells_a_trim_that_nobody_left_out(m512, tmp_path):
+    (tmp_path / "x.m512").write_text("motion512 1\npage 0\n  offset 1:-5\npage 3 a\n  step 5 | 1:1\n")
+    assert "loss: page 0: the robot's trim" in m512("convert", tmp_path / "x.m512", tmp_path / "p.csv").stderr
+    assert m512("convert", tmp_path / "x.m512", tmp_path / "q.csv", "--page", "3").stderr == ""
+
+
+def test_csv_of_several_pages_names_them_and_the_command_that_takes_one(m512, tmp_path):
+    (tmp_path / "x.m512").write_text("motion512 1\npage 2..5 a\n  step 5 | 1:1\n")
+    for words in (("convert", tmp_path / "x.m512", tmp_path / "p.csv"), ("pages", tmp_path / "x.m512", "rename", "2", "b", "-o", tmp_path / "p.csv")):
+        result = m512(*words)
+        assert result.exit_code == 4 and "pages 2..5; `m512 convert SOURCE TARGET.csv --page NUMBER|NAME` takes one" in result.stderr
+    (tmp_path / "none.m512").write_text("motion512 1\n")
+    assert "here is none" in m512("convert", tmp_path / "none.m512", tmp_path / "p.csv").stderr
+
+
+def test_csv_says_each_field_once():
+    with pytest.raises(FileError, match="x.csv:3: page 7: next is here a second time"):
+        formats.decode(b"page,7\nnext,3\nnext,4\n", Path("x.csv"))
 
 
 def test_csv_with_any_line_ends(tmp_path):

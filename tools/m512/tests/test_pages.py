@@ -68,6 +68,16 @@ def test_pages_check_names_what_is_wrong(m512, lib):
     assert "page 7" in result.stdout and "damaged: checksum is" in result.stdout
 
 
+def test_pages_extract_into_a_csv_wants_one_page_the_trim_too(m512, lib, tmp_path):
+    for words in (("0", "3"), ("1..5",)):
+        result = m512("pages", lib, "extract", *words, "-o", tmp_path / "x.csv")
+        said = "pages 0 and 3" if words[0] == "0" else "pages 1, 3 and 5"
+        assert result.exit_code == 2 and f"a .csv holds one page, and not {said}" in result.stderr and "--page" not in result.stderr
+    for word, number in (("0", 0), ("walk", 3)):
+        assert m512("pages", lib, "extract", word, "-o", tmp_path / f"{number}.csv").exit_code == 0
+        assert (tmp_path / f"{number}.csv").read_text().startswith(f"page,{number}\n")
+
+
 def test_pages_rename(m512, lib):
     assert m512("pages", lib, "rename", "walk", "march", "--in-place").exit_code == 0
     assert image(lib)[3].name == b"march" and not image(lib)[3].fault()

@@ -118,6 +118,8 @@ def test_ranges_of_a_board_and_of_a_file(m512, started, lib):
     assert m512("get", "2..6", "bow", "-o", got, "-p", edit.path).exit_code == 0
     assert read_text(TEXT)[3] == selection_image(got)[3] and selection_image(got).used() == [3, 4, 5, 20]
     assert m512("get", "all", "--force", "-o", got, "-p", edit.path).exit_code == 0
+    result = m512("get", "0", "2", "-o", got.with_suffix(".csv"), "-p", edit.path)
+    assert result.exit_code == 2 and "a .csv holds one page, and not pages 0 and 2" in result.stderr
     assert selection_image(got)[21] == IMAGE[21] and selection_image(got).used() == [3, 4, 5, 7, 20, 21]  # a damaged page byte for byte
     put = m512("put", lib, "3..5:60", "-p", edit.path)
     assert put.exit_code == 0, put.stderr

@@ -14,6 +14,7 @@ from m512 import ui
 from m512.cli.board import board_option
 from m512.errors import EXIT_DIFFERENT, FileError, RefusedError, WordError
 from m512.files import conversion, formats, selection, storage
+from m512.files.wording import pages_text
 
 if TYPE_CHECKING:
     from m512.files.image import Image
@@ -37,6 +38,13 @@ PAGE_NUMBER = PageNumber()
 def page_numbers(words: Sequence[str], pages: Any) -> Any:
     """The pages that arguments mean, of a file or a board (files/selection.py)."""
     return _meant(selection.numbers, words, pages)
+
+
+def one_of_csv(target: str | Path | None, numbers: Sequence[int]) -> int | None:
+    """The page of a .csv that is to hold the pages asked for; None: there are several, and another kind of file holds them."""
+    if target and formats.BY_SUFFIX.get(Path(target).suffix.lower()) == formats.CSV and len(numbers) > 1:
+        raise click.UsageError(f"{target}: a .csv holds one page, and not {pages_text(numbers)}")
+    return numbers[0] if len(numbers) == 1 else None
 
 
 def page_moves(words: Sequence[str], pages: Any) -> Any:

@@ -13,7 +13,7 @@ import click
 
 from m512 import ui
 from m512.cli.board import Finite, board_option
-from m512.cli.files import PAGE_NUMBER, page_moves, page_numbers
+from m512.cli.files import PAGE_NUMBER, one_of_csv, page_moves, page_numbers
 from m512.errors import EXIT_DIFFERENT, FileError, RefusedError, WordError
 from m512.files import formats, storage
 from m512.files.page import Page
@@ -46,8 +46,8 @@ class Source:
             ui.say(f"note: {note}")
         return image
 
-    def store(self, remarks: Iterable[str], output: Any, in_place: bool, force: bool, yes: bool) -> None:
-        """Writes the changed image where it was asked for."""
+    def store(self, remarks: Iterable[str], output: Any, in_place: bool, force: bool, yes: bool, number: int | None = None) -> None:
+        """Writes the changed image where it was asked for. `number`: the page of a .csv."""
         if output and in_place:
             raise click.UsageError("-o FILE or --in-place: say one of the two")
         for remark in remarks:
@@ -55,7 +55,7 @@ class Source:
         if output:
             if storage.exists(Path(output)) and not force:
                 raise RefusedError(f"{output} is there already (--force overwrites it)")
-            losses = formats.save(Path(output), self.image)
+            losses = formats.save(Path(output), self.image, number)
             for loss in losses:
                 ui.say(f"loss: {loss}")
         elif self.board:
@@ -234,7 +234,8 @@ def renumber(source: Source, page: str, target: Any, swap: bool, **where: Any) -
 @changes
 def extract(source: Source, page: Sequence[str], **where: Any) -> None:
     """Keep these pages only, at their numbers."""
-    numbers = set(page_numbers(page, source.image))
+    asked = page_numbers(page, source.image)
+    numbers, only = set(asked), one_of_csv(where["output"], asked)
     remarks = []
     if 0 not in numbers and source.image.first == 0 and any(source.image[0].trims()):
         remarks.append("page 0, the robot's trim, is left behind: extract 0 as well keeps it")
@@ -247,7 +248,7 @@ def extract(source: Source, page: Sequence[str], **where: Any) -> None:
                 for link in Page.LINKS
                 if getattr(here, link) not in numbers | {0}
             ]
-    source.store(remarks, **where)
+    source.store(remarks, **where, number=only)
 
 
 @pages.command(

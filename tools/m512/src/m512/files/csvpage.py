@@ -10,6 +10,7 @@ from m512.errors import FileError, WordError
 from m512.files.image import Image
 from m512.files.page import JOINTS, STEPS, Page
 from m512.files.text.words import Token, name_bytes, number, position, position_text, quote_name
+from m512.files.wording import pages_text
 
 FIELDS = (
     "repeat",
@@ -32,10 +33,12 @@ COLUMNS = ["step", "time", "pause"] + [f"id{joint}" for joint in range(JOINTS)]
 
 
 def write(image: Image, which: int | None) -> tuple[bytes, list[str]]:
+    left = image.first == 0 and any(image[0].trims()) and not which
     if which is None:
         used = [n for n, page in image.items() if n and not page.is_empty]
         if len(used) != 1:
-            raise FileError("a CSV holds one page: say which (--page NUMBER or NAME)")
+            there = f"here are {pages_text(used)}; `m512 convert SOURCE TARGET.csv --page NUMBER|NAME` takes one" if used else "here is none"
+            raise FileError(f"a CSV holds one page, and {there}")
         which = used[0]
     page = image[which]
     if page.steps > STEPS:
@@ -54,7 +57,7 @@ def write(image: Image, which: int | None) -> tuple[bytes, list[str]]:
         words = ["" if word == 0x4000 else position_text(word, image.kind.pos_max) for word in page.words(step)]
         table.writerow([step, page.time(step), page.pause(step)] + words)
     data = out.getvalue()
-    trim = ["page 0: the robot's trim is not in a .csv"] if which == 0 and any(page.trims()) else []
+    trim = ["page 0: the robot's trim is not in a .csv"] if left else []
     again = read(data, "csv")[which]
     losses = (
         []
@@ -71,10 +74,15 @@ def read(text: str, where: str) -> Image:
     """A 128-page image (256 when the number needs it) with that one page."""
     lines = text.replace("\r\n", "\n").replace("\r", "\n").replace("\0", "")
     page, which, line, in_steps, bits = Page(), 0, 0, False, 0
+    said: set[str] = set()
     try:
         rows = list(csv.reader(StringIO(lines)))
         for line, row in enumerate(rows, 1):
             key, cells = (row[0], row[1:]) if row else ("", [])
+            if key and not in_steps:
+                if key in said:
+                    raise WordError(f"page {which}: {key} is here a second time")
+                said.add(key)
             if in_steps:
                 if any(row):
                     _read_step(page, row)
