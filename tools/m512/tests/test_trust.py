@@ -332,6 +332,13 @@ def test_standard_input_and_output(files, source):
     assert run("convert", source, "/dev/stdout", input=data).stdout.startswith(b"motion512 1")
 
 
+@pytest.mark.parametrize("words", ["diff - -", "diff - /dev/stdin", "pages - merge - 3 -o y.bin", "convert - y.bin --onto -"])
+def test_standard_input_for_two_files_is_a_sentence(m512, files, monkeypatch, words):
+    monkeypatch.chdir(files)
+    result = m512(*words.split(), input=(files / "x.bin").read_bytes())
+    assert result.exit_code == 4 and "standard input gives one file, and here it is asked for two" in result.stderr
+
+
 @pytest.mark.parametrize("target", ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"])
 def test_standard_output_may_be_a_file_that_is_there(files, target):
     """`>> log`: what stands in it stays."""

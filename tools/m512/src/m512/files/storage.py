@@ -17,6 +17,9 @@ from m512.streams import end_results
 MOST_BYTES = 4 << 20  # no motion file, firmware or backup is larger; /dev/zero is. Readers take time in proportion to it
 
 
+_read_already: object = None  # the standard input that was
+
+
 def _descriptor(path: Path) -> int | None:
     """Of what this program was started with: 1 for "-" and /dev/stdout. It may be a file that somebody appends to, which is written on."""
     names = {"-": 1, "/dev/stdin": 0, "/dev/stdout": 1, "/dev/stderr": 2}
@@ -40,11 +43,15 @@ def exists(path: Path) -> bool:
 
 
 def read(path: Path) -> bytes:
-    """All bytes of a file or pipe."""
+    """All bytes of a file or pipe. FileError: standard input a second time, where nothing is left."""
+    global _read_already
     try:
-        if str(path) == "-":
+        if _descriptor(path) == 0 or str(path) == "-":
             if sys.stdin is None:
                 raise FileError("cannot read -: standard input is closed")
+            if sys.stdin is _read_already:
+                raise FileError("standard input gives one file, and here it is asked for two: put one of them into a file")
+            _read_already = sys.stdin
             data = sys.stdin.buffer.read(MOST_BYTES + 1)
         else:
             with open(path, "rb") as file:
