@@ -539,6 +539,14 @@ def test_words_of_which_one_would_be_ignored_are_refused_before_a_port_is_opened
     assert result.exit_code == 2 and says in result.stderr
 
 
+def test_an_empty_file_and_a_folder_that_is_no_backup_are_called_so(m512, files):
+    (files / "empty.m512").write_text("")
+    assert "empty.m512: empty, so it holds no motions" in m512("pages", files / "empty.m512", "list").stderr
+    for words in (("diff", files, files / "x.bin"), ("restore", files), ("restore", files / "x.bin")):
+        result = m512(*words)
+        assert result.exit_code == 4 and "is no backup's folder: there is no manifest.json in it" in result.stderr
+
+
 def test_a_backup_that_cannot_be_written_is_refused_before_the_board_is_called(m512, files):
     (files / "full").mkdir()
     (files / "full" / "x").write_text("")

@@ -83,6 +83,8 @@ def take(loader: Loader, folder: Path, areas: list[str], phase: Callable[[str], 
 
 def load(folder: Path) -> Backup:
     """A backup from its folder, checked against its manifest."""
+    if folder.exists() and not (folder / MANIFEST).exists():
+        raise FileError(f"{folder} is no backup's folder: there is no {MANIFEST} in it")
     text = formats.read_bytes(folder / MANIFEST)
     try:
         manifest = json.loads(text)

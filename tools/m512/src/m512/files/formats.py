@@ -27,6 +27,8 @@ def write_bytes(path: Path, data: bytes) -> None:
 
 def recognise(data: bytes, path: Path) -> str:
     """What a file is, by its contents; the suffix decides only where they do not."""
+    if not data:
+        raise FileError(f"{path}: empty, so it holds no motions")
     if len(data) in raw.SIZES:
         return BINARY
     start = data[:400].lstrip(b"\xef\xbb\xbf \t\r\n")
@@ -40,7 +42,7 @@ def recognise(data: bytes, path: Path) -> str:
     if any(line.startswith(b"motion512") for line in lines):
         return TEXT
     kind = BY_SUFFIX.get(path.suffix.lower())
-    if kind in (None, BINARY) or not data:
+    if kind in (None, BINARY):
         raise FileError(f"{path}: {len(data):,} bytes that are no motion file this program knows (image, Intel HEX, .mtn, CSV or text)")
     return kind
 
