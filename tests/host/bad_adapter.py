@@ -4,8 +4,9 @@
 
 BUS is the servos' side (cm5sim --bus-pty), LINK becomes the port that a program opens. Packets are delayed both ways, in order; they
 are repeated, or lose or change a byte, by chance. What is sent has at most 1 ms of jitter, a frame of USB: a driver holds back what it
-hears, not what it sends. (Otherwise the servo's answer and the next packet would meet on the line.) On SIGUSR1 the plug is pulled, on SIGUSR2 it is put back. --log takes a line
-for each packet that the program sent, "> HEX", each piece that it is given, "< HEX", and "pulled" and "back".
+hears, not what it sends. (Otherwise the servo's answer and the next packet would meet on the line.) On SIGUSR1 the plug is pulled, on
+SIGUSR2 it is put back. --log takes a line for each packet that the program sent, "> HEX", each piece that it is given, "< HEX", "pulled"
+and "back", and "late" when this process or the servos' was held up, which no real adapter and no servo is.
 """
 
 import argparse
@@ -36,6 +37,7 @@ def set_rate(port, rate):
         fcntl.ioctl(port, TCSETS2, struct.pack(TERMIOS2, *fields))
 
 
+LATE_S = 0.01  # servos answer within 1 ms
 ANSWER_S = 0.02  # a packet waits so long for the answer to the one before: this program and the servos' may be held up, the line was not
 
 
@@ -92,6 +94,7 @@ class Adapter:
         self.out, self.back = Way(asked, chance, min(asked.jitter, 1)), Way(asked, chance, asked.jitter)
         self.log = open(asked.log, "a", encoding="ascii", buffering=1) if asked.log else None  # noqa: SIM115 (until the end)
         self.master, self.begun, self.heard, self.wanted = -1, b"", b"", True
+        self.asked_at = {}  # servo: when the first packet that it has not answered yet was passed on
         signal.signal(signal.SIGUSR1, lambda *_: self.want(False))
         signal.signal(signal.SIGUSR2, lambda *_: self.want(True))
 
@@ -139,10 +142,14 @@ class Adapter:
         now = time.monotonic()
         wait = min([way.next() - now for way in (self.out, self.back) if way.waiting] + [0.05])
         ready, _, _ = select.select([self.bus] + [self.master] * (self.master >= 0), [], [], max(0, wait))
+        if time.monotonic() - now > max(0, wait) + LATE_S:
+            self.say("late")
         if self.bus in ready:
             data = os.read(self.bus, 4096)
             self.back.put(data)
             found, self.heard = packets(self.heard + data)
+            if any(time.monotonic() - self.asked_at.pop(packet[2], now) > LATE_S for packet in found):
+                self.say("late")
             if found:  # not before the answer is whole: the next packet would meet the rest of it on the line
                 self.out.free = 0.0
         if self.master in ready:
@@ -150,6 +157,7 @@ class Adapter:
         for data, rate in self.out.due():
             set_rate(self.bus, rate)
             os.write(self.bus, data)
+            self.asked_at.setdefault(data[2], time.monotonic())
             self.out.free = time.monotonic() + ANSWER_S * (data[2] != EVERYBODY)
             self.heard = b""
         for data, _ in self.back.due() if self.master >= 0 else ():

@@ -61,4 +61,5 @@ def make(tmp_path):
 
     yield make
     for robot in robots:
+        watch.held_up |= robot.was_late()
         robot.__exit__()

@@ -121,6 +121,10 @@ class Robot:
         goals = [packet[7:-1] for packet in self.packets(SYNC_WRITE) if packet[5] == GOAL]
         return [{data[at]: data[at + 1] | data[at + 2] << 8 for at in range(0, len(data), 3)} for data in goals]
 
+    def was_late(self):
+        """Adapter or servos were held up for longer than a real one takes to answer."""
+        return self.log.exists() and "late" in self.log.read_text().splitlines()
+
     def pull(self):
         self.adapter.send_signal(signal.SIGUSR1)
         until(lambda: not self.port.exists(), "the plug is still in")
