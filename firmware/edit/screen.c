@@ -269,12 +269,13 @@ void screen_move(session_way_t way)
     if (x == CELL_X_HEADER && the_session.x != CELL_X_HEADER) {
         the_session.y = screen_joint_in_row(the_session.y + 1u);
     }
-    while (!screen_has_row(the_session.y)) {
+    while (the_session.x != CELL_X_HEADER && !screen_has_row(the_session.y)) {   /* the header has all its rows */
         uint8_t before = the_session.y;
         session_move(way);
         if (the_session.y == before) {
             the_session.x = x;
             the_session.y = y;
+            return;   /* a row whose servo has just gone may be where it began */
         }
     }
 }

@@ -181,6 +181,19 @@ static void test_arrows_move_the_cursor_and_stop_at_the_edge(void)
     TEST_ASSERT_EQUAL_UINT8(32, the_session.y);
 }
 
+/* The table of a short terminal leaves out joints that are not there; the header beside it leaves out nothing. */
+static void test_arrows_in_the_header_know_no_missing_joints(void)
+{
+    type("rows 24\r");   /* servos 1 to 3 are there */
+    type("goto 9 7\r" RIGHT);
+    TEST_ASSERT_EQUAL_UINT8(9, the_session.x);
+    TEST_ASSERT_EQUAL_UINT8(7, the_session.y);
+    type(UP UP DOWN);
+    TEST_ASSERT_EQUAL_UINT8(6, the_session.y);
+    type(LEFT);
+    TEST_ASSERT_EQUAL_UINT8(3, the_session.y);   /* the last joint above */
+}
+
 static void test_home_end_and_pages_of_rows_move_the_cursor_far(void)
 {
     type("goto 3 10\r\033[F");
@@ -397,6 +410,7 @@ int main(void)
     RUN_TEST(test_save_writes_the_page_and_takes_the_mark_away);
     RUN_TEST(test_save_waits_until_the_bus_is_quiet);
     RUN_TEST(test_arrows_move_the_cursor_and_stop_at_the_edge);
+    RUN_TEST(test_arrows_in_the_header_know_no_missing_joints);
     RUN_TEST(test_home_end_and_pages_of_rows_move_the_cursor_far);
     RUN_TEST(test_brackets_change_a_position_within_its_range);
     RUN_TEST(test_brackets_wrap_a_byte_and_stop_at_seven_steps);
