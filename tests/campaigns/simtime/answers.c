@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #define CHECKSUM_AT 31u
 #define WORDS 6u
@@ -37,7 +38,8 @@ static const struct {
 };
 
 static struct {
-    char line[LINE_BYTES];         /* the newest request, until it is answered */
+    char line[LINE_BYTES];         /* the newest request, until it is answered; in small letters */
+    char first[24];                /* its first word as it was typed */
     char *word[WORDS];
     unsigned words;                /* its own one, and those behind it */
     uint32_t asked_tick;
@@ -383,9 +385,14 @@ void answers_printed(const char *line)
     if (answers.line[0] == '\0' || line[0] != '@' || strncmp(line, "@now ", 5) == 0) {
         return;
     }
+    static char answer[LINE_BYTES];
     const size_t length = strlen(answers.word[0]);
-    if (strncmp(line + 1, answers.word[0], length) == 0 && line[1 + length] == ' ') {
-        look_at(line);
+    if (strncasecmp(line + 1, answers.word[0], length) == 0 && line[1 + length] == ' ') {
+        if (length + 1 < sizeof answers.first && strncmp(line, answers.first, length + 1) != 0) {
+            wrong(line, "the same word");
+        }
+        snprintf(answer, sizeof answer, "@%s%s", answers.word[0], line + 1 + length);
+        look_at(answer);
         answers.line[0] = '\0';
     }
 }
@@ -418,6 +425,7 @@ void answers_typed(const char *line)
         return;
     }
     snprintf(answers.line, sizeof answers.line, "%s", line);
+    memcpy(answers.first, session.typed, sizeof answers.first);
     split();
     answers.asked_tick = session.tick;
     if (answers.words == 0) {

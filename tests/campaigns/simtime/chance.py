@@ -13,6 +13,7 @@ from tests.campaigns.fuzz_board import pages as play_pages
 SECOND = 128
 START = 3 * SECOND  # the search for servos is over
 LOOKED_AT = 220  # ticks: all is painted, and the rules have looked at it
+CAPITALS, DEAF = 0.06, 0.1  # of lines; of sessions: some servos take no notice of SYNC WRITE
 LONG, MANY = 180 * SECOND, 100_000
 LAW_PAGES = range(20, 30)
 PLAYED = (1, 2, 3, 4, 8, 9, 12, 13, 14, 15, 21, 22)
@@ -85,6 +86,15 @@ def typed(text):
     return "type " + data.hex()
 
 
+def in_capitals(rng, text):
+    """The same line with another case; what `name` gives stays as it is."""
+    word, blank, rest = text.partition(" ")
+    change = rng.choice((str.upper, str.capitalize, lambda words: "".join(rng.choice((c.upper(), c)) for c in words)))
+    if word == "name":
+        return change(word) + blank + rest
+    return blank.join([change(word), " ".join(change(part) if part.isalpha() else part for part in rest.split(" "))])
+
+
 class Person:
     """Adds actions to a list, one after the other; `at` is the tick of the next."""
 
@@ -96,6 +106,8 @@ class Person:
         self.at += wait
 
     def line(self, text, wait=None):
+        if self.rng.random() < CAPITALS:
+            text = in_capitals(self.rng, text)
         self.act(typed(text + "\r"), self.rng.randrange(12, 3 * SECOND) if wait is None else wait)
 
     def servo(self):
@@ -446,7 +458,10 @@ class Editor(Person):
     def plays(self):
         rng = self.rng
         self.line(rng.choice(("play", f"play {rng.choice(PLAYED)}", f"play 13 {rng.choice((50, 100, 200))}")), rng.randrange(5 * SECOND))
-        self.act(typed(rng.choice((" ", "\r", "\x1b", "\x03"))), SECOND)
+        key = rng.choice((" ", "\r", "\r", "\x1b", "\x03", "\x1b[A", "\x1b[B", "\x1b[C", "\x1b[D"))
+        self.act(typed(key), rng.choice((SECOND, 3 * SECOND)))
+        if len(key) == 3 and rng.random() < 0.5:
+            self.act(typed(" "), SECOND)  # it does not end of itself while a page is long
 
     def views(self):
         self.line(self.rng.choice(("list", "find walk", "check 3", "re", "hex", "dec", "help", "mon", "rows 40", "rows 24", "pairs")), SECOND)
@@ -503,6 +518,8 @@ def made(seed, motions):
     rng = random.Random(f"session {seed}")
     servos = list(range(1, 1 + rng.choice((0, 1, 4, 6, 6, 12, 18, 18))))
     actions = [(0, f"seed {seed}"), (0, f"motions {motions}")] + [(0, f"servo {servo}") for servo in servos]
+    if servos and rng.random() < DEAF:
+        actions += [(0, f"deaf {servo}") for servo in rng.sample(servos, min(len(servos), rng.choice((1, 2, 6))))]
     kinds = rng.choice(((Player,), (Player,), (Player,), (Editor,), (Editor, Player), (Player, Editor)))
     at = START
     for kind in kinds:

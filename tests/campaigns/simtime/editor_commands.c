@@ -513,6 +513,7 @@ static void exchange(bool can, table_t *to, table_t *other, bool *can_other)
     editor.now.y = kept.y;
     editor.now.go_step = UNKNOWN;
     editor.now.page = kept.page;
+    editor.now.is_hex = kept.is_hex;
     *other = kept;
     *can_other = true;
 }
@@ -616,8 +617,8 @@ static void run_rows(void)
 static void run_repaint(void)
 {
     editor.message = ANY;
-    if (editor.word[0][0] != 'r') {
-        editor.now.is_hex = editor.word[0][0] == 'h';
+    if (strcasecmp(editor.word[0], "re") != 0) {
+        editor.now.is_hex = strcasecmp(editor.word[0], "hex") == 0;
     }
 }
 

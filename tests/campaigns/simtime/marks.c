@@ -39,7 +39,7 @@ static const struct {
     {"Four joints are moved already", "aim refused: four joints"},
 };
 
-#define PLACES_MAX 96u
+#define PLACES_MAX 128u
 #define PRESSED 128u               /* ticks in which a stop is fresh */
 
 static struct {

@@ -2,6 +2,7 @@
  * rules.c - what must be so at every tick, whatever happens: goals, torque, text, pages, settings, news of servos. */
 #include "session.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +23,7 @@
 #define SLOWED 300u                /* ticks: a break slows down within a ramp, 255 at most */
 #define COPY_BYTES 64u             /* of the settings in EEPROM */
 
-enum { INST_WRITE = 3, INST_REG_WRITE = 4, INST_SYNC_WRITE = 0x83 };
+enum { INST_WRITE = 3, INST_REG_WRITE = 4, INST_ACTION = 5, INST_SYNC_WRITE = 0x83 };
 
 static struct {
     uint8_t page[0x20000];         /* the pages as they were when the last save was over */
@@ -78,27 +79,37 @@ static bool may_shape(const char *line)
     return false;
 }
 
+/* Case does not matter (edit/ORIGINAL.md section 5): who judges a line gets it in small letters. */
 static void line_typed(void)
 {
+    char line[LINE_BYTES];
     session.typed[session.typed_count] = '\0';
-    rules.is_shaped = rules.is_shaped || !session.typed_is_known || may_shape(session.typed);
-    if (session.is_edit || !session.typed_is_known || may_move(session.typed)) {
+    for (unsigned i = 0; i <= session.typed_count; i++) {
+        line[i] = (char)tolower((unsigned char)session.typed[i]);
+    }
+    if (strcmp(line, session.typed) != 0) {
+        reached("words in capitals");
+    }
+    rules.is_shaped = rules.is_shaped || !session.typed_is_known || may_shape(line);
+    if (session.is_edit || !session.typed_is_known || may_move(line)) {
         session.asked_tick = session.tick;
     }
-    if (session.is_edit && (!session.typed_is_known || strstr(session.typed, "sav") != NULL)) {
+    if (session.is_edit && (!session.typed_is_known || strstr(line, "sav") != NULL)) {
         session.save_asked_tick = session.tick;
     }
-    if (!session.is_edit && (strcmp(session.typed, "break") == 0 || strcmp(session.typed, "@break") == 0)) {
+    if (!session.is_edit && (strcmp(line, "break") == 0 || strcmp(line, "@break") == 0)) {
         rules.break_tick = session.tick;
     }
-    marks_typed(session.typed);
-    answers_typed(session.typed);
+    marks_typed(line);
+    answers_typed(line);
     if (!session.is_edit) {
-        law_typed(session.typed);
-        calls_typed(session.typed);
-        views_typed(session.typed);
+        law_typed(line);
+        calls_typed(line);
+        views_typed(line);
+        replies_typed(session.typed, line);
     } else {
-        editor_line(session.typed);
+        editor_line(line);
+        editor_play_line(line);
     }
     session.typed_count = 0;
     session.typed_is_known = true;
@@ -111,6 +122,7 @@ void rules_typed(uint8_t byte)
     rules.break_tick = NEVER_TICK;
     if (session.is_edit) {
         editor_typed(byte);
+        editor_play_key(byte);
         if ((byte == ' ' || byte == 0x03) && session.tick - session.frame_tick <= LAST_FRAME) {
             rules.break_tick = session.tick;
             reached("play in Edit broken off");
@@ -278,12 +290,15 @@ void rules_packet(const uint8_t *packet, uint16_t count)
         for (unsigned at = 2; at + params[1] < given; at += params[1] + 1u) {
             take_write(params[at], params[0], params + at + 1, params[1]);
         }
-        if (params[0] == GOAL_AT && !session.is_edit) {
+        if (params[0] == GOAL_AT && !session.is_edit && !session.has_deaf) {
             law_frame(params + 2, given - 2u, params[1]);
         }
     } else if ((packet[4] == INST_WRITE || packet[4] == INST_REG_WRITE) && given >= 2) {
         take_write(packet[2], params[0], params + 1, given - 1u);
         goals = params[0] <= GOAL_AT && params[0] + given - 1u > GOAL_AT;
+    }
+    if (packet[4] == INST_ACTION && session.has_deaf) {
+        reached("goals by ACTION");
     }
     if (goals) {
         session.goals_tick = session.tick;
@@ -349,7 +364,7 @@ static void pose_must_be_there(unsigned page)
 {
     const uint8_t *at = page_at(page);
     const unsigned steps = at[STEPS_AT];
-    const bool is_plain = !rules.is_shaped && law_is_exact() && !session.is_edit;
+    const bool is_plain = !rules.is_shaped && law_is_exact() && !session.is_edit && !session.has_deaf;
     if (!is_plain || page >= simtime_bytes(MACHINE_PAGES) / PAGE_BYTES || steps == 0 || steps > 7) {
         return;
     }
@@ -388,6 +403,7 @@ void rules_printed(const char *line)
         law_printed(line);
         calls_printed(line);
         views_printed(line);
+        replies_printed(line);
     }
     if (strstr(line, " servos: ") != NULL) {
         servos_are_searched();
@@ -505,6 +521,8 @@ void rules_boot(void)
     answers_boot();
     calls_boot();
     views_boot();
+    replies_boot();
+    editor_play_boot();
     rules.is_starting = true;
     rules.is_playing = rules.is_shaped = false;
     rules.ended_tick = rules.break_tick = NEVER_TICK;
@@ -555,8 +573,11 @@ void rules_tick(void)
 {
     note_faults();
     text_must_stand();
-    law_tick();
+    if (!session.has_deaf) {
+        law_tick();
+    }
     editor_tick();
+    editor_play_tick();
     if (rules.ended_tick != NEVER_TICK && session.tick - rules.ended_tick > LAST_FRAME) {
         rules.ended_tick = NEVER_TICK;
         pose_must_be_there(rules.ended_page);

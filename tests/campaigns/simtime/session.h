@@ -8,9 +8,11 @@
  *   calls.c     which page a play begins with
  *   answers.c   what requests are answered
  *   views.c     what lists show
+ *   replies.c   the whole of what Play answers
+ *   handed.c    when packets are handed to the bus
  *   screen.c    a terminal for Edit, and its table as it is shown
  *   table.c     such tables, from flash and compared
- *   editor*.c   a second model of Edit: what lines and keys do to its table
+ *   editor*.c   a second model of Edit: what lines and keys do to its table, and to a play
  *   facts.c     pages as bytes, as PAGE_FORMAT.md has them; nothing of the firmware's
  *   marks.c     places that a campaign must have reached
  *
@@ -44,6 +46,7 @@ typedef struct {
     uint32_t pushed_tick;
     uint32_t goal_tick;            /* the last goal */
     uint16_t goal;
+    bool is_deaf;                  /* to SYNC WRITE */
     bool is_known;                 /* the program has found it */
     bool named_silent;             /* what the person read last */
 } joint_t;
@@ -52,6 +55,7 @@ typedef struct {
 typedef struct {
     bool is_edit;
     bool is_over;
+    bool has_deaf;                 /* a servo takes no notice of SYNC WRITE: goals come one after the other, and late */
     bool shows;                    /* console and bus, as they come */
     uint32_t tick;
     uint64_t random;
@@ -112,6 +116,16 @@ void rules_remote(unsigned buttons);
 void rules_kept(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uint32_t count);
 void rules_end(void);
 bool rules_is_well(void);         /* no servo, line or computer fails, or has failed lately */
+
+/* handed.c */
+void handed_left(void);           /* a packet has left */
+void handed_lost(void);           /* and what was under way is lost */
+
+/* replies.c */
+void replies_boot(void);
+void replies_typed(const char *typed, const char *line);
+void replies_printed(const char *line);
+void replies_prompt(void);
 
 /* law.c */
 void law_boot(void);
@@ -185,6 +199,12 @@ void editor_boot(void);
 void editor_tick(void);
 void editor_typed(uint8_t byte);
 void editor_line(const char *line);   /* with the keys before it */
+
+/* editor_play.c */
+void editor_play_boot(void);
+void editor_play_line(const char *line);
+void editor_play_key(uint8_t key);
+void editor_play_tick(void);
 
 /* marks.c */
 void reached(const char *place);

@@ -163,7 +163,7 @@ static void look_at_now(const char *line)
             wrong(line, "no such servo");
         }
         const bool is_driven = joint->goal_tick > session.boot_tick && session.tick - joint->goal_tick <= 2;
-        if (goal[0] != '-' && !session.is_edit && is_driven) {
+        if (goal[0] != '-' && !session.is_edit && is_driven && !session.has_deaf) {
             views.goal_now[id] = (int)strtoul(goal, NULL, 16);
         }
         if (position[0] != '-' && rules_is_well() && session.tick - session.goals_tick > 2 * STILL &&

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #define CYCLES 8u                  /* of the servos' clock in half a microsecond */
+#define SYNC_WRITE 0x83u
 #define BYTE_TIME 347u             /* of the console's line at 57,600 8N1, half microseconds */
 
 static struct {
@@ -44,6 +45,25 @@ static void on_byte(void *context, uint64_t now_cycles, uint8_t byte, uint32_t r
     simtime_hear(byte, (uint32_t)(at - simtime_now()));
 }
 
+/* What servos make of a SYNC WRITE of which some of them take no notice: the words of the others. */
+static uint8_t heard_of(const uint8_t *packet, uint16_t count, uint8_t *heard)
+{
+    uint8_t length = 7, sum = 0;
+    memcpy(heard, packet, length);
+    for (unsigned at = length; at + packet[6] < count - 1u; at += packet[6] + 1u) {
+        if (packet[at] >= IDS || !session.joint[packet[at]].is_deaf) {
+            memcpy(heard + length, packet + at, packet[6] + 1u);
+            length = (uint8_t)(length + packet[6] + 1u);
+        }
+    }
+    heard[3] = (uint8_t)(length - 3u);
+    for (unsigned i = 2; i < length; i++) {
+        sum = (uint8_t)(sum + heard[i]);
+    }
+    heard[length] = (uint8_t)~sum;
+    return (uint8_t)(length + 1u);
+}
+
 static void bus_packet(uint64_t end, const uint8_t *packet, uint16_t count, uint32_t bits_per_s)
 {
     if (session.shows) {
@@ -53,7 +73,13 @@ static void bus_packet(uint64_t end, const uint8_t *packet, uint16_t count, uint
         }
         printf("\n");
     }
-    servo_bus_host_packet(session.bus, cycles(end), packet, (uint8_t)count, bits_per_s);
+    handed_left();
+    if (packet[4] == SYNC_WRITE && count > 8) {
+        uint8_t heard[UINT8_MAX];
+        servo_bus_host_packet(session.bus, cycles(end), heard, heard_of(packet, count, heard), bits_per_s);
+    } else {
+        servo_bus_host_packet(session.bus, cycles(end), packet, (uint8_t)count, bits_per_s);
+    }
     rules_packet(packet, count);
 }
 
@@ -96,6 +122,7 @@ void world_free(void)
 void world_power(bool on)
 {
     servo_bus_power(session.bus, cycles(simtime_now()), on);
+    handed_lost();
 }
 
 /* ---- the console ---- */
@@ -114,6 +141,9 @@ static void show(uint8_t byte)
         session.column = (uint16_t)(session.column > 0 ? session.column - 1 : 0);
     } else if (byte >= ' ' && session.column < LINE_BYTES - 1) {
         session.line[session.column++] = (char)byte;
+        if (session.column == 2 && !session.is_edit && strcmp(session.line, "] ") == 0) {
+            replies_prompt();
+        }
     }
 }
 
@@ -335,6 +365,7 @@ bool world_do(char *words)
         session.trouble_tick = session.late_tick = session.tick + (a + 7) / 8;
     } else if (strcmp(verb, "plug") == 0 && numbers == 1) {
         simtime_plug(a != 0);
+        handed_lost();
         session.trouble_tick = session.late_tick = session.tick;
     } else if (strcmp(verb, "cutwrite") == 0 && numbers == 1) {
         session.cut_at_write = a;
@@ -342,6 +373,8 @@ bool world_do(char *words)
         session.cut_now = true;
     } else if (strcmp(verb, "servo") == 0 && numbers == 1) {
         world_add_servo(a);
+    } else if (strcmp(verb, "deaf") == 0 && numbers == 1 && a < IDS && session.joint[a].servo != NULL) {
+        session.joint[a].is_deaf = session.has_deaf = true;
     } else if (strcmp(verb, "pause") == 0 && numbers == 1) {
         simtime_type_pause(a);
     } else if (strcmp(verb, "memories") == 0) {

@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: MIT
+ * editor_play.c - the keys of a play in Edit, by edit/ORIGINAL.md section 10, edit/DIFFERENCES.md and edit/keys.h: what is
+ * said of each, and that [Exit] ends it after this repetition. */
+#include "session.h"
+
+#include <string.h>
+
+#define ON 2u                      /* ticks: goals were sent */
+#define ROWS 36u                   /* of the screen: the command line is in one of them */
+#define LONE 7u                    /* ticks: an ESC without anything behind it was the key */
+#define SAID (SECOND / 4u)
+#define SLOW (2u * SECOND)         /* an adapter or a computer that is late delays what is said */
+#define REPETITION (40u * SECOND)  /* seven steps and their pauses, or an approach and a break */
+
+static struct {
+    bool is_play;                  /* by the line that was typed last */
+    char sequence[4];
+    unsigned count;
+    uint32_t key_tick, exit_tick;
+    const char *said;              /* must be in the command row soon */
+} play;
+
+static bool is_on(void)
+{
+    return play.is_play && session.frame_tick > session.boot_tick && session.tick - session.frame_tick <= ON;
+}
+
+static void expect(const char *said)
+{
+    play.count = 0;
+    play.said = said;
+    play.key_tick = session.tick;
+    play.exit_tick = said[1] == 'E' ? session.tick : NEVER_TICK;
+}
+
+static bool is_plain(void)
+{
+    return rules_is_well() && session.tick - session.late_tick > SLOW && session.latency == 0;
+}
+
+/* A byte from the person, when the program has read it. */
+void editor_play_key(uint8_t key)
+{
+    play.said = NULL;
+    if (!is_on() || !is_plain()) {
+        play.count = 0;
+        play.exit_tick = NEVER_TICK;
+        return;
+    }
+    if (play.count > 0 || key == 0x1B) {
+        play.sequence[play.count++] = (char)key;
+        play.key_tick = session.tick;
+        if (play.count == 3 && play.sequence[1] == '[' && key >= 'A' && key <= 'D') {
+            expect("[Exit]");
+        } else if (play.count == 3) {
+            play.count = 0;
+        }
+    } else if (key == '\r') {
+        expect("[STOP]");
+    } else if (key == ' ' || key == 0x03) {
+        expect("[BREAK]");
+    } else {
+        play.exit_tick = NEVER_TICK;
+    }
+}
+
+void editor_play_tick(void)
+{
+    if (!session.is_edit || !play.is_play) {
+        return;
+    }
+    if (play.count == 1 && session.tick - play.key_tick > LONE) {
+        expect("[Exit]");
+    }
+    if (play.said != NULL && (!is_on() || !is_plain())) {
+        play.said = NULL;   /* it was over before the key, or something has happened */
+    } else if (play.said != NULL && session.tick - play.key_tick > SAID) {
+        bool is_said = false;
+        for (unsigned row = 0; row < ROWS; row++) {
+            is_said = is_said || strstr(screen_row(row), play.said) != NULL;
+        }
+        if (!is_said) {
+            session_fail("a key in a play of Edit does what its pages say", "%s is not said", play.said);
+        }
+        reached("key in a play of Edit");
+        play.said = NULL;
+    }
+    if (play.exit_tick != NEVER_TICK && !is_on()) {
+        play.exit_tick = NEVER_TICK;
+    } else if (play.exit_tick != NEVER_TICK && session.tick - play.exit_tick > REPETITION) {
+        session_fail("[Exit] ends a play after this repetition", "it goes on for %u ticks", session.tick - play.exit_tick);
+    }
+}
+
+void editor_play_line(const char *line)
+{
+    play.is_play = strncmp(line, "play", 4) == 0 || (play.is_play && line[0] == '\0');
+}
+
+void editor_play_boot(void)
+{
+    memset(&play, 0, sizeof play);
+}
