@@ -8,6 +8,7 @@
 #include <string.h>
 
 #define CODES_END 256u
+#define ANSWER (8u * SECOND)       /* a search for servos, and lines that wait behind it */
 #define CODE_STOP 255u
 enum { STEPS_AT = 20, CODE_AT = 21, COUNT_AT = 15, SCHEDULE_AT = 16, SPEED_AT = 22, NEXT_AT = 25 };
 
@@ -16,6 +17,7 @@ static struct {
     int named;                     /* the play that comes begins with it; UNKNOWN: nobody knows */
     bool is_possible[PAGES];       /* pages that a code may have called since the last play */
     bool has_codes, is_begun;
+    uint32_t open_tick;            /* the newest line was typed, and no OK has come since */
 } calls;
 
 /* PAGE_FORMAT.md, the checks. */
@@ -73,10 +75,12 @@ void calls_typed(const char *line)
     char name[32], more;
     unsigned page, code;
     line += *line == '@' ? 1 : 0;
-    if (calls.asked != UNKNOWN) {   /* one line was typed before the other was answered */
-        forget();
+    const bool waits = calls.open_tick != NEVER_TICK && session.tick - calls.open_tick < ANSWER;
+    if (waits || strncmp(line, "settings talk", 13) == 0) {
+        forget();   /* one line was typed before the other was answered; or plays begin unsaid */
         calls.is_begun = true;
     }
+    calls.open_tick = session.tick;
     if (!session.typed_is_known || strncmp(line, "code", 4) == 0) {
         forget();
         calls.is_begun = true;
@@ -114,6 +118,7 @@ void calls_printed(const char *line)
     if (strcmp(line, " OK") == 0) {
         calls.named = calls.asked != UNKNOWN ? calls.asked : calls.named;
         calls.asked = UNKNOWN;
+        calls.open_tick = NEVER_TICK;
     } else if (strncmp(line, "Moving, ", 8) == 0) {
         forget();
         calls.is_begun = true;
@@ -136,4 +141,5 @@ void calls_boot(void)
 {
     forget();
     calls.is_begun = false;
+    calls.open_tick = NEVER_TICK;
 }

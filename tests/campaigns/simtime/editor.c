@@ -156,6 +156,8 @@ static void escape_ends(void)
         put_cursor(x, y - 8);
     } else if (strcmp(sequence, "6~") == 0) {
         put_cursor(x, y + 8);
+    } else if (sequence[strlen(sequence) - 1] == 'R') {
+        editor.has_cursor = false;   /* the terminal's size: joints may lose their rows, and the cursor goes on */
     }
     editor.mode = TABLE;
 }

@@ -14,6 +14,7 @@
 
 static struct {
     bool is_play;                  /* by the line that was typed last */
+    bool breaks;                   /* a break has been asked for: a stop behind it changes nothing */
     char sequence[4];
     unsigned count;
     uint32_t key_tick, exit_tick;
@@ -55,10 +56,11 @@ void editor_play_key(uint8_t key)
         } else if (play.count == 3) {
             play.count = 0;
         }
-    } else if (key == '\r') {
+    } else if (key == '\r' && !play.breaks) {
         expect("[STOP]");
     } else if (key == ' ' || key == 0x03) {
         expect("[BREAK]");
+        play.breaks = true;
     } else {
         play.exit_tick = NEVER_TICK;
     }
@@ -69,6 +71,7 @@ void editor_play_tick(void)
     if (!session.is_edit || !play.is_play) {
         return;
     }
+    play.breaks = play.breaks && is_on();
     if (play.count == 1 && session.tick - play.key_tick > LONE) {
         expect("[Exit]");
     }

@@ -436,6 +436,9 @@ void law_printed(const char *line)
     } else if (strncmp(line, "Broken", 6) == 0 || strncmp(line, "Ended", 5) == 0 || strncmp(line, "The pose", 8) == 0) {
         judge_no_more();
         law.is_called = law.is_stopped = false;
+        for (unsigned id = 0; id < JOINTS; id++) {
+            law.aim[id].due = NEVER_TICK;   /* a damaged page ends aims, too */
+        }
     } else if (strcmp(line, " OK") == 0) {
         take_answer();
     } else if (strncmp(line, "Nobody drives", 13) == 0) {
