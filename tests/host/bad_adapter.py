@@ -140,9 +140,9 @@ class Adapter:
         if self.wanted != (self.master >= 0):
             (self.plug if self.wanted else self.pull)()
         now = time.monotonic()
-        wait = min([way.next() - now for way in (self.out, self.back) if way.waiting] + [0.05])
-        ready, _, _ = select.select([self.bus] + [self.master] * (self.master >= 0), [], [], max(0, wait))
-        if time.monotonic() - now > max(0, wait) + LATE_S:
+        wait = max(0, min([way.next() - now for way in (self.out, self.back) if way.waiting] + [0.05]))
+        ready, _, _ = select.select([self.bus] + [self.master] * (self.master >= 0), [], [], wait)
+        if time.monotonic() - now > wait + LATE_S:
             self.say("late")
         if self.bus in ready:
             data = os.read(self.bus, 4096)
