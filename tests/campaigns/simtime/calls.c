@@ -75,8 +75,7 @@ void calls_typed(const char *line)
     char name[32], more;
     unsigned page, code;
     line += *line == '@' ? 1 : 0;
-    const bool waits = calls.open_tick != NEVER_TICK && session.tick - calls.open_tick < ANSWER;
-    if (waits || strncmp(line, "settings talk", 13) == 0) {
+    if (!long_ago(calls.open_tick, ANSWER) || strncmp(line, "settings talk", 13) == 0) {
         forget();   /* one line was typed before the other was answered; or plays begin unsaid */
         calls.is_begun = true;
     }

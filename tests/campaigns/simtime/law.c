@@ -402,6 +402,13 @@ static void take_answer(void)
     law.asked[0] = '\0';
 }
 
+static void forget_aims(void)
+{
+    for (unsigned id = 0; id < JOINTS; id++) {
+        law.aim[id].due = NEVER_TICK;
+    }
+}
+
 void law_printed(const char *line)
 {
     place_t place;
@@ -436,8 +443,8 @@ void law_printed(const char *line)
     } else if (strncmp(line, "Broken", 6) == 0 || strncmp(line, "Ended", 5) == 0 || strncmp(line, "The pose", 8) == 0) {
         judge_no_more();
         law.is_called = law.is_stopped = false;
-        for (unsigned id = 0; id < JOINTS; id++) {
-            law.aim[id].due = NEVER_TICK;   /* a damaged page ends aims, too */
+        if (strncmp(line, "Ended", 5) == 0) {
+            forget_aims();   /* a damaged page ends them, too */
         }
     } else if (strcmp(line, " OK") == 0) {
         take_answer();

@@ -14,7 +14,6 @@
 #define START_MAX 24               /* units from where the joint is to its first goal: what a servo that holds gives way */
 #define FORGOTTEN (4u * SECOND)    /* asking 18 servos before a play takes less */
 #define NEWS (6u * SECOND)         /* a servo that has fallen silent is named by then */
-#define TROUBLE (6u * SECOND)      /* what the line has done is past */
 #define QUIET SECOND               /* asking a servo that is silent takes a part of that, and nothing is printed meanwhile */
 #define PROMPT_BACK (8u * SECOND)
 #define LAST_FRAME 2u              /* ticks */
@@ -22,8 +21,6 @@
 #define STEPS_AT 20u
 #define SLOWED 300u                /* ticks: a break slows down within a ramp, 255 at most */
 #define COPY_BYTES 64u             /* of the settings in EEPROM */
-
-enum { INST_WRITE = 3, INST_REG_WRITE = 4, INST_ACTION = 5, INST_SYNC_WRITE = 0x83 };
 
 static struct {
     uint8_t page[0x20000];         /* the pages as they were when the last save was over */
@@ -40,11 +37,6 @@ static struct {
     bool pages_are_edited;
     bool checks_pages;
 } rules;
-
-static bool long_ago(uint32_t tick, uint32_t most)
-{
-    return tick == NEVER_TICK || session.tick - tick > most;
-}
 
 /* ---- what was asked ---- */
 
@@ -154,11 +146,6 @@ void rules_remote(unsigned buttons)
 
 /* ---- goals and torque ---- */
 
-static bool has_fault(const joint_t *joint)
-{
-    return !long_ago(joint->fault_tick, TROUBLE);
-}
-
 /* A fault for so many answers ends by itself, also long after it was asked for. */
 static void note_faults(void)
 {
@@ -172,10 +159,15 @@ static void note_faults(void)
     }
 }
 
+bool rules_has_fault(const joint_t *joint)
+{
+    return !long_ago(joint->fault_tick, TROUBLE);
+}
+
 bool rules_is_well(void)
 {
     for (unsigned id = 0; id < JOINTS; id++) {
-        if (session.joint[id].servo != NULL && has_fault(&session.joint[id])) {
+        if (session.joint[id].servo != NULL && rules_has_fault(&session.joint[id])) {
             return false;
         }
     }
@@ -218,7 +210,7 @@ static void must_not_leap(uint8_t id, uint16_t goal)
         if (!rules.pages_are_edited && !waits && abs(goal - joint->goal) > most) {
             session_fail("no goal leaps", "servo %u from %u to %u within %u ticks", id, joint->goal, goal, since);
         }
-    } else if (long_ago(joint->goal_tick, SECOND) && long_ago(joint->pushed_tick, 2 * SECOND) && !has_fault(joint) &&
+    } else if (long_ago(joint->goal_tick, SECOND) && long_ago(joint->pushed_tick, 2 * SECOND) && !rules_has_fault(joint) &&
                long_ago(session.trouble_tick, TROUBLE) && !(rules.pages_are_edited && goes_on_behind_a_pause(joint))) {
         const int is = (int)joint->servo->position;
         if (abs(goal - is) > START_MAX) {
@@ -333,7 +325,7 @@ static void named_silent(unsigned id)
     if (joint == NULL || joint->servo == NULL) {
         session_fail("only servos that are there are news", "servo %u", id);
     }
-    if (!has_fault(joint) && !somebody_is_late() && long_ago(session.trouble_tick, TROUBLE)) {
+    if (!rules_has_fault(joint) && !somebody_is_late() && long_ago(session.trouble_tick, TROUBLE)) {
         session_fail("a servo that is well is not called lost", "servo %u", id);
     }
     joint->named_silent = true;
@@ -362,7 +354,7 @@ static void servos_are_searched(void)
 {
     for (unsigned id = 0; id < JOINTS; id++) {
         joint_t *joint = &session.joint[id];
-        joint->is_known = joint->servo != NULL && !has_fault(joint) && long_ago(session.trouble_tick, TROUBLE);
+        joint->is_known = joint->servo != NULL && !rules_has_fault(joint) && long_ago(session.trouble_tick, TROUBLE);
     }
 }
 
@@ -379,7 +371,7 @@ static void pose_must_be_there(unsigned page)
         const uint8_t *word = at + STEP_BYTES * steps + 2 * id;   /* the steps lie behind as much of a header */
         const unsigned to = word[0] | (unsigned)word[1] << 8;
         const joint_t *joint = &session.joint[id];
-        if (joint->goal_tick != session.frame_tick || to >= POSITIONS || has_fault(joint)) {
+        if (joint->goal_tick != session.frame_tick || to >= POSITIONS || rules_has_fault(joint)) {
             continue;
         }
         reached("play ended where its page says");
@@ -562,10 +554,20 @@ void rules_started(void)
     }
 }
 
+/* Such a servo takes the line of a PC for itself: hal/host/README.md. */
+static bool has_silent_deaf(void)
+{
+    for (unsigned id = 0; id < JOINTS; id++) {
+        if (session.joint[id].is_deaf && session.joint[id].silent_since != NEVER_TICK) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static void servos_must_be_named(void)
 {
-    /* A servo that is deaf to SYNC WRITE and silent takes the line of a PC for itself: hal/host/README.md. */
-    if (session.is_edit || session.has_deaf || long_ago(session.boot_tick, TROUBLE) == false) {
+    if (session.is_edit || has_silent_deaf() || !long_ago(session.boot_tick, TROUBLE)) {
         return;
     }
     for (unsigned id = 0; id < JOINTS; id++) {

@@ -31,11 +31,14 @@
 #define LINE_BYTES 1200u           /* a page in hexadecimal */
 #define SECOND 128u                /* ticks */
 #define NEVER_TICK 0u
+#define TROUBLE (6u * SECOND)      /* what the line and servos have done is past */
 #define PAGES 256u
 #define PAGE_BYTES 512u
 #define STEP_BYTES 64u
 #define TORQUE_AT 24u              /* registers of a servo */
 #define GOAL_AT 30u
+
+enum { INST_WRITE = 3, INST_REG_WRITE = 4, INST_ACTION = 5, INST_SYNC_WRITE = 0x83 };
 
 /* What is known of one servo. */
 typedef struct {
@@ -85,6 +88,11 @@ typedef struct {
 
 extern session_t session;
 
+static inline bool long_ago(uint32_t tick, uint32_t most)
+{
+    return tick == NEVER_TICK || session.tick - tick > most;
+}
+
 /* main.c */
 _Noreturn void session_fail(const char *rule, const char *format, ...) __attribute__((format(printf, 2, 3)));
 uint32_t session_random(void);
@@ -115,6 +123,7 @@ void rules_typed(uint8_t byte);
 void rules_remote(unsigned buttons);
 void rules_kept(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uint32_t count);
 void rules_end(void);
+bool rules_has_fault(const joint_t *joint);   /* now, or lately */
 bool rules_is_well(void);         /* no servo, line or computer fails, or has failed lately */
 
 /* handed.c */

@@ -181,7 +181,7 @@ static void look_at_now(const char *line)
 /* Torque is switched on where a joint stands, by a WRITE to it alone, of which the law knows nothing. */
 static bool has_goal(unsigned id)
 {
-    const uint8_t *goal = &session.joint[id].servo->table[30];
+    const uint8_t *goal = &session.joint[id].servo->table[GOAL_AT];
     return (goal[0] | goal[1] << 8) == views.goal_now[id];
 }
 

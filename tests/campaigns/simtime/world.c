@@ -7,7 +7,6 @@
 #include <string.h>
 
 #define CYCLES 8u                  /* of the servos' clock in half a microsecond */
-#define SYNC_WRITE 0x83u
 #define BYTE_TIME 347u             /* of the console's line at 57,600 8N1, half microseconds */
 
 static struct {
@@ -74,7 +73,7 @@ static void bus_packet(uint64_t end, const uint8_t *packet, uint16_t count, uint
         printf("\n");
     }
     handed_left();
-    if (packet[4] == SYNC_WRITE && count > 8) {
+    if (packet[4] == INST_SYNC_WRITE && count > 8) {
         uint8_t heard[UINT8_MAX];
         servo_bus_host_packet(session.bus, cycles(end), heard, heard_of(packet, count, heard), bits_per_s);
     } else {
