@@ -6,7 +6,8 @@
  *
  * Keys: BS (0x08) and DEL (0x7F) delete; CR, LF and CR LF end a line once; Ctrl-A (0x01) and arrow-up put the line
  * typed before in place of this one (again: the one before that), arrow-down goes back; Ctrl-U (0x15) empties the
- * line. Other escape sequences and control characters have no effect, and ESC alone takes no other key with it. Words are
+ * line. Other escape sequences and control characters have no effect, and ESC alone takes no other key with it: the rest of
+ * a sequence comes at once, a typed key later (shell_quiet). Words are
  * separated by any number of space , . : ; (edit/ORIGINAL.md section 5). Case does not matter. */
 #ifndef SHELL_H
 #define SHELL_H
@@ -41,6 +42,12 @@ void shell_init(shell_t *shell, char *line, uint8_t line_bytes, char *history, u
 /* Takes one byte and echoes its effect on the line; BEL for a character that does not fit. Does not echo the end of a line:
  * the image decides where its answer goes. */
 shell_event_t shell_byte(shell_t *shell, uint8_t byte);
+
+/* Call when no byte has come for 50 ms: an ESC was the key of that name, and `[` is a character again. */
+static inline void shell_quiet(shell_t *shell)
+{
+    shell->escape = 0;
+}
 
 /* Tells how many bytes were lost before the next one. If any were, the line that it belongs to will be SHELL_REFUSED. */
 void shell_lose(shell_t *shell, uint8_t count);

@@ -20,7 +20,8 @@ enum {
 /*            ESC            [ or O            0x40..0x7E
  *  ESC_NONE -----> ESC_BEGUN -----> ESC_BODY -----------> ESC_NONE
  *                     | any other byte                ^ (parameters stay in ESC_BODY)
- *                     +--> ESC_NONE, and the byte takes effect: it was the key ESC         */
+ *                     +--> ESC_NONE, and the byte takes effect: it was the key ESC
+ *  shell_quiet: ESC_NONE */
 enum { ESC_NONE = 0, ESC_BEGUN, ESC_BODY };
 
 void shell_init(shell_t *shell, char *line, uint8_t line_bytes, char *history, uint8_t history_bytes)

@@ -291,8 +291,11 @@ static void take_key(uint8_t key)
 void editor_quiet(void)
 {
     bool quiet = (uint16_t)(tick_now16() - the_dialog.quiet_since) > ESC_QUIET_TICKS;
-    if (quiet && keys_is_open(&keys)) {
-        take_key(keys_quiet(&keys));
+    if (quiet) {
+        shell_quiet(&the_dialog.shell);
+        if (keys_is_open(&keys)) {
+            take_key(keys_quiet(&keys));
+        }
     }
 }
 

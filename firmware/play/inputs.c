@@ -209,7 +209,7 @@ void inputs_tick(inputs_t *inputs)
 {
     take_panel(inputs);
     steer(inputs);
-    if (inputs->quiet_ticks < INPUTS_QUIET_TICKS && ++inputs->quiet_ticks == INPUTS_QUIET_TICKS) {
+    if (inputs->quiet_ticks < INPUTS_ESC_TICKS && ++inputs->quiet_ticks == INPUTS_QUIET_TICKS) {
         if (remote_quiet(&inputs->remote) == REMOTE_TEXT) {
             keep_typed(inputs);
         }

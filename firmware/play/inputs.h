@@ -19,6 +19,7 @@
 #define INPUTS_SILENCE_TICKS 64u  /* 500 ms without a packet: nothing is held any more; in hold mode a stop */
 #define INPUTS_LOST_MAX (UINT16_MAX - UINT8_MAX)   /* so that the sum with the console's own count fits 16 bits */
 #define INPUTS_QUIET_TICKS 4u     /* an unfinished packet is dropped after 24..31 ms */
+#define INPUTS_ESC_TICKS 8u       /* an ESC that nothing follows within 55..62 ms is the key, as in Edit */
 
 /* Why a code did not start a play. */
 typedef struct {
@@ -47,7 +48,7 @@ typedef struct {
     uint8_t panel_buttons;
     uint8_t holes;             /* bytes lost before the next typed one */
     uint8_t silent_ticks;      /* since the last packet with buttons; INPUTS_SILENCE_TICKS: none held */
-    uint8_t quiet_ticks;       /* since the last byte */
+    uint8_t quiet_ticks;       /* since the last byte; at most INPUTS_ESC_TICKS */
     bool panel_was_free;   /* all buttons were up once: one held since power-on is no press */
     bool pc_waits;         /* the PC has been sent XOFF */
     bool refused;
@@ -58,8 +59,6 @@ typedef struct {
 } inputs_t;
 
 void inputs_init(inputs_t *inputs, performer_t *performer, const page_store_t *pages, const settings_t *settings);
-
-/* These two are NOINLINE: inlined, they would compute the address of inputs_t from that of play_t each time (100 bytes). */
 
 /* Call in every turn of the main loop: takes the console's bytes. With the setting `flow` sends XOFF while the shell
  * cannot follow. A PC that ignores it loses typed bytes, never remote packets. */
@@ -72,6 +71,12 @@ void inputs_tick(inputs_t *inputs);
 #define INPUTS_HOLE 0x80u
 #define INPUTS_HOLE_MAX 127u
 bool inputs_get(inputs_t *inputs, uint8_t *byte);
+
+/* Whether an ESC before this moment was the key of that name. Ask when inputs_get has nothing. */
+static inline bool inputs_are_quiet(const inputs_t *inputs)
+{
+    return inputs->quiet_ticks == INPUTS_ESC_TICKS;
+}
 
 /* Handles a code 0..255 as if a button was pressed that has it. If nothing plays, starts the lowest page that has it. */
 void inputs_code(inputs_t *inputs, uint8_t code);

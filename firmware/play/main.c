@@ -142,6 +142,9 @@ static void take_typed(void)
 {
     uint8_t byte;
     if (!inputs_get(&the_play.inputs, &byte)) {
+        if (inputs_are_quiet(&the_play.inputs)) {
+            shell_quiet(&the_play.shell);
+        }
         if (channel_is_cut_off()) {
             requests_answer_channel();
         }

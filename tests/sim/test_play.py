@@ -247,6 +247,19 @@ def test_wrong_answers_are_retried_and_end_nothing():
     assert counts(board)["missed"] == 0
 
 
+# --- typing ---
+
+
+def test_bracket_typed_after_a_lone_escape_is_a_character():
+    board = robot()
+    board.take()
+    board.send("a\x1b[A\x1b")  # a terminal sends a sequence at once, a person types later
+    board.run(ms=100)
+    board.send("[O")
+    board.run(ms=50)
+    assert board.take().decode() == "a[O"
+
+
 # --- lamps ---
 
 

@@ -76,6 +76,16 @@ static void test_shell_a_lone_escape_takes_no_key_with_it(void)
     TEST_ASSERT_EQUAL_STRING("abcxy", line);
 }
 
+static void test_shell_a_bracket_typed_after_a_lone_escape_is_a_character(void)
+{
+    keys("a\x1B");
+    shell_quiet(&shell);
+    keys("[b\x1B[");
+    shell_quiet(&shell);
+    TEST_ASSERT_EQUAL_UINT8(SHELL_LINE, keys("Oc\r"));
+    TEST_ASSERT_EQUAL_STRING("a[bOc", line);
+}
+
 static void test_shell_line_end_breaks_off_an_escape_sequence(void)
 {
     TEST_ASSERT_EQUAL_UINT8(SHELL_LINE, keys("stop\x1B[\r"));
@@ -170,6 +180,7 @@ int main(void)
     RUN_TEST(test_shell_ctrl_u_empties_the_line);
     RUN_TEST(test_shell_escape_sequences_leave_no_trace);
     RUN_TEST(test_shell_a_lone_escape_takes_no_key_with_it);
+    RUN_TEST(test_shell_a_bracket_typed_after_a_lone_escape_is_a_character);
     RUN_TEST(test_shell_line_end_breaks_off_an_escape_sequence);
     RUN_TEST(test_shell_other_controls_and_8_bit_are_ignored);
     RUN_TEST(test_shell_ctrl_a_recalls_several_lines);
