@@ -157,7 +157,7 @@ bool performer_drive(performer_t *performer, int16_t blend, uint16_t rate, uint1
 
 bool performer_drive_is_lost(performer_t *performer)
 {
-    return performer->drive_left_ticks != 0 && --performer->drive_left_ticks == 0;
+    return performer->drive_left_ticks != 0 && !performer_is_paused(performer) && --performer->drive_left_ticks == 0;
 }
 
 void performer_drive_end(performer_t *performer)

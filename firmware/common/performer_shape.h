@@ -57,7 +57,8 @@ void performer_layers_pause(performer_t *performer, bool pause);
 /* Updates the shape: centre page from the settings, limit from the battery's present voltage. */
 void performer_shape_follow(performer_t *performer);
 
-/* Call once a tick. true: the time for the next performer_drive is over. */
+/* Call once a tick. true: the time for the next performer_drive is over. The time stands still in a pause, so that nothing
+ * moves before the resume. */
 bool performer_drive_is_lost(performer_t *performer);
 
 /* Call at the end of a play: clears what performer_drive has set. */

@@ -136,6 +136,19 @@ def test_drive_watchdog_may_be_longer_or_off():
     board.expect("Nobody drives any more", ms=1000)
 
 
+def test_nobody_drives_in_a_pause_and_nothing_moves_before_the_resume():
+    board = looping()
+    ask(board, "@drive 0 100 100")
+    assert ask(board, "@pause") == "@pause OK"
+    board.run(ms=500)  # it comes to rest
+    resting = [board.servos[joint].goal for joint in range(1, 19)]
+    board.run(ms=4000)
+    assert where(board)["state"] == "paused"
+    assert [board.servos[joint].goal for joint in range(1, 19)] == resting
+    assert ask(board, "@resume") == "@resume OK"
+    board.expect("Nobody drives any more", ms=1500)
+
+
 def test_remote_drive_steers_and_comes_back_to_straight():
     board = looping()
     ask(board, "remote drive")
