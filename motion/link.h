@@ -28,11 +28,10 @@ typedef struct {
     uint8_t exits_seen[PAGE_COUNT / 8]; /* exit pages played since the stop: a chain that comes back ends */
 } link_t;
 
-/* NOINLINE, like link_call and shape_set_amplitude: the compiler's copies at their callers would take 120 bytes of Play. */
-void link_init(link_t *link, link_mode_t mode) NOINLINE;
+void link_init(link_t *link, link_mode_t mode);
 
 /* A play begins: by a code, or by a page number (code 0). Forgets any stop. */
-void link_call(link_t *link, uint8_t code) NOINLINE;
+void link_call(link_t *link, uint8_t code);
 
 /* A code arrives: 0 = released, 255 = stop, else the code. In latch mode 0 changes nothing; in hold mode it is a stop.
  * Like any code, a stop stays in force until another one comes. A code that was held before the stop and is merely

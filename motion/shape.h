@@ -41,7 +41,7 @@ void shape_init(shape_t *shape);
 
 /* The ranges are those of shape_t. joints: bit per joint; at least one. page: 0..127. */
 MUST_CHECK shape_status_t shape_set_rate(shape_t *shape, uint16_t percent);
-MUST_CHECK shape_status_t shape_set_amplitude(shape_t *shape, uint16_t percent, uint32_t joints) NOINLINE;
+MUST_CHECK shape_status_t shape_set_amplitude(shape_t *shape, uint16_t percent, uint32_t joints);
 MUST_CHECK shape_status_t shape_set_blend(shape_t *shape, int16_t percent);
 MUST_CHECK shape_status_t shape_set_centre(shape_t *shape, uint8_t page);
 

@@ -136,6 +136,9 @@ performer_status_t performer_move(performer_t *performer, const uint16_t to_pos[
     if (status != PERFORMER_OK) {
         return status;
     }
+    if ((joints & performer->servos->present) == 0) {
+        return PERFORMER_ERR_NO_SERVOS;
+    }
     memcpy(performer->player.next_pos, to_pos, sizeof performer->player.next_pos);
     performer->page = 0;
     performer->move_deg_s = deg_s;

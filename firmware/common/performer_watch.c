@@ -8,7 +8,7 @@
 /* Errors for the fault rule. A voltage error is reported but ends nothing: the battery is low long before it is empty. */
 #define ERRORS_GRAVE (DXL_ERR_ANGLE | DXL_ERR_HEAT | DXL_ERR_OVERLOAD)
 
-static NOINLINE void tell(performer_t *performer, uint8_t kind, uint8_t a, uint8_t b)
+static void tell(performer_t *performer, uint8_t kind, uint8_t a, uint8_t b)
 {
     performer_event_put(&performer->events, kind, a, b, 0);
 }

@@ -33,7 +33,7 @@ void report_joints(uint32_t joints);
 
 /* ---- report_event.c, linked by Play only ---- */
 
-/* The bits of a servo's error byte: "overload, overheating". */
+/* The bits of servo_fault_t.errors: "overload, overheating"; 0: "no error". */
 void report_servo_errors(uint8_t errors);
 
 /* "page 12 (walk)". */

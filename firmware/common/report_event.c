@@ -2,6 +2,7 @@
  * report_event.c - Play's sentences for events. Edit has shorter ones of its own. */
 #include "report.h"
 
+#include "compiler.h"
 #include "dxl.h"
 #include "link.h"
 #include "page_store.h"
@@ -12,19 +13,19 @@ void report_servo_errors(uint8_t errors)
     TEXT_NAMED(voltage, "voltage");
     TEXT_NAMED(angle, "angle limit");
     TEXT_NAMED(heat, "overheating");
-    TEXT_NAMED(range, "range");
-    TEXT_NAMED(checksum, "checksum");
     TEXT_NAMED(overload, "overload");
-    TEXT_NAMED(instruction, "instruction");
-    static const char *const names[] PROGMEM = {voltage, angle, heat, range, checksum, overload, instruction};
+    static const struct {
+        uint8_t bit;
+        const char *name_P;
+    } names[] PROGMEM = {{DXL_ERR_VOLTAGE, voltage}, {DXL_ERR_ANGLE, angle}, {DXL_ERR_HEAT, heat}, {DXL_ERR_OVERLOAD, overload}};
     bool first = true;
-    for (uint8_t bit = 0; bit < sizeof names / sizeof names[0]; bit++) {
-        if ((errors & (1u << bit)) != 0) {
+    for (uint8_t i = 0; i < ARRAY_COUNT(names); i++) {
+        if ((errors & pgm_read_byte(&names[i].bit)) != 0) {
             if (!first) {
                 TEXT(", ");
             }
             first = false;
-            text_P((const char *)pgm_read_ptr(&names[bit]));
+            text_P((const char *)pgm_read_ptr(&names[i].name_P));
         }
     }
     if (first) {

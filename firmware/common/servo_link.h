@@ -32,7 +32,7 @@
 #define SERVO_LINK_BIT(id) ((uint32_t)1 << (id))
 uint32_t servo_link_bit(uint8_t id) NOINLINE;
 bool servo_link_has(const uint32_t *mask, uint8_t id);
-void servo_link_put(uint32_t *mask, uint8_t id, bool on) NOINLINE;
+void servo_link_put(uint32_t *mask, uint8_t id, bool on);
 uint8_t servo_link_lowest(const uint32_t *mask);   /* of a mask that is not empty */
 
 /* Faults of a servo, and their ends. */

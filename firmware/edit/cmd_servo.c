@@ -78,6 +78,7 @@ COMMAND(cmd_mirror)
 
 static void print_pairs(const settings_t *settings)
 {
+    text_P(settings->neutral == SETTINGS_NEUTRAL_PAGE1 ? TEXT_P("about page1: ") : TEXT_P("about 512: "));
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         if (settings->pair[joint] < PAGE_JOINTS && settings->pair[joint] > joint) {
             text_number(joint);

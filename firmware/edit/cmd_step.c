@@ -40,7 +40,7 @@ static void update_trim(uint8_t step)
 }
 
 /* Writes the work pose to a step. Joints without torque are written as ????, with a message, because that is seldom meant.
- * Joints that are not present become unused, whatever the work pose shows. */
+ * Joints that are not present become unused, unless SET or MOVE has put a position there. */
 static void write_pose(uint8_t step)
 {
     uint32_t off = 0;

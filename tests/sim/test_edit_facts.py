@@ -87,6 +87,14 @@ def test_nul_and_escape_sequences_do_not_reach_a_line(r):
     assert r.text(2, 76, 4) == "0002"
 
 
+def test_bracket_typed_after_a_lone_escape_is_a_character(r):
+    r.keys("name a\x1b")
+    r.settle(ms=100)  # a terminal sends a sequence at once, a person types later
+    r.keys("[O]\r")
+    assert r.text(1, 65, 6) == "a[O]  "
+    r.line("undo")
+
+
 def test_message_behind_a_long_line_has_the_row_for_itself(r):
     r.keys("x" * 60 + "\r")
     assert r.command == "] Bad Command"
@@ -285,7 +293,8 @@ def test_mirror_about_the_first_step_of_page_1_in_flash():
         r.board.reset()  # the setting is kept
         r.terminal.screen.reset()
         r.settle(ms=1500)
-        assert r.line("pairs").startswith("pairs 1-2 3-4")
+        assert r.line("pairs").startswith("pairs about 512: 1-2 3-4")
+        assert r.line("pairs page1").startswith("pairs page1 about page1: 1-2 3-4")
 
 
 @pytest.mark.parametrize("word", ["3", "pag1", "page12", "51"])
