@@ -89,8 +89,8 @@ void performer_set_source(performer_t *performer, const page_source_t *source);
  * performer_poll do the rest. Any error: nothing happens, nothing is queued. */
 MUST_CHECK performer_status_t performer_start(performer_t *performer, uint8_t page, uint8_t code);
 
-/* Moves `joints` to a pose (page coordinates) with at most deg_s degrees/s (1..360), ramped. Those that are not there are left
- * out; PERFORMER_ERR_NO_SERVOS: none of them is. */
+/* Moves `joints` to a pose (page coordinates) with at most deg_s degrees/s (1..360), ramped. Those that are not there are
+ * left out; PERFORMER_ERR_NO_SERVOS: none of them is. */
 MUST_CHECK performer_status_t performer_move(performer_t *performer, const uint16_t to_pos[PAGE_JOINTS],
                                              uint32_t joints, uint16_t deg_s);
 

@@ -17,7 +17,8 @@ void report_servo_errors(uint8_t errors)
     static const struct {
         uint8_t bit;
         const char *name_P;
-    } names[] PROGMEM = {{DXL_ERR_VOLTAGE, voltage}, {DXL_ERR_ANGLE, angle}, {DXL_ERR_HEAT, heat}, {DXL_ERR_OVERLOAD, overload}};
+    } names[] PROGMEM = {
+        {DXL_ERR_VOLTAGE, voltage}, {DXL_ERR_ANGLE, angle}, {DXL_ERR_HEAT, heat}, {DXL_ERR_OVERLOAD, overload}};
     bool first = true;
     for (uint8_t i = 0; i < ARRAY_COUNT(names); i++) {
         if ((errors & pgm_read_byte(&names[i].bit)) != 0) {
