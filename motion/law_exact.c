@@ -52,8 +52,6 @@ void exact_start(player_t *player)
     }
 }
 
-/* --- plan --------------------------------------------------------------------------------------------------------- */
-
 void exact_measure_next(player_t *player)
 {
     player_step_t *next = &player->next;
@@ -132,8 +130,6 @@ void exact_plan(player_t *player)
     }
 }
 
-/* --- a tick ------------------------------------------------------------------------------------------------------- */
-
 bool exact_is_over(const player_t *player)
 {
     return player->tick >= player->now.ticks + player->now.hold_ticks;
@@ -196,8 +192,6 @@ uint8_t exact_tick(player_t *player)
     }
     return PLAYER_EV_OUTPUT;
 }
-
-/* --- break, pause, resume ------------------------------------------------------------------------------------------- */
 
 void exact_leave_step(player_t *player)
 {

@@ -3,8 +3,6 @@
 
 #include <string.h>
 
-/* --- the main play, the page layer -------------------------------------------------------------------------------- */
-
 void layers_init(layers_t *layers, uint16_t goal_pos[PAGE_JOINTS])
 {
     memset(layers, 0, sizeof *layers);
@@ -104,8 +102,6 @@ void layers_end(layers_t *layers)
     }
 }
 
-/* --- code --------------------------------------------------------------------------------------------------------- */
-
 /* A slot for the joint, which from now on belongs to code. */
 static layers_status_t take_for_code(layers_t *layers, uint8_t id, code_slot_t **slot)
 {
@@ -163,8 +159,6 @@ void layers_free(layers_t *layers, uint32_t joints)
     code_motion_free(&layers->code, joints);
     hand_back(layers, joints);
 }
-
-/* --- a tick ------------------------------------------------------------------------------------------------------- */
 
 /* The goals of the joints that the plays move, from the play that each belongs to. of_layer: joints of the page layer. */
 static void follow_plays(layers_t *layers, uint32_t of_layer)
@@ -254,8 +248,6 @@ uint32_t layers_joints(const layers_t *layers)
 {
     return layers->code.joints | layers->mux.seeking | (player_is_moving(&layers->play) ? layers->play.present : 0);
 }
-
-/* --- for all kinds ------------------------------------------------------------------------------------------------ */
 
 void layers_drop_joints(layers_t *layers, uint32_t joints)
 {

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "step_ticks.h"
 
-/* --- rate, limit, fractions -------------------------------------------------------------------------------------- */
-
 #define TICK_BITS 11 /* lengths are in 1/2048 tick */
 
 /* length / rate, floor. A length above LENGTH_MAX is taken for that. */
@@ -43,8 +41,6 @@ static uint16_t least_ticks(const player_step_t *step, uint16_t longest_distance
     uint8_t top = step->top_speed_q4_4;
     return (uint16_t)(top == 0 ? 0u : (16u * longest_distance + top - 1u) / top);
 }
-
-/* --- classic ------------------------------------------------------------------------------------------------------ */
 
 static uint16_t stored_classic_ticks(const player_step_t *step, uint16_t longest_distance)
 {
@@ -102,8 +98,6 @@ uint8_t step_ticks_classic_ramp(uint8_t accel_time, uint16_t *ticks)
     }
     return ramp;
 }
-
-/* --- exact -------------------------------------------------------------------------------------------------------- */
 
 /* The ideal length in 1/2048 tick, as stored. */
 static uint32_t stored_exact_length(const player_step_t *step, uint16_t longest_distance)
