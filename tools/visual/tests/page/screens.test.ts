@@ -3,6 +3,7 @@
 // head, a picture that stays, letters that can be read, no word cut, few sizes, one blue button.
 import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
+import { LANGUAGES } from '../../view/texts/languages.ts';
 import { Visitor } from './page-bench.ts';
 import { SHOTS, pageSuite } from './page-suite.ts';
 
@@ -11,6 +12,8 @@ const LYING = { width: 844, height: 390, hasTouch: true };
 const TABLET = { width: 1024, height: 768, hasTouch: true };
 const DESKTOP = { width: 1440, height: 900 };
 const DESKTOP_AT_200 = { width: 720, height: 450 };
+/** Picture beside areas: the narrowest of them, a tablet and a desktop. */
+const BESIDE = [{ width: 1000, height: 700 }, TABLET, DESKTOP] as const;
 const SCREENS = { PHONE, LYING, TABLET, DESKTOP, DESKTOP_AT_200 };
 const AREAS = ['Remote', 'Steps', 'Curves', 'Motions', 'Links', 'Checks', 'Terminal', 'Robot'] as const;
 /** A row of buttons that are 40 px for a finger, with its edges. */
@@ -86,6 +89,24 @@ test.each(Object.entries(SCREENS))(
         await person.leave();
     },
 );
+
+test.each(Object.keys(LANGUAGES))('the tabs of all areas stand in one row, none cut, beside the picture (%s)', async language => {
+    const person = await Visitor.come(suite.browser, `${suite.address}?lang=${language}`, {
+        screen: BESIDE[0],
+        hasPicture: false,
+        hasPhysics: false,
+    });
+    const { page } = person;
+    await page.locator('.more-areas').click();
+    for (const { width, height } of BESIDE) {
+        await page.setViewportSize({ width, height });
+        await person.untilSeen();
+        const tops = await page.getByRole('tab').evaluateAll(tabs => tabs.map(tab => tab.getBoundingClientRect().top));
+        expect.soft([tops.length, new Set(tops).size], `${width} x ${height}`).toEqual([AREAS.length, 1]);
+        expect.soft((await page.evaluate(look)).cut, `${width} x ${height}: cut`).toEqual([]);
+    }
+    await person.leave();
+});
 
 test('lying and at 200 %, picture and area are beside each other; on end, the area is a sheet that folds', async () => {
     for (const screen of [LYING, DESKTOP_AT_200]) {
