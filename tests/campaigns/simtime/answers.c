@@ -45,6 +45,7 @@ static struct {
     uint32_t asked_tick;
     uint32_t mixed_until;          /* one was asked before the other was answered */
     char shape[LINE_BYTES];        /* a line of a person that changes the next, until it is answered */
+    uint32_t shape_tick;           /* when it was typed */
     bool is_driven;                /* @drive, a remote or nobody knows what may have set these as well */
     int rate, blend, amplitude;    /* UNSET: not known */
     uint8_t page[PAGE_BYTES];      /* the one that is open, if only a program has changed it */
@@ -406,11 +407,13 @@ void answers_typed(const char *line)
         forget_shape();
     }
     answers.line[0] = '\0';
-    if (!session.typed_is_known) {
+    const bool is_early = answers.shape[0] != '\0' && session.tick - session.boot_tick < 4 * SECOND;
+    if (!session.typed_is_known || is_early) {   /* early: both lines are answered once the program has started */
         forget_shape();
     }
     if (!session.typed_is_known || line[0] != '@') {
         snprintf(answers.shape, sizeof answers.shape, "%s", line);
+        answers.shape_tick = session.tick;
         answers.knows_page = answers.knows_page && line[0] == '\0';
         if (strncmp(line, "settings", 8) == 0 || strncmp(line, "drive", 5) == 0) {
             forget_shape();   /* the remote may steer */
@@ -445,8 +448,12 @@ void answers_tick(void)
 
 void answers_boot(void)
 {
+    const bool is_open = answers.shape[0] != '\0' && session.tick - answers.shape_tick < SECOND;
     answers.line[0] = answers.shape[0] = '\0';
     answers.knows_page = answers.is_driven = false;
     answers.rate = answers.amplitude = 100;
     answers.blend = 0;
+    if (is_open) {
+        forget_shape();   /* the new program may find the line that was typed when the power failed */
+    }
 }

@@ -363,6 +363,7 @@ void law_frame(const uint8_t *ids_and_goals, unsigned count, unsigned bytes_each
             session_fail("a pause is at rest", "servo %u from %u to %u", id, law.now[id], goal);
         }
         law.now[id] = (uint16_t)goal;
+        views_goal(id, goal);
         present |= 1u << id;
     }
     if (present != law.present && law.knows_place) {
@@ -485,7 +486,7 @@ void law_typed(const char *line)
         law.approach = 1000;
     }
     law.is_shaped = law.is_shaped || is_one_of(line, shapes);
-    law.is_aimed = (law.is_aimed || begins(line, "aim") || begins(line, "swing")) && !begins(line, "free");
+    law.is_aimed = (law.is_aimed || begins(line, "aim") || begins(line, "swing")) && strcmp(line, "free") != 0;
     if (begins(line, "shape reset") && !law.is_under_way && !law.is_aimed) {
         law.is_shaped = false;
     }
@@ -516,6 +517,7 @@ void law_remote(unsigned buttons)
     const bool is_stop = buttons >= 512 && law.buttons < 512;
     law.buttons = buttons;
     if (buttons == 0) {
+        law.is_stopped = law.is_stopped || (law.has_modes && law.is_under_way);   /* with the setting `remote hold` */
         return;
     }
     law.paused_tick = NEVER_TICK;

@@ -185,6 +185,14 @@ static bool has_goal(unsigned id)
     return (goal[0] | goal[1] << 8) == views.goal_now[id];
 }
 
+/* The history of goals has one for each tick; a late tick sends two. */
+void views_goal(unsigned id, unsigned goal)
+{
+    if (views.goal_now[id] == (int)goal) {
+        views.goal_now[id] = UNKNOWN;
+    }
+}
+
 /* The goals of that line have been sent, or are sent in the ticks that follow. */
 static void look_at_goals(void)
 {

@@ -277,8 +277,9 @@ static bool set_fault(unsigned id, const char *name, uint32_t answers)
     servo_bus_fault(session.bus, cycles(simtime_now()), joint->servo, fault, answers == 0 ? SERVO_FAULT_ALWAYS : answers);
     joint->fault_tick = session.tick;
     joint->late_tick = fault == SERVO_FAULT_LATE ? session.tick : joint->late_tick;
-    if (answers == 0 && (fault == SERVO_FAULT_SILENT || fault == SERVO_FAULT_DEAD) && joint->silent_since == NEVER_TICK) {
-        joint->silent_since = session.tick;
+    if (fault == SERVO_FAULT_SILENT || fault == SERVO_FAULT_DEAD) {
+        const bool was_silent = joint->silent_since != NEVER_TICK;
+        joint->silent_since = answers != 0 ? NEVER_TICK : was_silent ? joint->silent_since : session.tick;
     }
     return true;
 }
