@@ -44,7 +44,7 @@ export class ServosSource {
             const port = await navigator.serial.requestPort();
             const index = (await navigator.serial.getPorts()).indexOf(port);
             const { usbVendorId, usbProductId } = port.getInfo();
-            this.chosen = { hint: { usbVendorId, usbProductId, index }, name: new WebSerialPort(port).name };
+            this.chosen = { hint: { usbVendorId, usbProductId, index }, name: new WebSerialPort(port, TEXTS.menu.port).name };
             rememberAdapter(port);
         });
     }

@@ -4,6 +4,7 @@
 import type { Body } from '../model/body.ts';
 import type { Connection } from '../robot/connection.ts';
 import { WebSerialPort } from '../robot/web-serial-port.ts';
+import { TEXTS } from '../view/texts/texts.ts';
 import { FollowedRobot } from './followed-robot.ts';
 import { isAdapter, withPort } from './serial-ports.ts';
 import type { SourceEvents } from './simulated-source.ts';
@@ -31,7 +32,7 @@ export class YourSource {
     }
 
     connect(): void {
-        if (this.port) this.robot.connect(new WebSerialPort(this.port));
+        if (this.port) this.robot.connect(new WebSerialPort(this.port, TEXTS.menu.port));
     }
 
     close(): Promise<void> {

@@ -26,10 +26,11 @@ export class WebSerialPort implements Port {
     readonly name: string;
     private readonly port: BrowserSerialPort;
 
-    constructor(port: BrowserSerialPort) {
+    /** nameOf: how people call a port with such a chip in it; '': nobody knows which. */
+    constructor(port: BrowserSerialPort, nameOf: (maker: string) => string) {
         this.port = port;
         const vendor = port.getInfo?.().usbVendorId;
-        this.name = vendor === undefined ? 'serial port' : `USB serial port (${VENDORS.get(vendor) ?? vendor.toString(16)})`;
+        this.name = nameOf(vendor === undefined ? '' : (VENDORS.get(vendor) ?? vendor.toString(16)));
     }
 
     get readable(): ReadableStream<Uint8Array> | null {

@@ -9,12 +9,24 @@ import { comesLater } from './weight.ts';
 
 const suite = pageSuite();
 
+/** In the browser: a port that takes its time. */
+function withPort(): void {
+    const port = { getInfo: () => ({ usbVendorId: 0x0403 }), open: () => new Promise(() => undefined) };
+    Object.assign((navigator as unknown as { serial: object }).serial, {
+        requestPort: () => Promise.resolve(port),
+        getPorts: () => Promise.resolve([]),
+    });
+}
+
 test('German by the menu, after a new motion; Japanese by the address; each loads its own file and no other', async () => {
     const asked: string[] = [];
     const person = await Visitor.come(suite.browser, suite.address, {
         hasPicture: false,
         hasPhysics: false,
-        before: async page => void page.on('request', request => asked.push(request.url())),
+        before: async page => {
+            page.on('request', request => asked.push(request.url()));
+            await page.addInitScript(withPort);
+        },
     });
     const { page } = person;
     const languages = (): string[] =>
@@ -29,9 +41,14 @@ test('German by the menu, after a new motion; Japanese by the address; each load
     await page.getByRole('combobox', { name: 'Language' }).selectOption('de');
     await doing(DE.status.waits).waitFor();
     expect(languages()).toEqual(['de']);
+    const description = page.locator('meta[name="description"]');
     expect(await page.evaluate(() => [document.documentElement.lang, document.title])).toEqual(['de', DE.page.title]);
+    expect(await description.getAttribute('content')).toBe(DE.page.description);
     await page.getByRole('tab', { name: DE.areas.titles.steps }).click();
     await page.getByRole('button', { name: DE.steps.step(1), exact: true }).waitFor();
+    await person.openMenu();
+    await page.getByRole('button', { name: DE.menu.yourRobot, exact: true }).click();
+    await page.getByRole('button', { name: DE.menu.port('FTDI'), exact: true }).waitFor();
     await page.goto(`${suite.address}?lang=ja`);
     await doing(JA.status.waits).waitFor();
     expect(languages()).toEqual(['ja']);

@@ -13,7 +13,12 @@ const KEPT = /Motion512|START|MODE|\.(m512|bin|hex|mtn)\b/g;
 const suite = pageSuite();
 
 test.each(Object.entries(SCREENS))('no plain English anywhere, and nothing is cut at +40 %% (%s)', async (name, screen) => {
-    const person = await Visitor.come(suite.browser, `${suite.address}?lang=pseudo`, { screen, hasPicture: false, hasPhysics: false });
+    const person = await Visitor.come(suite.browser, `${suite.address}?lang=pseudo`, {
+        screen,
+        isNew: true,
+        hasPicture: false,
+        hasPhysics: false,
+    });
     const { page } = person;
     await page.locator('status-bar .doing').filter({ hasText: PSEUDO.status.waits }).waitFor();
     const names = await page.evaluate(() => {

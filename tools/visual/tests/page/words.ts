@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
 // A walk through all areas and dialogs of the page, whatever its language, and what can be read there.
+import { readFileSync } from 'node:fs';
 import type { Page } from 'playwright-core';
 import type { Texts } from '../../view/texts/texts.ts';
 import type { Visitor } from './page-bench.ts';
+import { PAGE_BYTES } from '../../model/motion.ts';
 import type { Tab } from '../../view/session/session.ts';
 
 const AREAS: readonly Tab[] = ['remote', 'steps', 'curves', 'pages', 'links', 'checks', 'terminal', 'robot'];
+
+const ROOT = new URL('../../../../', import.meta.url).pathname;
+const LIBRARY = `${ROOT}build/motions/motions.bin`;
+const LARGE = `${ROOT}tests/samples/robot_12bit_256p.bin`;
 
 export interface Words {
     /** Texts with two plain letters in a row, where nothing is quoted. */
@@ -46,6 +52,8 @@ function look(): Words {
         const [at, box] = [range.getBoundingClientRect(), parent.closest('.xterm, svg') ? null : hidingBox(parent)];
         if (box && (at.left < box.left - 1.5 || at.right > box.right + 1.5)) cut.add(text.trim());
     }
+    read(document.title);
+    read(document.querySelector<HTMLMetaElement>('meta[name="description"]')?.content ?? '');
     for (const area of root.querySelectorAll('.area:not([hidden]), dialog[open]'))
         if (area.scrollWidth > area.clientWidth + 1) cut.add('something that is scrolled to sideways');
     for (const element of root.querySelectorAll('*')) {
@@ -54,6 +62,17 @@ function look(): Words {
         if (element.matches('option') && element.parentElement && isSeen(element.parentElement)) read(element.textContent);
     }
     return { plain: [...plain], cut: [...cut] };
+}
+
+/** Its name is no word of any language. */
+function file(buffer: Buffer): { name: string; mimeType: string; buffer: Buffer } {
+    return { name: '1.bin', mimeType: '', buffer };
+}
+
+/** With a trim, and a motion that is damaged. */
+function withFaults(image: Buffer): Buffer {
+    image.copy(image, 0, 2 * PAGE_BYTES, 3 * PAGE_BYTES);
+    return image.fill(7, 3 * PAGE_BYTES + PAGE_BYTES / 2, 4 * PAGE_BYTES);
 }
 
 export class Walk {
@@ -78,9 +97,11 @@ export class Walk {
         await this.page.locator(`#tab-${area}`).click();
     }
 
-    /** Everything that can be opened in the page without a robot that moves. */
+    /** Everything that can be opened in the page without a robot that moves. Nobody has been here before. */
     async all(): Promise<void> {
         const { page } = this;
+        await page.locator('first-minute').waitFor();
+        await this.look('first minute');
         await page.locator('.more-areas').click();
         for (const area of AREAS) {
             await this.open(area);
@@ -95,6 +116,7 @@ export class Walk {
         await page.keyboard.press('Escape');
         await this.tour();
         await this.dialogs();
+        await this.files();
     }
 
     private async tour(): Promise<void> {
@@ -150,5 +172,27 @@ export class Walk {
         await this.person.openMenu();
         await page.locator('page-card[data-page="2"]').waitFor({ state: 'attached' });
         await this.dialog('nothing to send', () => button(texts.files.send));
+    }
+
+    /** Motions that come from elsewhere, with everything that is asked then: the trim, and whether to leave out what has no room. */
+    private async files(): Promise<void> {
+        const { page } = this;
+        const chooser = page.locator('files-menu input[type="file"]');
+        await this.dialog('opened file', () => chooser.setInputFiles(file(withFaults(readFileSync(LIBRARY)))));
+        await this.dialog('too large a file', () => chooser.setInputFiles(file(readFileSync(LARGE))));
+        await this.person.closeMenu();
+        await this.open('pages');
+        await page.locator('page-card[data-page="2"]').click();
+        await this.person.openMenu();
+        await this.dialog('link', () => page.getByRole('button', { name: this.texts.files.send, exact: true }).click());
+        const hash = await page.evaluate(() => {
+            const { session } = document.querySelector('app-shell') as unknown as { session: { files: { link(): Promise<string> } } };
+            return session.files.link();
+        });
+        const address = page.url();
+        await page.goto('about:blank');
+        await page.goto(address + hash);
+        await page.locator('sent-card').waitFor();
+        await this.look('sent motion');
     }
 }

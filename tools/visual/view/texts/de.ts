@@ -15,6 +15,8 @@ function fallPlace({ step, motion, seconds }: FallPlace): string {
 const DE: Texts = {
     page: {
         title: 'Motion512: ein Roboter im Browser',
+        description:
+            'Ein humanoider Roboter mit der Firmware von Motion512, bis aufs Bit simuliert. Lass ihn gehen, stoß ihn, bring ihm etwas bei.',
         couldNotStart: why => `Die Seite konnte nicht starten. Lade sie neu. (${why})`,
         noWebGl:
             'Dieser Browser zeichnet kein 3D-Bild (WebGL ist aus). Alles andere geht; um den Roboter zu sehen, schalte WebGL in den Einstellungen ein und lade die Seite neu.',
@@ -37,6 +39,7 @@ const DE: Texts = {
         robotInPage: 'Roboter in dieser Seite',
         yourRobot: 'Dein Roboter …',
         myServos: 'Meine Servos …',
+        port: maker => (maker === '' ? 'serielle Schnittstelle' : `serielle USB-Schnittstelle (${maker})`),
         licences: 'Lizenzen',
         theme: 'Hell oder dunkel',
         language: 'Sprache',

@@ -344,6 +344,7 @@ const keys: readonly KeyGroup[] = [
 export const EN = {
     page: {
         title: 'Motion512: a robot in your browser',
+        description: 'A humanoid robot with the firmware of Motion512, simulated to the bit. Walk it, push it, program it.',
         couldNotStart: (why: string) => `The page could not start. Reload it. (${why})`,
         noWebGl:
             'This browser draws no 3D picture (WebGL is off). Everything else works; to see the robot, switch WebGL on in the settings, then reload.',
@@ -367,6 +368,7 @@ export const EN = {
         robotInPage: 'Robot in this page',
         yourRobot: 'Your robot …',
         myServos: 'My servos …',
+        port: (maker: string) => (maker === '' ? 'serial port' : `USB serial port (${maker})`),
         licences: 'Licences',
         theme: 'Light or dark',
         language: 'Language',

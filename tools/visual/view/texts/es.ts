@@ -15,6 +15,7 @@ function fallPlace({ step, motion, seconds }: FallPlace): string {
 const ES: Texts = {
     page: {
         title: 'Motion512: un robot en tu navegador',
+        description: 'Un robot humanoide con el firmware de Motion512, simulado hasta el último bit. Hazlo andar, empújalo, prográmalo.',
         couldNotStart: why => `La página no pudo arrancar. Vuelve a cargarla. (${why})`,
         noWebGl:
             'Este navegador no dibuja imágenes en 3D (WebGL está desactivado). Todo lo demás funciona; para ver el robot, activa WebGL en los ajustes y vuelve a cargar la página.',
@@ -37,6 +38,7 @@ const ES: Texts = {
         robotInPage: 'Robot de esta página',
         yourRobot: 'Tu robot …',
         myServos: 'Mis servos …',
+        port: maker => (maker === '' ? 'puerto serie' : `puerto serie USB (${maker})`),
         licences: 'Licencias',
         theme: 'Claro u oscuro',
         language: 'Idioma',

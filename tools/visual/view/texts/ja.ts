@@ -11,6 +11,8 @@ function fallPlace({ step, motion, seconds }: FallPlace): string {
 const JA: Texts = {
     page: {
         title: 'Motion512：ブラウザーの中のロボット',
+        description:
+            'Motion512 のファームウェアで動くヒューマノイドロボットを、ビット単位で正確にシミュレート。歩かせて、押して、動きを教えられます。',
         couldNotStart: why => `ページを開始できませんでした。再読み込みしてください。（${why}）`,
         noWebGl:
             'このブラウザーでは 3D 画像を表示できません（WebGL がオフです）。ほかの機能は使えます。ロボットを見るには、設定で WebGL をオンにして再読み込みしてください。',
@@ -33,6 +35,7 @@ const JA: Texts = {
         robotInPage: 'このページのロボット',
         yourRobot: '自分のロボット …',
         myServos: '自分のサーボ …',
+        port: maker => (maker === '' ? 'シリアルポート' : `USB シリアルポート（${maker}）`),
         licences: 'ライセンス',
         theme: '明るい／暗い',
         language: '言語',

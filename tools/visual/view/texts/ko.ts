@@ -11,6 +11,8 @@ function fallPlace({ step, motion, seconds }: FallPlace): string {
 const KO: Texts = {
     page: {
         title: 'Motion512: 브라우저 속의 로봇',
+        description:
+            'Motion512 펌웨어로 움직이는 휴머노이드 로봇을 비트까지 그대로 시뮬레이션합니다. 걷게 하고, 밀고, 동작을 가르쳐 보세요.',
         couldNotStart: why => `페이지를 시작하지 못했습니다. 새로 고침하세요. (${why})`,
         noWebGl:
             '이 브라우저는 3D 그림을 표시하지 못합니다(WebGL이 꺼져 있음). 다른 기능은 모두 됩니다. 로봇을 보려면 설정에서 WebGL을 켜고 새로 고침하세요.',
@@ -32,6 +34,7 @@ const KO: Texts = {
         robotInPage: '이 페이지의 로봇',
         yourRobot: '내 로봇 …',
         myServos: '내 서보 …',
+        port: maker => (maker === '' ? '시리얼 포트' : `USB 시리얼 포트(${maker})`),
         licences: '라이선스',
         theme: '밝게/어둡게',
         language: '언어',

@@ -39,6 +39,7 @@ export async function useLanguage(): Promise<void> {
     if (loaded) useTexts(loaded.default);
     document.documentElement.lang = loaded ? language : 'en';
     document.title = TEXTS.page.title;
+    document.querySelector('meta[name="description"]')?.setAttribute('content', TEXTS.page.description);
 }
 
 /** The page is loaded anew in that language; document and robot are kept. */
