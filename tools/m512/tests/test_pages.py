@@ -91,6 +91,18 @@ def test_pages_rename_takes_no_letter_that_a_page_cannot_hold(m512, lib, name):
     assert result.exit_code == 4 and "ASCII" in result.stderr and lib.read_bytes() == before
 
 
+def test_pages_rename_takes_a_name_away_and_refuses_one_that_nobody_sees(m512, lib):
+    before = lib.read_bytes()
+    result = m512("pages", lib, "rename", "walk", "  ", "--in-place")
+    assert result.exit_code == 4 and "'  ': nobody sees" in result.stderr and lib.read_bytes() == before
+    assert m512("pages", lib, "rename", "walk", "", "--in-place").exit_code == 0 and image(lib)[3].name == b""
+
+
+def test_pages_says_that_the_file_comes_first(m512, lib):
+    result = m512("pages", "list", lib)
+    assert result.exit_code == 2 and f"the file comes first: m512 pages {lib} list" in result.stderr
+
+
 def test_pages_rename_to_a_number_says_what_the_number_means(m512, lib):
     result = m512("pages", lib, "rename", "walk", "12", "--in-place")
     assert result.exit_code == 0 and "12 means page 12" in result.stderr

@@ -339,6 +339,27 @@ def test_standard_input_for_two_files_is_a_sentence(m512, files, monkeypatch, wo
     assert result.exit_code == 4 and "standard input gives one file, and here it is asked for two" in result.stderr
 
 
+@pytest.mark.parametrize("words", [("list",), ("show", "walk"), ("check", "--json")])
+def test_a_result_that_nobody_can_get_is_no_success(files, words):
+    command = [sys.executable, "-m", "m512", "pages", str(files / "x.bin"), *words]
+    result = subprocess.run(["sh", "-c", 'exec "$@" >&-', "sh", *command], stderr=subprocess.PIPE, text=True)
+    assert result.returncode == 4 and result.stderr == "m512: standard output is closed: the result is lost\n"
+
+
+@pytest.mark.parametrize("words", [("convert", "FOLDER", "y.bin"), ("diff", "x.bin", "FOLDER/sub"), ("put", "FOLDER", "3", "-p", "none")])
+def test_a_folder_in_place_of_a_file_is_called_one(m512, files, monkeypatch, words):
+    monkeypatch.chdir(files)
+    (files / "FOLDER" / "sub").mkdir(parents=True)
+    (files / "FOLDER" / "sub" / "manifest.json").mkdir()
+    result = m512(*words)
+    assert result.exit_code == 4 and " is a folder; " in result.stderr and not (files / "y.bin").exists()
+
+
+def test_get_knows_its_file_before_it_asks_a_robot(m512, files):
+    result = m512("get", "1", "-o", files / "x.foo", "-p", files / "no_port")
+    assert result.exit_code == 4 and "the suffix decides the format" in result.stderr
+
+
 @pytest.mark.parametrize("target", ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"])
 def test_standard_output_may_be_a_file_that_is_there(files, target):
     """`>> log`: what stands in it stays."""

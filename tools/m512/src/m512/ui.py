@@ -11,7 +11,7 @@ from typing import Callable
 
 import click
 
-from m512.errors import RefusedError
+from m512.errors import FileError, RefusedError
 from m512.streams import drop
 
 Progress = Callable[[int, int], None]
@@ -23,7 +23,9 @@ def plain(text: str) -> str:
 
 
 def show(text: str) -> None:
-    """A result, on stdout."""
+    """A result, on stdout. FileError: there is none (`>&-`)."""
+    if sys.stdout is None:
+        raise FileError("standard output is closed: the result is lost")
     click.echo(plain(text))
 
 

@@ -108,7 +108,16 @@ def changes(function: Any) -> Any:
 replacing = click.option("--replace", is_flag=True, help="Overwrite a page that is not empty.")
 
 
+class Actions(click.Group):
+    def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
+        source = ctx.params["source"]
+        if source in self.commands and args[0] not in self.commands:
+            ctx.fail(f"the file comes first: m512 pages {args[0]} {source}")
+        return super().resolve_command(ctx, args)
+
+
 @click.group(
+    cls=Actions,
     epilog="""\b
 Examples:
   m512 pages lib.bin list

@@ -235,6 +235,7 @@ def get(pages: Sequence[str], output: Any, force: bool, **options: Any) -> None:
 
     if storage.exists(output) and not force:
         raise RefusedError(f"{output} is there already (--force overwrites it)")
+    formats.kind_of(output)  # before a robot is asked
     with robot(options) as client:
         numbers = page_numbers(pages, client)
         only = one_of_csv(output, numbers)

@@ -103,10 +103,16 @@ def save(path: Path, image: Image, number: int | None = None, mtn_version: str =
     return losses
 
 
-def encode(path: Path, image: Image, number: int | None = None, mtn_version: str = "1.01", kind: str | None = None) -> tuple[bytes, list[str]]:
-    kind = kind or BY_SUFFIX.get(path.suffix.lower(), TEXT if storage.is_stream(path) else None)
+def kind_of(path: Path) -> str:
+    """What is written to a path. FileError: its suffix names no format."""
+    kind = BY_SUFFIX.get(path.suffix.lower(), TEXT if storage.is_stream(path) else None)
     if kind is None:
         raise FileError(f"{path}: the suffix decides the format: {' '.join(BY_SUFFIX)}")
+    return kind
+
+
+def encode(path: Path, image: Image, number: int | None = None, mtn_version: str = "1.01", kind: str | None = None) -> tuple[bytes, list[str]]:
+    kind = kind or kind_of(path)
     if kind == BINARY:
         return image.to_bytes(), []
     if kind == HEX:

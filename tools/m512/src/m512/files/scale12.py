@@ -32,10 +32,9 @@ def judged(image: Image, bits: int | None) -> Image:
     high = [(number, word) for number, word in words if word > 1023]
     if bits == 12 or 2 * len(high) <= len(words):
         return image
-    count = len({number for number, _ in high})
     image.bits = bits or 12
     image.notes.append(
-        f"looks like 12 bit (positions up to {max(word for _, word in high)} in {count} pages) and is "
+        f"looks like 12 bit (positions up to {max(word for _, word in high)} in {pages_text(number for number, _ in high)}) and is "
         + ("read as 10 bit, as asked" if bits else "read so")
         + f"; {HINT}"
     )

@@ -45,6 +45,8 @@ def exists(path: Path) -> bool:
 def read(path: Path) -> bytes:
     """All bytes of a file or pipe. FileError: standard input a second time, where nothing is left."""
     global _read_already
+    if path.is_dir():
+        raise FileError(f"{path} is a folder; name a file in it")
     try:
         if _descriptor(path) == 0 or str(path) == "-":
             if sys.stdin is None:

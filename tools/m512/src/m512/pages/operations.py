@@ -92,6 +92,8 @@ def need_good(image: Image, number: int) -> Page:
 def rename(image: Image, number: int, name: str) -> list[str]:
     if not all(" " <= letter <= "~" for letter in name):
         raise FileError(f"{name!r}: a page name is made of ASCII letters, digits, signs and blanks")
+    if name and not name.strip():
+        raise FileError(f"{name!r}: nobody sees a name of blanks; '' takes the page's name away")
     if len(name) > 13:
         raise FileError(f"{name!r}: a page name has at most 13 characters, not {len(name)}")
     page = need_good(image, number)
