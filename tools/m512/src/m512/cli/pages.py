@@ -123,7 +123,7 @@ Examples:
   m512 pages lib.bin list
   m512 pages lib.bin show walk_loop
   m512 pages lib.bin merge other.mtn 3 5:20 -o new.bin
-  m512 pages /dev/ttyUSB0 list --json"""
+  m512 pages /dev/ttyUSB0 list --json""",
 )
 @click.argument("source", metavar="FILE|PORT")
 @click.option("--bits", type=click.Choice(["10", "12"]), help="Resolution of an image file (default: what its positions look like).")
