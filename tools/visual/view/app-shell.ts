@@ -64,7 +64,8 @@ export class AppShell extends HTMLElement {
     private unwatch: () => void = () => undefined;
 
     connectedCallback(): void {
-        const robot = Object.assign(this.give(new RobotView()), { editing: this.editing });
+        const actions = this.give(new ActionBar());
+        const robot = Object.assign(this.give(new RobotView()), { editing: this.editing, covered: () => actions.offsetHeight });
         const poses = Object.assign(this.give(new PoseBar()), {
             editing: this.editing,
             margin: () => robot.margin,
@@ -96,7 +97,7 @@ export class AppShell extends HTMLElement {
         this.areas.append(this.sheet, this.tabs, this.give(this.editBar), ...this.panels.values());
         this.replaceChildren(
             this.head(),
-            make('main', {}, make('div', { class: 'stage' }, robot, poses, this.give(new ActionBar()), tour, sent, first), this.areas),
+            make('main', {}, make('div', { class: 'stage' }, robot, poses, actions, tour, sent, first), this.areas),
             this.give(new StatusBar()),
             compare,
             this.keys.element,

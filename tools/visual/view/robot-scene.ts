@@ -88,12 +88,13 @@ export class RobotScene {
         this.change.touch();
     }
 
-    resize(width: number, height: number, quality: Quality): void {
+    /** covered: pixels of the lower edge that something else covers. A quarter of it is enough: the robot stands over the middle. */
+    resize(width: number, height: number, quality: Quality, covered: number): void {
         this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, MOST_PIXELS) * quality.pixels);
         this.place.light.castShadow = quality.shadows;
         this.renderer.setSize(width, height, false);
         this.camera.aspect = width / Math.max(height, 1);
-        this.camera.updateProjectionMatrix();
+        this.camera.setViewOffset(width, height, 0, covered / 4, width, height);
         this.change.touch();
     }
 

@@ -35,6 +35,8 @@ export class RobotView extends HTMLElement {
     /** Nobody has touched the picture since it was last looked at, and then there was nothing new to draw: the camera has come to rest. */
     isStill = false;
     editing = new Store<Editing>(EDITING_START);
+    /** How much of its lower edge something else covers, in pixels; the robot stands higher for it. */
+    covered: () => number = () => 0;
     private pose: PoseTool | null = null;
     private scene: RobotScene | null = null;
     private quality = new PictureQuality(false);
@@ -46,6 +48,8 @@ export class RobotView extends HTMLElement {
     /** A hand has turned the camera while the robot was driven. */
     private isLookedRound = false;
     private readonly label = make('div', { class: 'joint-label', 'aria-hidden': 'true' });
+    /** The link whose joint the label names. */
+    private labelled: string | null = null;
     private readonly spoken = make('p', { class: 'visually-hidden', role: 'status', 'aria-label': TEXTS.picture.chosenJoint });
     private readonly canvas = make('canvas', { tabindex: 0, role: 'img', 'aria-label': TEXTS.picture.robot });
     private readonly fingers = new Fingers(this.canvas, () => this.endDrag());
@@ -129,6 +133,7 @@ export class RobotView extends HTMLElement {
     private place(scene: RobotScene, elapsedMs: number): void {
         if (!this.state) return;
         this.pose?.show(this.state, this.holder !== null);
+        if (!this.label.hidden) this.showJoint(this.labelled); // it moves under the mouse
         scene.look(
             this.pose?.figureTrunk ?? this.state.trunk,
             this.grabbed === null && !this.pose?.isDragging ? elapsedMs : null,
@@ -151,7 +156,7 @@ export class RobotView extends HTMLElement {
     }
 
     private resize(scene: RobotScene): void {
-        scene.resize(this.clientWidth, this.clientHeight, this.quality.quality);
+        scene.resize(this.clientWidth, this.clientHeight, this.quality.quality, this.covered());
     }
 
     private watchTheme(scene: RobotScene): void {
@@ -312,12 +317,13 @@ export class RobotView extends HTMLElement {
     }
 
     private showJoint(link: string | null): void {
+        this.labelled = link;
         const joint = this.session.body.joints.find(one => one.body === link);
         this.label.hidden = !joint;
         if (!joint) return;
         const { position, isLimp } = this.positionOf(joint);
         const text = isLimp ? TEXTS.picture.limpJoint : TEXTS.picture.joint;
-        this.label.textContent = text(joint.servo, jointTitle(joint), position);
+        setText(this.label, text(joint.servo, jointTitle(joint), position));
     }
 
     private positionOf(joint: Joint): { readonly position: number; readonly isLimp: boolean } {

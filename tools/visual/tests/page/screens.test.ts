@@ -19,6 +19,8 @@ const AREAS = ['Remote', 'Steps', 'Curves', 'Motions', 'Links', 'Checks', 'Termi
 /** A row of buttons that are 40 px for a finger, with its edges. */
 const ROW_PX = 64;
 const TOUR_PX = 64;
+/** From the middle of a foot to its tip, in the picture of a phone. */
+const FOOT_PX = 10;
 const LEAST_TYPE_PX = 12;
 const suite = pageSuite();
 
@@ -62,6 +64,12 @@ async function box(page: Page, what: string): Promise<{ x: number; y: number; wi
     return found;
 }
 
+function placeOf(page: Page, shape: string): Promise<{ x: number; y: number }> {
+    return page
+        .locator('robot-view')
+        .evaluate((view, name) => (view as unknown as { placeOf(name: string): { x: number; y: number } }).placeOf(name), shape);
+}
+
 test.each(Object.entries(SCREENS))(
     '%s: one row of head, no word cut, at most five sizes of type and one blue button in every area',
     async (name, screen) => {
@@ -69,6 +77,7 @@ test.each(Object.entries(SCREENS))(
         const { page } = person;
         await person.untilStanding();
         expect((await box(page, 'app-shell > header')).height).toBeLessThanOrEqual(ROW_PX);
+        if (screen === DESKTOP) expect((await box(page, 'action-bar')).height, 'the bar of motions').toBeLessThanOrEqual(ROW_PX);
         const picture = await box(page, '.stage');
         const type = new Set<number>();
         for (const area of AREAS) {
@@ -133,10 +142,12 @@ test('lying and at 200 %, picture and area are beside each other; on end, the ar
     await person.leave();
 });
 
-test('on a phone the Tour leaves the hand in the picture free', async () => {
+test('on a phone the robot stands above the bar of motions, and the Tour leaves the hand in the picture free', async () => {
     const person = await Visitor.come(suite.browser, suite.address, { screen: PHONE, hasPhysics: false });
     const { page } = person;
     await person.untilStanding();
+    const bar = await box(page, 'action-bar');
+    for (const foot of ['right_foot_front', 'left_foot_front']) expect((await placeOf(page, foot)).y + FOOT_PX, foot).toBeLessThan(bar.y);
     await person.button('Tour').click();
     await person.button('Start').click();
     const card = page.getByRole('region', { name: 'Tour' });
@@ -175,9 +186,7 @@ test('nothing over the picture covers the hand that is dragged, wherever it goes
     await page.getByRole('option', { name: /^motion 2 bow/ }).click();
     await person.open('Steps');
     const view = page.locator('robot-view');
-    const hand = await view.evaluate(element =>
-        (element as unknown as { placeOf(name: string): { x: number; y: number } }).placeOf('right_hand'),
-    );
+    const hand = await placeOf(page, 'right_hand');
     const stage = await box(page, '.stage');
     await page.mouse.move(hand.x, hand.y);
     await page.mouse.down();
@@ -216,6 +225,13 @@ test('nothing over the picture covers the hand that is dragged, wherever it goes
         await expect.poll(() => view.evaluate(element => (element as unknown as { hasGhost: boolean }).hasGhost)).toBe(false);
     }
     expect(covering).toEqual([]);
+    const elbow = await page.evaluate(() => {
+        const { session } = document.querySelector('app-shell') as unknown as {
+            session: { editor: { page(number: number): { steps: { positions: number[] }[] } } };
+        };
+        return session.editor.page(2).steps[0]?.positions[5];
+    });
+    await page.locator('.joint-label').getByText(`5 right elbow: ${elbow}`, { exact: true }).waitFor(); // not what it was before the drag
     await page.mouse.up();
     await person.button('Walk').waitFor(); // all of it is back
     await person.leave();
