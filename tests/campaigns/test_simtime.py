@@ -25,6 +25,15 @@ def test_a_power_cut_begins_with_fresh_memory():
     assert not outcome.fault and outcome.marks["power cut during play"] == 1
 
 
+@pytest.mark.parametrize("release", ([(640, "remote 0")], []), ids=("let go", "silent"))
+def test_a_stop_that_nobody_has_typed_ends_aims(release):
+    """In the mode `hold`; the joint is then on its way, and no rule is broken."""
+    actions = [(0, "seed 1"), (0, f"motions {runs.motions()}"), (0, "servo 1"), (0, "servo 2"), (0, "image play")]
+    asked = [(400, chance.typed("settings remote 1\r")), (600, "remote 1"), (610, chance.typed("aim 2 700 30\r"))]
+    outcome = runs.play(0, [*actions, *asked, *release, (1400, "end")])
+    assert not outcome.fault and outcome.marks["play stopped"] == 1
+
+
 def test_a_broken_rule_is_seen_and_its_list_becomes_short():
     """An action that nobody knows stands for a program that fails."""
     actions = [(0, "seed 1"), (0, f"motions {runs.motions()}"), (0, "servo 1"), (0, "image play")]

@@ -441,6 +441,9 @@ void law_printed(const char *line)
             law.ended_tick = session.tick;
         }
         law.knows_place = law.is_called = law.is_stopped = false;
+        if (line[0] == 'S') {
+            forget_aims();   /* PROTOCOL.md: a stop ends them behind the exit page, also one that nobody has typed or pressed */
+        }
     } else if (strncmp(line, "Broken", 6) == 0 || strncmp(line, "Ended", 5) == 0 || strncmp(line, "The pose", 8) == 0) {
         judge_no_more();
         law.is_called = law.is_stopped = false;
