@@ -34,6 +34,22 @@ def test_a_stop_that_nobody_has_typed_ends_aims(release):
     assert not outcome.fault and outcome.marks["play stopped"] == 1
 
 
+def test_a_joint_that_is_sent_elsewhere_need_not_come_to_where_it_was_sent_first():
+    """Also when the line before was refused a moment ago."""
+    actions = [(0, "seed 1"), (0, f"motions {runs.motions()}"), *((0, f"servo {servo}") for servo in range(1, 19)), (0, "image play")]
+    lines = [(384, "@move 60 11 17a\r"), (2168, "play 21\r"), (2936, "aim 1 600\r"), (3320, "play 1\r"), (3419, "aim 1 590\r")]
+    outcome = runs.play(0, [*actions, *((tick, chance.typed(line)) for tick, line in lines), (3600, "end")])
+    assert not outcome.fault
+
+
+def test_a_pause_at_a_low_rate_is_longer():
+    """SHAPING.md. No goal goes out in it, and what comes behind it has been asked for."""
+    actions = [(0, "seed 1"), (0, f"motions {runs.motions()}"), (0, "servo 1"), (0, "image play")]
+    lines = [(400, "@rate 10\r"), (450, "play 2\r")]
+    outcome = runs.play(0, [*actions, *((tick, chance.typed(line)) for tick, line in lines), (4000, "end")])
+    assert not outcome.fault and outcome.ticks > 3900
+
+
 def test_a_broken_rule_is_seen_and_its_list_becomes_short():
     """An action that nobody knows stands for a program that fails."""
     actions = [(0, "seed 1"), (0, f"motions {runs.motions()}"), (0, "servo 1"), (0, "image play")]

@@ -442,7 +442,7 @@ void law_printed(const char *line)
         }
         law.knows_place = law.is_called = law.is_stopped = false;
         if (line[0] == 'S') {
-            forget_aims();   /* PROTOCOL.md: a stop ends them behind the exit page, also one that nobody has typed or pressed */
+            forget_aims();   /* PROTOCOL.md: a stop ends them behind the exit page, also one that nobody has typed */
         }
     } else if (strncmp(line, "Broken", 6) == 0 || strncmp(line, "Ended", 5) == 0 || strncmp(line, "The pose", 8) == 0) {
         judge_no_more();
@@ -469,6 +469,9 @@ void law_typed(const char *line)
     static const char *const shapes[] = {"rate", "amplitude", "blend", "drive", "layer", "aim", "swing", NULL};
     unsigned number, code;
     law.is_mixed = law.asked[0] != '\0' && session.tick - law.asked_tick < SECOND;
+    if (law.is_mixed) {
+        memset(law.aim, 0, sizeof law.aim);   /* either line may send a joint elsewhere, and which OK is whose? */
+    }
     law.asked_tick = session.tick;
     snprintf(law.asked, sizeof law.asked, "%s", line);
     law.paused_tick = NEVER_TICK;

@@ -13,6 +13,7 @@
 #define STEP_MAX 19                /* units a tick: a shaped step's mean is 8.7 at 11.1 V, its peak twice that */
 #define START_MAX 24               /* units from where the joint is to its first goal: what a servo that holds gives way */
 #define FORGOTTEN (4u * SECOND)    /* asking 18 servos before a play takes less */
+#define SLOW_PAUSE (20u * SECOND)  /* no goals go out in a page's pause: 2 s at most, ten times as long at `rate 10` */
 #define NEWS (6u * SECOND)         /* a servo that has fallen silent is named by then */
 #define QUIET SECOND               /* asking a servo that is silent takes a part of that, and nothing is printed meanwhile */
 #define PROMPT_BACK (8u * SECOND)
@@ -31,6 +32,8 @@ static struct {
     unsigned ended_page;
     int sequence;                  /* of the settings that are sure; -1: none */
     uint32_t break_tick;           /* the last break of a play */
+    uint32_t over_tick;            /* the last time that a play has said that it is over */
+    bool is_slow;                  /* a rate may be in force, since the last start: pauses are longer as well (SHAPING.md) */
     bool is_shaped;                /* something but the pages may decide where joints go, since the last start */
     bool is_playing;               /* by what the console says */
     bool is_starting;              /* the program has not printed yet */
@@ -71,6 +74,13 @@ static bool may_shape(const char *line)
     return false;
 }
 
+/* Whether after this line steps and pauses may take longer. */
+static bool may_slow(const char *line)
+{
+    line += *line == '@' ? 1 : 0;
+    return strncmp(line, "rate", 4) == 0 || strncmp(line, "drive", 5) == 0;
+}
+
 /* Case does not matter (edit/ORIGINAL.md section 5): who judges a line gets it in small letters. */
 static void line_typed(void)
 {
@@ -83,6 +93,7 @@ static void line_typed(void)
         reached("words in capitals");
     }
     rules.is_shaped = rules.is_shaped || !session.typed_is_known || may_shape(line);
+    rules.is_slow = rules.is_slow || !session.typed_is_known || may_slow(line);
     if (session.is_edit || !session.typed_is_known || may_move(line)) {
         session.asked_tick = session.tick;
     }
@@ -177,7 +188,8 @@ bool rules_is_well(void)
 static void must_be_asked(uint8_t id, const char *what)
 {
     const uint32_t last = session.asked_tick > session.goals_tick ? session.asked_tick : session.goals_tick;
-    if (session.asked_tick == NEVER_TICK || session.asked_tick < session.boot_tick || long_ago(last, FORGOTTEN)) {
+    const uint32_t most = rules.is_slow && rules.over_tick < session.asked_tick ? SLOW_PAUSE : FORGOTTEN;
+    if (session.asked_tick == NEVER_TICK || session.asked_tick < session.boot_tick || long_ago(last, most)) {
         session_fail("nothing moves unasked", "%s to servo %u", what, id);
     }
 }
@@ -389,6 +401,7 @@ void rules_printed(const char *line)
     unsigned id;
     int at = 0;
     for (unsigned i = 0; i < 4; i++) {
+        rules.over_tick = strncmp(line, over[i], strlen(over[i])) == 0 ? session.tick : rules.over_tick;
         rules.is_playing = (rules.is_playing && strncmp(line, over[i], strlen(over[i])) != 0) ||
                            strncmp(line, begun[i], strlen(begun[i])) == 0;
     }
@@ -523,7 +536,7 @@ void rules_boot(void)
     replies_boot();
     editor_play_boot();
     rules.is_starting = true;
-    rules.is_playing = rules.is_shaped = false;
+    rules.is_playing = rules.is_shaped = rules.is_slow = false;
     rules.ended_tick = rules.break_tick = NEVER_TICK;
     memset(rules.silent_tick, 0, sizeof rules.silent_tick);
     memset(rules.off_tick, 0, sizeof rules.off_tick);
