@@ -30,7 +30,9 @@ async function show(session: RobotSession, parts: EditorParts): Promise<void> {
     const shell = new AppShell();
     shell.session = session;
     document.body.append(shell);
-    void session.files.readAddress(window.location.hash);
+    const readAddress = (): void => void session.files.readAddress(window.location.hash);
+    window.addEventListener('hashchange', readAddress); // a link for this page while it is open
+    readAddress();
 }
 
 /** The first document holds what the robot in the page has. */

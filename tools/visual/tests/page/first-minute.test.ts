@@ -57,9 +57,15 @@ test('the start page has ten motions with moving pictures, and each of its links
         expect(moving, address).toContain('<animate ');
         expect(await (await page.request.get(address.replace('.svg', '-still.svg'))).text()).not.toContain('<animate ');
     }
+    const bow = await page.getByRole('link', { name: /^Bow/ }).getAttribute('href');
     await page.getByRole('link', { name: /^Wave/ }).click();
     await page.getByRole('region', { name: 'A motion for you' }).getByText('“wave”, a motion for you').waitFor();
     await person.doing.filter({ hasText: /motion 3 \(wave\)/ }).waitFor(); // the robot has it already: it is not added
     await person.doing.filter({ hasText: /^Playing motion 3 \(wave\)/ }).waitFor();
+    await person.untilStanding();
+    // A link for which the browser keeps the page that is open: only what stands behind the # is new.
+    await page.evaluate(hash => window.location.replace(hash), new URL(bow ?? '', page.url()).hash);
+    await page.getByText('“bow”, a motion for you').waitFor();
+    await person.doing.filter({ hasText: /^Playing motion 2 \(bow\)/ }).waitFor();
     await person.leave();
 });

@@ -20,6 +20,11 @@ test('menus, Ctrl+A, F6, a joint spoken, double clicks on "Add step" and Play, a
     await expect.poll(() => page.getByRole('button', { name: /^Step \d$/ }).count()).toBe(2); // twice, and nothing is deleted
     expect(await add.boundingBox()).toEqual(before);
 
+    const time = page.getByLabel('Time of step 1', { exact: true });
+    await time.fill('99');
+    await time.press('Enter');
+    expect(await time.inputValue()).toBe('1.99'); // what the step has now
+
     await person.button('▶ Play').dblclick(); // plays once, and nothing is refused
     await person.doing.filter({ hasText: /^(Plays|Going slowly|Playing)/ }).waitFor();
     await person.doing.filter({ hasText: /^Edit runs/ }).waitFor();

@@ -30,6 +30,8 @@ export class StepRow extends HTMLElement {
     private readonly empty = make('p', { class: 'empty', tabindex: -1 }, TEXTS.steps.empty);
     private playing = -1;
     private isBehind = false;
+    /** The field in which somebody types. */
+    private typing: HTMLInputElement | null = null;
     private drag: { readonly from: number; readonly startX: number; to: number | null } | null = null;
     private readonly disposals: (() => void)[] = [];
 
@@ -125,7 +127,7 @@ export class StepRow extends HTMLElement {
         card.time.step = isSpeed ? '1' : '0.05';
         card.time.title = isSpeed ? TEXTS.steps.speedHint : TEXTS.steps.secondsHint;
         const write = (input: HTMLInputElement, value: string): void => {
-            if (document.activeElement !== input) input.value = value;
+            if (this.typing !== input) input.value = value;
         };
         write(card.time, isSpeed ? String(step?.time ?? 0) : (seconds?.move ?? 0).toFixed(2));
         write(card.pause, (seconds?.pause ?? 0).toFixed(2));
@@ -162,8 +164,16 @@ export class StepRow extends HTMLElement {
 
     private field(index: number, field: TimedField, title: string): HTMLInputElement {
         const input = make('input', { type: 'number', min: 0, step: 0.05, 'aria-label': title });
-        input.addEventListener('change', () => this.setField(index, field, input.valueAsNumber));
-        input.addEventListener('blur', () => this.render());
+        input.addEventListener('input', () => (this.typing = input));
+        const typed = (): void => {
+            this.typing = null;
+            this.render(); // what the step has now, which is not always what was typed
+        };
+        input.addEventListener('change', () => {
+            this.setField(index, field, input.valueAsNumber);
+            typed();
+        });
+        input.addEventListener('blur', typed);
         return input;
     }
 
@@ -171,7 +181,7 @@ export class StepRow extends HTMLElement {
     private setField(index: number, field: TimedField, typed: number): void {
         const { editor } = this.session;
         const { page, steps, document } = editor.state.get();
-        if (!Number.isFinite(typed)) return this.render();
+        if (!Number.isFinite(typed)) return;
         const chosen = steps.has(index) ? steps : new Set([index]);
         const isSpeed = field === 'time' && editor.page(page).schedule === 'speed';
         const value = isSpeed ? Math.round(typed) : nearestSetting(editor, page, index, field, typed);
