@@ -38,7 +38,8 @@ export class Driving {
     }
 
     remote(held: ReadonlySet<RemoteButton>): void {
-        if (held.size > 0 && this.state.source !== 'yours' && !this.hears) this.keep(held);
+        if (held.size > 0 && this.isSimulated && !this.state.isPowered) this.parts.messages.complain(TEXTS.status.isOff, 'robot');
+        else if (held.size > 0 && this.state.source !== 'yours' && !this.hears) this.keep(held);
         if (held.size > 0 && this.isYoursWithEdit) this.parts.messages.complain(TEXTS.robot.editNoRemote, 'robot');
         this.keys.hold(held);
     }

@@ -323,7 +323,9 @@ export class RobotSession implements Session {
         return this.sources.connection;
     }
 
+    /** What a robot that is off is asked for is not kept: it would do it whenever it is switched on. */
     private async act(action: () => Promise<void>): Promise<void> {
+        if (this.isSimulated && !this.state.get().isPowered) return this.messages.complain(TEXTS.status.isOff, 'robot');
         try {
             await action();
             this.messages.say(null);

@@ -11,6 +11,7 @@ import { Store } from '../view/store.ts';
 
 const PLAYS = {
     source: 'simulated',
+    isPowered: true,
     image: 'play',
     connection: 'ready',
     version: { image: 'play' },

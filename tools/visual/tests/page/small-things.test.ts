@@ -64,6 +64,11 @@ test('menus, Ctrl+A, F6, a joint spoken, double clicks on "Add step" and Play, a
     await page.getByRole('dialog', { name: 'Factory fresh?' }).getByRole('button', { name: 'Cancel' }).click();
     await person.button('Power off').click();
     await person.doing.filter({ hasText: /^The robot is switched off/ }).waitFor();
+    // Nothing is kept for a robot that is off: it would walk whenever somebody switches it on.
+    await person.button('Walk').click();
+    await page.getByRole('log', { name: 'Last message' }).filter({ hasText: 'The robot is switched off' }).waitFor();
+    await person.button('Power on').click();
+    await person.untilStanding();
     await person.leave();
 });
 
