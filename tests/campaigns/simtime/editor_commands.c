@@ -552,8 +552,8 @@ static void run_torque(void)
         } else if (is_meant) {
             editor.now.cell[0][id] = is_on ? UNKNOWN : OFF;
             editor.torque[id] = is_on;
-        } else if (editor.is_pose_copied) {
-            editor.now.cell[0][id] = UNKNOWN;   /* the servos' pose is shown again */
+        } else if (editor.is_pose_copied || session.trouble_tick > session.boot_tick) {
+            editor.now.cell[0][id] = UNKNOWN;   /* the servos' pose is read anew; the last goals may have been lost on the line */
         }
     }
 }

@@ -17,6 +17,7 @@
 #define MOMENTS 16u
 #define BETWEEN 0.05               /* ticks: what rounding of lengths may add up to */
 #define NEAR 0.75                  /* units: half of one is rounding */
+#define NO_APPROACH 3              /* units: joints that are so near to the first pose have no approach (motion/player.h) */
 #define UNUSED 0x4000u
 #define LAST_COMES (4u + MOMENTS)  /* ticks after the line that says that a play is over; nothing moves any more */
 #define DEGREES (1023.0 / 300.0)
@@ -36,6 +37,7 @@ typedef struct {
     place_t place;
     uint32_t begin;                /* the tick before its first one, if the play begins at the earliest moment */
     unsigned ticks, hold, ramp;
+    bool is_first;                 /* the joints come from somewhere near its target */
     bool uses[JOINTS];
     double start[JOINTS], distance[JOINTS], in[JOINTS];   /* units, the speed at its beginning in units a tick */
 } step_t;
@@ -209,6 +211,7 @@ static void plan(step_t *step, const step_t *before)
     const uint8_t *at = page + STEP_BYTES * step->place.number;
     const double speed = page[SPEED_AT];
     double most = 0, ideal, pause;
+    step->is_first = before == NULL;
     for (unsigned id = 0; id < JOINTS; id++) {
         const unsigned to = position(step->place.page, step->place.number, id);
         step->uses[id] = (law.present >> id & 1u) != 0 && to < UNUSED;
@@ -275,7 +278,8 @@ static void judge(const step_t *step, const step_t *next)
                 }
                 const double must = place_in(step, id, next == NULL ? 0 : next->in[id], tick);
                 const unsigned is = goal_at(step->begin + moment + tick, id);
-                if (fabs(must - is) > (tick < step->ticks ? NEAR : 0)) {
+                const double off = NEAR + (step->is_first ? NO_APPROACH : 0);
+                if (fabs(must - is) > (tick < step->ticks ? off : 0)) {
                     fits = false;
                     if (tick <= farthest) {
                         continue;

@@ -35,7 +35,7 @@ static const struct {
     {"No page has code", "code without a page"},
     {"Busy: stop what is playing", "play refused while playing"},
     {"No servo answers", "play refused without servos"},
-    {"All servos were switched off", "play refused after off"},
+    {"The servos were switched off", "play refused after off"},
     {"Four joints are moved already", "aim refused: four joints"},
 };
 
