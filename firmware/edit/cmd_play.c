@@ -128,13 +128,12 @@ static void tell_end(const performer_event_t *event)
     }
 }
 
-/* Ends a play: the work pose becomes the goals that the servos have now. */
 static void play_ended(const performer_event_t *event)
 {
     the_dialog.late_ticks = LATE_TICKS;
     the_dialog.step_due = false;
     shape_reset(&the_performer.shape);   /* the next @play has the stored rate */
-    robot_read();
+    robot_end_play();
     session_mark_labels();   /* no live positions any more */
     if (the_dialog.mode != DIALOG_PLAY) {
         return;

@@ -127,8 +127,8 @@ static void tick_work(void)
     }
     if (performer_is_idle(&the_performer)) {
         robot_follow();
-    } else if (the_dialog.mode == DIALOG_PLAY) {
-        robot_show_play();
+    } else {
+        robot_follow_play(the_dialog.mode == DIALOG_PLAY);
     }
 }
 

@@ -70,14 +70,26 @@ void robot_follow(void)
     }
 }
 
-void robot_show_play(void)
+void robot_follow_play(bool is_shown)
 {
     uint8_t joint = (uint8_t)(the_robot.shown + 1u) % PAGE_JOINTS;
     the_robot.shown = joint;
-    if (servo_link_has(&the_performer.joints, joint)) {
+    the_robot.played |= the_performer.joints;
+    if (is_shown && servo_link_has(&the_performer.joints, joint)) {
         session_set_pose(joint, the_performer.goal_pos[joint]);
         the_session.marks[joint] |= MARK_LABEL;
     }
+}
+
+void robot_end_play(void)
+{
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        if (servo_link_has(&the_robot.played, joint)) {
+            session_set_pose(joint, the_performer.goal_pos[joint]);
+        }
+    }
+    the_robot.played = 0;
+    robot_read();
 }
 
 void robot_set_trim(void)

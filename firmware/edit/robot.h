@@ -16,7 +16,8 @@
 
 typedef struct {
     bool raw;             /* page 0 is open: no trim */
-    uint8_t shown;        /* the joint that robot_show_play updated last */
+    uint8_t shown;        /* the joint that robot_follow_play updated last */
+    uint32_t played;      /* joints that the play has moved */
     uint32_t failed;      /* joints that did not obey or did not answer (the_servos.silent); to be shown on the row */
 } robot_t;
 
@@ -37,8 +38,12 @@ void robot_read(void);
 /* The same for joints without torque, from the background polls: no bus traffic. */
 void robot_follow(void);
 
-/* Call once a tick while something plays: copies one joint's goal to the work pose and marks its live position. */
-void robot_show_play(void);
+/* Call once a tick while something plays. is_shown: copies one joint's goal to the work pose and marks its live position. */
+void robot_follow_play(bool is_shown);
+
+/* Call when a play has ended: the work pose becomes the goals of the servos. Those that do not answer have the last ones that
+ * were sent. */
+void robot_end_play(void);
 
 /* Opens a page, without trim when it is page 0. */
 void robot_open_page(uint8_t page);

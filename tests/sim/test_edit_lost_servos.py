@@ -3,7 +3,7 @@
 
 from cm5sim import Board
 from cm5sim.board import CYCLES_PER_TICK
-from tests.sim.edit_servos import start
+from tests.sim.edit_servos import goals, start
 
 
 def test_lost_servo_is_named_in_the_message_row_and_the_screen_stays():
@@ -48,6 +48,19 @@ def test_fault_that_ends_a_play_is_named_behind_its_end():
     with start() as r:
         play_until(r, "overheating")
         assert r.message.strip() == "Ended: a servo failed. Hot: ID 4"
+
+
+def test_work_pose_after_a_play_that_loses_the_bus_is_what_was_sent_last():
+    with start() as r:
+        r.keys("play 8\r", ms=1200)
+        before = goals(r)
+        r.board.run(ms=100)
+        for joint in range(1, 19):
+            r.board.servos[joint].fault("dead")
+        assert goals(r) != before  # they are under way
+        r.settle(2500)
+        assert r.message.strip() == "Ended: a servo failed. No answer: ID 1-18"
+        assert {joint: int(r.cell(0, joint)) for joint in range(1, 19)} == goals(r)
 
 
 def eeprom_with_rule_limp():
