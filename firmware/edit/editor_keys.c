@@ -186,14 +186,24 @@ static bool is_no_key(uint8_t key)
     return key == KEY_NONE || key == KEY_CR || key == KEY_LF;
 }
 
-/* A program may have hidden the screen or started a motion; then keys must not edit. */
+static bool is_letter(uint8_t key)
+{
+    const uint8_t small = key | 0x20u;
+    return small >= 'a' && small <= 'z';
+}
+
+/* A program may have hidden the screen or started a motion; then keys must not edit. A line may be typed during a motion if
+ * the screen is there: each command knows whether it may. */
 static void first_key(uint8_t key)
 {
     if (key == '@') {
         open_program_line();
         return;
     }
-    if (!performer_is_idle(&the_performer) || (the_screen.hidden && is_no_key(key))) {
+    if (!performer_is_idle(&the_performer) && (the_screen.hidden || !is_letter(key))) {
+        return;
+    }
+    if (the_screen.hidden && is_no_key(key)) {
         return;
     }
     if (the_screen.hidden) {

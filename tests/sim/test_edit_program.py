@@ -6,6 +6,7 @@ import random
 import pytest
 
 from m512.crc16 import crc16
+from tests.sim.channel import request
 from tests.sim.edit_robot import page, robot
 
 PAGES = {1: page("one", [(40, {1: 480}), (255, {1: 700, 2: 300}), (255, {1: 300, 2: 700})], repeat=5), 2: page("two", [(30, {})])}
@@ -279,3 +280,15 @@ def test_watch_ends_when_a_person_takes_the_screen():
         r.board.run(ms=200)
         r.keys("\x1b[B", ms=900)
         assert r.text(1, 1, 9) == "Dynamixel" and watched(r, 300) == []
+
+
+def test_a_line_that_is_typed_while_a_program_moves_the_robot_is_carried_out_or_refused():
+    with robot(pages=PAGES) as r:
+        r.line("on")
+        r.board.send(request("@move 60 1 3FF"))
+        r.board.run(ms=300)
+        assert r.line("save") == "save Something moves"
+        r.keys("]1 ")  # no line: these would edit
+        assert r.board.servos[1].torque
+        r.line("off")
+        assert not any(r.board.servos[joint].torque for joint in range(1, 19))
