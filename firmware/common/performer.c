@@ -139,6 +139,10 @@ performer_status_t performer_move(performer_t *performer, const uint16_t to_pos[
     if ((joints & performer->servos->present) == 0) {
         return PERFORMER_ERR_NO_SERVOS;
     }
+    if ((joints & performer_usable(performer)) == 0) {
+        return PERFORMER_ERR_RELEASED;
+    }
+    performer_layers_drop(performer, joints);   /* the last word counts: code no longer moves them */
     memcpy(performer->player.next_pos, to_pos, sizeof performer->player.next_pos);
     performer->page = 0;
     performer->move_deg_s = deg_s;
@@ -504,7 +508,11 @@ static void approach_tick(performer_t *performer)
     if ((events & PLAYER_EV_ENDED) != 0 && performer->leaving) {
         go_idle(performer, performer->end_reason);
     } else if ((events & PLAYER_EV_ENDED) != 0) {
-        begin(performer);
+        /* Joints that code has given back meanwhile have their way to the first pose still before them. */
+        const uint32_t left_out = performer->joints & ~player->joints & ~performer_layers_joints(performer);
+        if (left_out == 0 || !plan_approach(performer)) {
+            begin(performer);
+        }
     } else if ((events & PLAYER_EV_STOPPED) != 0) {
         performer_event_put(&performer->events, PERFORMER_EV_PAUSED, performer->page, 0, 0);
     }

@@ -90,7 +90,7 @@ void performer_set_source(performer_t *performer, const page_source_t *source);
 MUST_CHECK performer_status_t performer_start(performer_t *performer, uint8_t page, uint8_t code);
 
 /* Moves `joints` to a pose (page coordinates) with at most deg_s degrees/s (1..360), ramped. Those that are not there are
- * left out; PERFORMER_ERR_NO_SERVOS: none of them is. */
+ * left out; PERFORMER_ERR_NO_SERVOS: none of them is; PERFORMER_ERR_RELEASED: all of them are switched off. */
 MUST_CHECK performer_status_t performer_move(performer_t *performer, const uint16_t to_pos[PAGE_JOINTS],
                                              uint32_t joints, uint16_t deg_s);
 

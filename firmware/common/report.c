@@ -54,7 +54,7 @@ void report_refusal(performer_status_t status, uint8_t page, uint8_t fault)
         TEXT("This image has no classic law: set law 0");
         break;
     default:
-        TEXT("All servos were switched off: switch them on first");
+        TEXT("The servos were switched off: switch them on first");
         break;
     }
 }

@@ -74,7 +74,7 @@ static uint8_t done(bool something, const char *nothing_P)
 
 static uint8_t end(bool at_once)
 {
-    const bool moves = !performer_is_still(&the_play.performer);
+    const bool moves = !performer_is_still(&the_play.performer) || performer_layers_joints(&the_play.performer) != 0;
     if (at_once) {
         performer_break(&the_play.performer);
     } else {

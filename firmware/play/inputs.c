@@ -41,20 +41,25 @@ void inputs_code(inputs_t *inputs, uint8_t code)
 {
     if (!performer_is_idle(inputs->performer)) {
         performer_code(inputs->performer, code);
-    } else if (code != LINK_CODE_NONE && code != LINK_CODE_STOP) {
+    } else if (code == LINK_CODE_STOP) {
+        performer_stop(inputs->performer);   /* what code moves */
+    } else if (code != LINK_CODE_NONE) {
         call(inputs, code);
     }
 }
 
 /* `down` are the buttons that a source holds now, `code` is what they ask for. A play that runs takes every code. A play
  * starts on a press only: other buttons than before, and one of them was not down during a play or a stop. So a held button
- * does not start again what somebody has stopped, nor do fingers that leave a chord one after the other. */
+ * does not start again what somebody has stopped, nor do fingers that leave a chord one after the other; nor do those call
+ * back a play that is stopping. */
 static void take_buttons(inputs_t *inputs, inputs_held_t *held, uint8_t down, uint8_t code)
 {
-    const bool pressed = down != held->down && (down & ~held->spent) != 0;
+    const bool are_new = (down & ~held->spent) != 0;
+    const bool pressed = down != held->down && are_new;
+    const bool is_stopping = link_is_stopping(&inputs->performer->link);
     held->down = down;
     held->spent &= down;
-    if (pressed || !performer_is_idle(inputs->performer)) {
+    if (performer_is_idle(inputs->performer) ? pressed : down == 0 || are_new || !is_stopping) {
         inputs_code(inputs, code);
     }
     if (!performer_is_idle(inputs->performer)) {

@@ -89,7 +89,11 @@ static void print_state(void)
             break;
         default:
             TEXT("On the way to ");
-            report_page(performer_page(performer));
+            if (performer_page(performer) == 0) {
+                TEXT("the pose");
+            } else {
+                report_page(performer_page(performer));
+            }
             break;
         }
     }

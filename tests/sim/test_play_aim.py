@@ -6,7 +6,7 @@ import random
 
 import pytest
 
-from tests.sim.play_robot import JOINTS, ask, robot
+from tests.sim.play_robot import JOINTS, STOP, ask, robot
 from tests.sim.walking_robot import EXIT, LOOP, looping, pages, run_of_a_walk, where
 
 HEAD = (19, 20)
@@ -154,3 +154,74 @@ def test_an_aim_holds_in_a_pause_and_after_it():
     assert ask(board, "resume") == " OK"
     board.run(ms=1500)
     assert board.servos[3].goal == 600
+
+
+# --- code's joints and the rest of the robot ---
+
+
+def test_a_joint_that_is_freed_in_an_approach_goes_to_the_first_pose_slowly():
+    board = robot()
+    ask(board, "aim 8 0")
+    board.run(ms=4500)
+    board.clear_trace()
+    ask(board, "play 2")
+    board.run(ms=300)
+    assert ask(board, "free") == " OK"
+    text = board.expect("Ended after", ms=15000)
+    assert text.count("Going to the first pose") == 1  # the second time: the first was in the answer to `play`
+    row = row_of(board, 8)
+    assert row[0] < 10 and row[-1] == 512 and max(map(abs, speeds(row))) <= HAND_OVER
+
+
+def by_button_6(board):
+    board.rc(STOP)
+    board.run(ms=50)
+    board.rc(0)
+
+
+def by_start(board):
+    board.press("START")
+    board.run(ms=50)
+    board.release("START")
+
+
+@pytest.mark.parametrize("stop", [by_button_6, by_start, lambda board: ask(board, "code 255"), lambda board: ask(board, "stop")])
+def test_every_stop_ends_what_code_moves_while_nothing_plays(stop):
+    board = robot()
+    ask(board, "swing 1 512 100 2000")
+    board.run(ms=900)
+    stop(board)
+    board.run(ms=200)
+    assert where(board)["aim"] == "00000000"
+    board.clear_trace()
+    board.run(ms=1000)
+    assert len(set(row_of(board, 1))) <= 1
+
+
+def test_stop_of_a_joint_that_rests_where_it_was_aimed_is_done():
+    board = robot()
+    ask(board, "aim 1 600")
+    board.run(ms=2500)
+    assert ask(board, "stop") == " OK" and where(board)["aim"] == "00000000"
+    assert ask(board, "stop") == "Nothing is playing"
+
+
+@pytest.mark.parametrize("word", ["aim 5 600", "swing 5 512 50 2000"])
+def test_move_takes_a_joint_from_code(word):
+    board = robot()
+    ask(board, word)
+    board.run(ms=1500)
+    board.clear_trace()
+    assert ask(board, "@move 60 5 12C") == "@move OK"
+    assert ask(board, "status").startswith("On the way to the pose")
+    board.expect("The pose is reached", ms=6000)
+    board.run(ms=1000)
+    row = row_of(board, 5)
+    assert row[-1] == board.servos[5].goal == 300 and max(map(abs, speeds(row))) <= HAND_OVER + 1
+
+
+def test_move_of_joints_that_are_switched_off_says_so():
+    board = robot()
+    ask(board, "on")
+    ask(board, "off 5")
+    assert ask(board, "@move 60 5 12C").startswith("@move ERR 8 ") and ask(board, "status").startswith("Nothing is playing")

@@ -135,3 +135,37 @@ def test_letting_go_of_a_steering_button_starts_nothing():
     hold(board, UP | LEFT, 1000)
     board.send("break\r")
     assert starts(hold(board, UP | LEFT, 1000) + hold(board, UP, 1000)) == 0
+
+
+# --- fingers leave a chord one after the other, behind a stop ---
+
+
+@pytest.mark.parametrize("mode", ["latch", "hold", "drive"])
+def test_fingers_that_leave_a_chord_do_not_call_back_what_button_6_has_stopped(mode):
+    board = robot()
+    ask(board, f"remote {mode}")
+    hold(board, UP, 4000)
+    hold(board, UP | LEFT, 200)
+    text = hold(board, UP | LEFT | STOP, 2 * REPEAT_MS) + hold(board, UP | LEFT, 2 * REPEAT_MS) + hold(board, UP, 8000)
+    assert "Stopped after" in text and ask(board, "status").startswith("Nothing is playing"), text
+
+
+def test_fingers_that_leave_a_chord_on_the_panel_do_not_call_back_what_start_has_stopped():
+    board = robot()
+    board.press("UP")
+    board.run(ms=3000)
+    board.press("LEFT")
+    board.run(ms=100)
+    by_start(board)
+    board.release("LEFT")
+    board.expect("Stopped after", ms=6000)
+    board.run(ms=1000)
+    assert ask(board, "status").startswith("Nothing is playing")
+
+
+def test_a_button_that_comes_down_behind_a_stop_calls_a_play_back():
+    board = held_play(buttons=UP)
+    by_start(board)
+    hold(board, UP | LEFT, 200)
+    hold(board, 0, 3000)
+    assert ask(board, "status").startswith("Playing")

@@ -39,6 +39,12 @@ void performer_code(performer_t *p, uint8_t code)
     note("code", code, 0);
 }
 
+void performer_stop(performer_t *p)
+{
+    (void)p;
+    note("stop", 0, 0);
+}
+
 bool performer_pause(performer_t *p)
 {
     if (p->state != PERFORMER_PLAY) {

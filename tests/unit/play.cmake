@@ -9,7 +9,7 @@ m512_unit_test(test_channel TARGET_TOO INCLUDES firmware/common
 m512_unit_test(test_remote TARGET_TOO SOURCES hal/remote.c)
 foreach(test test_inputs test_steer)
     m512_unit_test(${test} INCLUDES firmware/common firmware/play
-        SOURCES firmware/play/inputs.c firmware/play/steer.c motion/shape.c hal/remote.c hal/debounce.c tests/unit/inputs_stage.c
+        SOURCES firmware/play/inputs.c firmware/play/steer.c motion/link.c motion/page.c motion/shape.c hal/remote.c hal/debounce.c tests/unit/inputs_stage.c
                 tests/fake/fake_console.c tests/fake/fake_panel.c tests/fake/fake_time.c)
 endforeach()
 set(performer_sources performer.c performer_event.c performer_watch.c performer_shape.c

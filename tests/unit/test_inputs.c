@@ -70,10 +70,10 @@ static void test_inputs_stop_counts_when_it_is_pressed(void)
     TEST_ASSERT_EQUAL_STRING("code 255 0;code 0 0;code 255 0;", told);
 }
 
-static void test_inputs_stop_when_idle_starts_nothing(void)
+static void test_inputs_stop_when_idle_stops_what_code_moves(void)
 {
     remote(512);
-    TEST_ASSERT_EQUAL_STRING("", told);
+    TEST_ASSERT_EQUAL_STRING("stop 0 0;", told);
 }
 
 static void test_inputs_button_5_pauses_and_resumes(void)
@@ -245,6 +245,20 @@ static void test_inputs_fingers_that_leave_a_chord_after_a_stop_start_nothing(vo
     TEST_ASSERT_EQUAL_STRING("", told);
 }
 
+static void test_inputs_fingers_that_leave_a_chord_do_not_call_back_a_play_that_is_stopping(void)
+{
+    hold(1, 3);
+    hold(1 + 4, 3);
+    performer.link.stopping = true;
+    memset(told, 0, sizeof told);
+    hold(1 + 4, 3);
+    hold(1, 20);
+    TEST_ASSERT_EQUAL_STRING("", told);
+    remote(0);
+    remote(1);
+    TEST_ASSERT_EQUAL_STRING("code 0 0;code 1 0;", told);
+}
+
 static void test_inputs_steering_is_no_press(void)
 {
     settings.remote_mode = SETTINGS_REMOTE_DRIVE;
@@ -309,11 +323,11 @@ static void test_inputs_start_button_stops_what_is_playing(void)
     ticks(5);
     fake_panel_press(0);
     ticks(5);
-    TEST_ASSERT_EQUAL_STRING("", told);
+    TEST_ASSERT_EQUAL_STRING("stop 0 0;", told);
     performer.state = PERFORMER_PLAY;
     fake_panel_press(PANEL_START);
     ticks(50);
-    TEST_ASSERT_EQUAL_STRING("code 255 0;", told);
+    TEST_ASSERT_EQUAL_STRING("stop 0 0;code 255 0;", told);
 }
 
 static void test_inputs_button_held_at_power_on_is_no_press(void)
@@ -445,7 +459,7 @@ int main(void)
     RUN_TEST(test_inputs_code_of_no_page_is_refused_once_while_held);
     RUN_TEST(test_inputs_refused_start_says_which_page_and_why);
     RUN_TEST(test_inputs_stop_counts_when_it_is_pressed);
-    RUN_TEST(test_inputs_stop_when_idle_starts_nothing);
+    RUN_TEST(test_inputs_stop_when_idle_stops_what_code_moves);
     RUN_TEST(test_inputs_button_5_pauses_and_resumes);
     RUN_TEST(test_inputs_latch_mode_outlives_silence);
     RUN_TEST(test_inputs_hold_mode_hears_silence_after_500_ms);
@@ -460,6 +474,7 @@ int main(void)
     RUN_TEST(test_inputs_button_6_does_not_make_a_held_button_a_press);
     RUN_TEST(test_inputs_fingers_that_leave_a_fist_start_nothing);
     RUN_TEST(test_inputs_fingers_that_leave_a_chord_after_a_stop_start_nothing);
+    RUN_TEST(test_inputs_fingers_that_leave_a_chord_do_not_call_back_a_play_that_is_stopping);
     RUN_TEST(test_inputs_steering_is_no_press);
     RUN_TEST(test_inputs_button_held_before_a_play_may_start_nothing_behind_it);
     RUN_TEST(test_inputs_typed_code_is_always_a_press);
