@@ -436,6 +436,9 @@ void law_printed(const char *line)
     } else if ((sscanf(line, "Playing page %u", &place.page) == 1 || sscanf(line, "Page %u step", &place.page) == 1) &&
                step != NULL && sscanf(step, " step %u repetition %u", &place.number, &place.repetition) == 2) {
         law.approach_tick = NEVER_TICK;
+        if (law.ended_tick != NEVER_TICK) {
+            play_begins();   /* without an approach, right behind the end of another */
+        }
         if (law.is_judged) {
             step_comes(place);
         }
