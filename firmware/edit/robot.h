@@ -41,8 +41,8 @@ void robot_follow(void);
 /* Call once a tick while something plays. is_shown: copies one joint's goal to the work pose and marks its live position. */
 void robot_follow_play(bool is_shown);
 
-/* Call when a play has ended: the work pose becomes the goals of the servos. Those that do not answer have the last ones that
- * were sent. */
+/* Call when a play has ended: the work pose becomes the goals of the servos. Those that do not answer have the last ones
+ * that were sent. */
 void robot_end_play(void);
 
 /* Opens a page, without trim when it is page 0. */

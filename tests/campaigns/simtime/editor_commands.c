@@ -553,7 +553,7 @@ static void run_torque(void)
             editor.now.cell[0][id] = is_on ? UNKNOWN : OFF;
             editor.torque[id] = is_on;
         } else if (editor.is_pose_copied || session.trouble_tick > session.boot_tick) {
-            editor.now.cell[0][id] = UNKNOWN;   /* the servos' pose is read anew; the last goals may have been lost on the line */
+            editor.now.cell[0][id] = UNKNOWN;   /* the pose is read anew; the last goals may have been lost on the line */
         }
     }
 }
