@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Where the tests find things: the repository, its sample files, the build products."""
 
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -48,11 +49,10 @@ def m512(monkeypatch):
     return run
 
 
-@pytest.fixture
-def started(monkeypatch):
-    """started("boot-cm5.hex", "play-cm5.hex", text=...) -> a SimulatedBoard with these images and motions, a second after its power
-    came on. Needs the build's products."""
-    monkeypatch.setenv("M512_BUILD", str(REPO / "build"))
+@contextmanager
+def starting():
+    """start("boot-cm5.hex", "play-cm5.hex", text=...) -> a SimulatedBoard with these images and motions, a second after its power
+    came on; applied: the loader starts the application at once. Needs the build's products."""
     from virtual_peer import SimulatedBoard
 
     from cm5sim import Board
@@ -60,9 +60,12 @@ def started(monkeypatch):
 
     boards = []
 
-    def start(*images, text=None, servos=range(1, 19)):
-        board = Board(images=images, motions=read_text(text).to_bytes() if text else None, servos=servos)
+    def start(*images, text=None, servos=range(1, 19), applied=False):
+        paths = [str(REPO / "build" / "firmware" / image) if not Path(image).is_absolute() else image for image in images]
+        board = Board(images=paths, motions=read_text(text).to_bytes() if text else None, servos=servos)
         board.skip_waits()
+        if applied:
+            board.eeprom[0xFFF] = 0x11
         boards.append(SimulatedBoard(board))
         boards[-1].pass_time(1.0)
         return boards[-1]
@@ -71,3 +74,11 @@ def started(monkeypatch):
     for board in boards:
         board.pull()
         assert board.board.violation is None
+
+
+@pytest.fixture
+def started(monkeypatch):
+    """starting(), for one test."""
+    monkeypatch.setenv("M512_BUILD", str(REPO / "build"))
+    with starting() as start:
+        yield start

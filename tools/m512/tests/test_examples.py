@@ -11,7 +11,7 @@ from pathlib import Path
 
 import click
 import pytest
-from conftest import REPO
+from conftest import REPO, starting
 from mtn_files import Block, made, step
 from virtual_peer import open_port
 
@@ -41,6 +41,8 @@ page 20 round
 LAID_OVER = {"layer", "aim", "swing", "free"}  # beside a play
 THROUGH_EDIT = {"put"}
 AT_THE_PROMPT = {"flash", "run", "backup", "restore", "term", "doctor"}  # the loader's
+READERS = {"backup", "diff", "doctor", "get", "pages"}
+READS = {("pose",), ("pose", "--text"), ("shape",), ("stop",), ("stop", "--now")}
 FOUND_SOMETHING = {"diff", "doctor"}  # 3 is a result too
 RUN_ELSEWHERE = "## Without a robot"  # test_readme.py, line by line
 
@@ -111,19 +113,48 @@ def folder(tmp_path_factory):
     return top
 
 
+def only_reads(words):
+    return words in READS or words[0] in READERS
+
+
+def memory(robot):
+    return bytes(robot.board.flash), bytes(robot.board.eeprom)
+
+
+def powered(start, command):
+    images = ("boot-cm5.hex", "edit-cm5.hex" if command in THROUGH_EDIT else "play-cm5.hex")
+    robot = start(*images, text=LIBRARY, servos=range(1, 21), applied=command not in AT_THE_PROMPT)
+    if command not in AT_THE_PROMPT:
+        robot.pass_time(0.5)
+    return robot
+
+
+@pytest.fixture(scope="module")
+def shared():
+    """shared(command) -> the robot of all examples that only read: one in Play, one at the loader's prompt."""
+    robots, memories = {}, {}
+    with starting() as start:
+
+        def robot_for(command):
+            key = command in AT_THE_PROMPT
+            if key not in robots:
+                robots[key] = powered(start, command)
+                memories[key] = memory(robots[key])
+            return robots[key]
+
+        yield robot_for
+        assert {key: memory(robot) for key, robot in robots.items()} == memories
+
+
 @pytest.fixture
-def world(tmp_path, monkeypatch, started, folder):
-    """A copy of that folder; world(command) -> a robot is at every port."""
+def world(tmp_path, monkeypatch, started, shared, folder):
+    """A copy of that folder; world(words) -> a robot is at every port."""
     shutil.copytree(folder, tmp_path, dirs_exist_ok=True)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("m512.ui.confirm", lambda question, yes: None)
 
-    def at_every_port(command):
-        robot = started("boot-cm5.hex", "edit-cm5.hex" if command in THROUGH_EDIT else "play-cm5.hex", text=LIBRARY, servos=range(1, 21))
-        if command not in AT_THE_PROMPT:
-            robot.board.eeprom[0xFFF] = 0x11  # the loader starts the application
-            robot.board.reset()
-            robot.pass_time(1.5)
+    def at_every_port(words):
+        robot = shared(words[0]) if only_reads(words) else powered(started, words[0])
 
         def open_any(url, trace=None, image="play"):
             return open_port(url if url.startswith(("peer://", "/dev/pts")) else robot.path, trace, image)
@@ -162,7 +193,7 @@ def test_an_example_does_what_it_says(m512, world, tmp_path, monkeypatch, words,
         assert m512(*words[:1], "--help").exit_code == 0
         return
     command = words[0]
-    robot = world(command) if "--sim" not in words and not is_about_files(words) else None
+    robot = world(words) if "--sim" not in words and not is_about_files(words) else None
     if "merge" in words:  # into free pages
         formats.save(Path(words[1]), Image.empty())
     if robot:
