@@ -287,7 +287,7 @@ def test_factory_lost_bytes_are_found_by_size_and_sent_again(m512, motions):
 
         peer.garble = lose
         result = m512("flash", motions, "-p", peer.path)
-        assert result.exit_code == 0 and state["lost"] == 1 and "1 repetitions" in result.stderr
+        assert result.exit_code == 0 and state["lost"] == 1 and "1 repetition " in result.stderr
         assert peer.flash[0xE200:0x1E000] == motion_area()[512:]
 
 

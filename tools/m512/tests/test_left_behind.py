@@ -54,7 +54,7 @@ def children(pid):
         (["play", "1", "--sim", "--motions", "large.bin"], {}, "no room"),
         (["play", "1", "--sim", "--motions", "no.bin"], {}, "cannot read"),
         (["play", "1", "--sim", "--image", "no.hex"], {}, "no.hex"),
-        (["play", "1", "--sim", "--servos", "nonsense"], {}, "did not start"),
+        (["play", "1", "--sim", "--servos", "1:nonsense"], {}, "did not start"),
         (["play", "1", "--sim"], {"M512_CM5SIM": "/bin/false"}, "did not start"),
         (["doctor", "--sim"], {"M512_CM5SIM": "/bin/false"}, "did not start"),
         (["term", "--sim", "--motions", "high.bin"], {}, "12-bit"),

@@ -70,7 +70,7 @@ def test_a_file_that_breaks_off_is_refused_with_the_place(where):
 def test_few_pages_and_no_checksum_are_read_with_both_remarks():
     image = mtn.read(body([Block(name="one", steps=[step()])], full=False))
     assert bytes(image[1]) == page_bytes(Block(name="one", steps=[step()]))
-    assert any("no checksum, so only you can tell whether it is complete: 1 pages" in note for note in image.notes)
+    assert any("no checksum, so only you can tell whether it is complete: 1 page was read" in note for note in image.notes)
     assert any("1 of 255 pages" in note for note in image.notes)
 
 

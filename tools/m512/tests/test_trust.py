@@ -14,6 +14,7 @@ from hex_files import hex_file
 from test_flash import make_app
 
 from m512 import __version__
+from m512.board.download import Report
 from m512.board.link import Link
 from m512.board.memory import plan
 from m512.errors import FileError, M512Error, PortError, RefusedError, TextError
@@ -575,3 +576,62 @@ def test_a_backup_that_cannot_be_written_is_refused_before_the_board_is_called(m
     for folder, says in ((files / "full", "not empty"), (files / "file" / "b", "cannot make")):
         result = m512("backup", folder, "-p", "peer://nobody")
         assert result.exit_code == 4 and says in result.stderr
+
+
+# Words of the command line are refused before anything is asked or started
+
+
+@pytest.mark.parametrize("servos, told", [("1-99", "1-99"), ("", "none"), ("5,40:dx117", "40:dx117"), ("1-x", "1-x"), ("9-3", "9-3")])
+def test_servos_that_no_page_can_name_are_refused(m512, monkeypatch, servos, told):
+    monkeypatch.setenv("M512_CM5SIM", "/nowhere")
+    result = m512("play", "1", "--sim", "--servos", servos)
+    assert result.exit_code == 2 and "0..30" in result.stderr and told in result.stderr.partition("--servos")[2], result.stderr
+
+
+@pytest.mark.parametrize("words", [("--servos", "1-3"), ("--image", "play-cm2.hex"), ("--motions", "x.bin")])
+def test_words_for_the_simulator_are_not_ignored_by_a_port(m512, words):
+    result = m512("pose", "-p", "/dev/no_port", *words)
+    assert result.exit_code == 2 and f"{words[0]} is for --sim" in result.stderr
+
+
+@pytest.mark.parametrize("words", [("--dry-run",), ("--with-trim",), ("--fast",), ("--address", "0"), ("--damaged", "keep")])
+def test_run_without_a_file_takes_no_words_about_one(m512, words):
+    """`run --dry-run` started the application."""
+    result = m512("run", *words, "-p", "/dev/no_port")
+    assert result.exit_code == 2 and f"{words[0]} is for a file that is flashed" in result.stderr
+
+
+@pytest.mark.parametrize("words", [("extract", "1"), ("rename", "1", "x"), ("delete", "1"), ("merge", "x.bin", "1")])
+def test_an_output_is_looked_at_before_a_board(m512, files, words):
+    result = m512("pages", "/dev/no_port", *words, "-o", files / "x.foo")
+    assert result.exit_code == 4 and "the suffix decides the format" in result.stderr
+    result = m512("pages", "/dev/no_port", *words, "-o", files / "x.bin")
+    assert result.exit_code == 5 and "--force overwrites it" in result.stderr
+    result = m512("pages", "/dev/no_port", *words, "-o", files / "y.bin", "--in-place")
+    assert result.exit_code == 2 and "one of the two" in result.stderr
+
+
+def test_a_dry_run_that_hears_nobody_names_the_port(m512, files):
+    with BlockPeer() as silent:
+        silent.on_byte = lambda byte: None
+        result = m512("flash", files / "x.bin", "-p", silent.path, "--dry-run")
+    assert result.exit_code == 0 and f"{silent.path}: no boot loader answers, and neither" in result.stderr
+
+
+@pytest.mark.parametrize(
+    "name, data, one",
+    [
+        ("one.bin", b"\xff", "1 byte "),
+        ("row.m512", b"motion512 1\nrow 1..6\npage 1 x\n  step 1s | 512\n", "1 position;"),
+        ("row.m512", b"motion512 1\nrow 1\npage 1 x\n  step 1s | 512 512\n", "the row has 1 joint"),
+    ],
+)
+def test_one_is_no_plural(m512, tmp_path, name, data, one):
+    (tmp_path / name).write_bytes(data)
+    told = m512("pages", tmp_path / name, "list").stderr
+    assert re.search(re.escape(one) + r"(?!s)", told), told
+
+
+def test_one_flash_page_is_no_plural():
+    assert str(Report(128, 1, 0.1, 1)).startswith("1 of 128 flash pages written") and "1 repetition on" in str(Report(128, 1, 0.1, 1))
+    assert str(Report(1, 0, 0.1, 0)) == "the flash page was there already"

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Callable
 
 from m512.board.client import Client
 from m512.errors import M512Error, NoAnswerError, RefusedError
+from m512.files.wording import counted
 
 if TYPE_CHECKING:
     from m512.board.link import Link
@@ -136,7 +137,7 @@ def _loader(link: Link, add: Add) -> None:
     add(
         "board",
         BAD,
-        f"{len(heard)} bytes came, but nobody answers as Play, Edit or a boot loader" if heard else "silence",
+        f"{counted(len(heard), 'byte')} came, but nobody answers as Play, Edit or a boot loader" if heard else "silence",
         "is the controller on, and the cable in the socket for the PC? Then press MODE while `m512 term` runs: one byte "
         "0xFF must come. With the factory's firmware, `m512 flash` works all the same",
     )
@@ -176,7 +177,7 @@ def _servos(client: Client, add: Add) -> None:
     add(
         "servos",
         BAD if silent else OK,
-        f"{len(pose)} servos, IDs {_ranges(pose)}"
+        f"{counted(len(pose), 'servo')}, IDs {_ranges(pose)}"
         + (f"; silent now: {_ranges(silent)}" if silent else "")
         + (f"; limp: {_ranges(limp)}" if limp else ""),
         "check the cable before the first silent one" if silent else "",
@@ -189,7 +190,7 @@ def _motions(client: Client, add: Add) -> None:
     damaged = [n for n, (steps, _) in pages.items() if steps is None]
     if damaged:
         add("pages", BAD, "damaged: " + " ".join(f"{n} ({pages[n][1]})" for n in damaged), "flash your motions again, or repair the pages in Edit")
-    add("motions", OK if good else WARN, f"{len(good)} pages with an action", "" if good else "flash some: m512 flash library.m512")
+    add("motions", OK if good else WARN, f"{counted(len(good), 'page')} with an action", "" if good else "flash some: m512 flash library.m512")
 
 
 def _ranges(numbers: Iterable[int]) -> str:

@@ -14,6 +14,7 @@ from m512.board.factory import FactoryLoader
 from m512.board.loaders import Loader
 from m512.board.memory import FLASH_PAGE, Plan
 from m512.errors import BoardError, CancelledError, PortError, RefusedError
+from m512.files.wording import counted
 
 PhaseMaker = Callable[[str], AbstractContextManager[Callable[[int, int], None]]]
 BOOT_MODE, BOOT_APPLICATION = 0xFFF, 0x11
@@ -31,11 +32,9 @@ class Report:
 
     def __str__(self) -> str:
         if not self.written:
-            return f"all {self.pages} flash pages were there already"
-        again = f", {self.retries} repetitions on the line" if self.retries else ""
-        return (
-            f"{self.written} of {self.pages} flash pages written and read back ({self.written * FLASH_PAGE:,} bytes in {self.seconds:.1f} s{again})"
-        )
+            return f"all {self.pages} flash pages were there already" if self.pages != 1 else "the flash page was there already"
+        again = f", {counted(self.retries, 'repetition')} on the line" if self.retries else ""
+        return f"{self.written} of {counted(self.pages, 'flash page')} written and read back ({self.written * FLASH_PAGE:,} bytes in {self.seconds:.1f} s{again})"
 
 
 def check_board(plan: Plan, loader: Loader) -> None:

@@ -10,6 +10,7 @@ from m512.board.memory import FLASH_PAGE, MOTIONS, Plan
 from m512.errors import BoardError, RefusedError
 from m512.files.image import is_erased
 from m512.files.page import PAGE_BYTES, Page
+from m512.files.wording import counted
 from m512.pages import difference
 
 NO_PAGES = b"\xff" * PAGE_BYTES
@@ -24,7 +25,7 @@ def through_loader(loader: Loader, plan: Plan, phase: PhaseMaker) -> list[str]:
     finally:
         loader.leave(0)
     here = f"{loader.name}" + (f" on a {loader.board}" if loader.board else "")
-    return [f"{here}: {len(todo)} of {len(plan.pages)} flash pages would be written" if todo else f"{here}: the board holds this already"]
+    return [f"{here}: {len(todo)} of {counted(len(plan.pages), 'flash page')} would be written" if todo else f"{here}: the board holds this already"]
 
 
 def emptied(loader: Loader, plan: Plan, todo: list[int], phase: PhaseMaker) -> dict[int, str]:

@@ -53,6 +53,14 @@ def only_the_simulator() -> None:
         raise click.UsageError("--sim starts a simulated robot, --port means a real one: say one of the two")
 
 
+def refuse_words(names: set[str], why: str) -> None:
+    """UsageError where one of these options was typed: it would be ignored."""
+    context = click.get_current_context()
+    for option in context.command.params:
+        if option.name in names and context.get_parameter_source(option.name) is ParameterSource.COMMANDLINE:
+            raise click.UsageError(f"{option.opts[0]} {why}")
+
+
 def connect(port: str, wait: float, yes: bool = False, board: str = "") -> Any:
     """(link, loader) of the board on a port. A running Play or Edit restarts by itself; edits are lost only after a yes."""
     from m512.board import bus, loaders, ports
@@ -120,13 +128,14 @@ def _flash(
 ) -> None:
     from m512.board import download, memory
     from m512.board.block import BlockLoader
+    from m512.files.wording import counted
 
     plan = memory.plan(image, address, board, with_trim, damaged)
     for remark in plan.remarks:
         ui.say(f"note: {remark}")
     first, last = min(plan.pages) * 256, max(plan.pages) * 256 + 255
     what = str(plan.record) if plan.record else "an application" if plan.has_app else "motions"
-    ui.say(f"{image.name}: {what}, {len(plan.pages)} flash pages in 0x{first:05X}..0x{last:05X}")
+    ui.say(f"{image.name}: {what}, {counted(len(plan.pages), 'flash page')} in 0x{first:05X}..0x{last:05X}")
     if dry_run:
         _look(plan, port, board)
         return
@@ -185,7 +194,7 @@ def _look(plan: Any, port: str, board: str) -> None:
             client = Client(link)
         except NoAnswerError as error:
             if not loaders.at_prompt(link):
-                ui.say(f"no boot loader answers there, and {error}: what is on the board is not known")
+                ui.say(f"{link.url}: no boot loader answers, and {error}: what is on the board is not known")
                 return
             found = look.through_loader(loaders.identify(link, board=board), plan, ui.phase)
         else:
@@ -227,6 +236,7 @@ def run(image: Any, **options: Any) -> None:
         return
     from m512.board import download
 
+    refuse_words({"dry_run", "with_trim", "fast", "address", "damaged"}, "is for a file that is flashed; here is none")
     link, loader = connect(options["port"], options["wait"], options["yes"], options["board"])
     with link:
         download.start(loader)
@@ -295,6 +305,7 @@ def restore(folder: Path, what: str, yes: bool, port: str, board: str, wait: flo
     from m512.board import backup as backups
     from m512.board import download, loaders
     from m512.board.memory import Plan
+    from m512.files.wording import counted
 
     saved = backups.load(folder)
     areas = _areas(what) if what else list(saved.data)
@@ -313,7 +324,7 @@ def restore(folder: Path, what: str, yes: bool, port: str, board: str, wait: flo
         if cells:
             with ui.phase("EEPROM") as progress:
                 loader.write_eeprom(cells, progress)
-            ui.say(f"{len(cells)} EEPROM cells written")
+            ui.say(f"{counted(len(cells), 'EEPROM cell')} written")
         if todo or cells:
             loader.leave(2)
         else:

@@ -12,8 +12,8 @@ import click
 
 from m512 import ui
 from m512.cli.board import board_option
-from m512.errors import EXIT_DIFFERENT, FileError, RefusedError, WordError
-from m512.files import conversion, formats, selection, storage
+from m512.errors import EXIT_DIFFERENT, FileError, WordError
+from m512.files import conversion, formats, selection
 from m512.files.wording import pages_text
 
 if TYPE_CHECKING:
@@ -124,8 +124,7 @@ def convert(
     SOURCE is recognised by its contents. All losses are listed; a conversion that loses nothing says nothing. Pages of yours
     are left out only when an option says so; --only says which were.
     """
-    if storage.exists(target) and not force:
-        raise RefusedError(f"{target} is there already (--force overwrites it)")
+    formats.must_be_writable(target, force)
     to = formats.BY_SUFFIX.get(target.suffix.lower())
     if number and to != formats.CSV:
         raise click.UsageError("--page is for a .csv as TARGET; --only takes some pages of many")

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Sequence
-from functools import cached_property
+from functools import cached_property, wraps
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,7 @@ from m512 import ui
 from m512.cli.board import Finite, board_option
 from m512.cli.files import PAGE_NUMBER, one_of_csv, page_moves, page_numbers
 from m512.errors import EXIT_DIFFERENT, FileError, RefusedError, WordError
-from m512.files import formats, storage
+from m512.files import formats
 from m512.files.page import Page
 
 
@@ -46,15 +46,11 @@ class Source:
             ui.say(f"note: {note}")
         return image
 
-    def store(self, remarks: Iterable[str], output: Any, in_place: bool, force: bool, yes: bool, number: int | None = None) -> None:
+    def store(self, remarks: Iterable[str], output: Any, in_place: bool, yes: bool, number: int | None = None) -> None:
         """Writes the changed image where it was asked for. `number`: the page of a .csv."""
-        if output and in_place:
-            raise click.UsageError("-o FILE or --in-place: say one of the two")
         for remark in remarks:
             ui.say(f"note: {remark}")
         if output:
-            if storage.exists(Path(output)) and not force:
-                raise RefusedError(f"{output} is there already (--force overwrites it)")
             losses = formats.save(Path(output), self.image, number)
             for loss in losses:
                 ui.say(f"loss: {loss}")
@@ -97,12 +93,21 @@ class Source:
 
 
 def changes(function: Any) -> Any:
-    """Options of the actions that change pages."""
-    function = click.option("-o", "--output", type=click.Path(), help="Write the result here.")(function)
-    function = click.option("--in-place", is_flag=True, help="Write the result back to the file.")(function)
-    function = click.option("--force", is_flag=True, help="Overwrite the file of -o.")(function)
-    function = click.option("--yes", is_flag=True, help="Write to a board without asking.")(function)
-    return click.pass_obj(function)
+    """Options of the actions that change pages; where the result goes is looked at before a file or board is read."""
+
+    @wraps(function)
+    def action(source: Source, force: bool, **options: Any) -> None:
+        if options["output"] and options["in_place"]:
+            raise click.UsageError("-o FILE or --in-place: say one of the two")
+        if options["output"]:
+            formats.must_be_writable(Path(options["output"]), force)
+        function(source, **options)
+
+    changing = click.option("-o", "--output", type=click.Path(), help="Write the result here.")(action)
+    changing = click.option("--in-place", is_flag=True, help="Write the result back to the file.")(changing)
+    changing = click.option("--force", is_flag=True, help="Overwrite the file of -o.")(changing)
+    changing = click.option("--yes", is_flag=True, help="Write to a board without asking.")(changing)
+    return click.pass_obj(changing)
 
 
 replacing = click.option("--replace", is_flag=True, help="Overwrite a page that is not empty.")

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from m512 import ui
-from m512.cli.board import json_option, only_the_simulator, port_option
+from m512.cli.board import json_option, only_the_simulator, port_option, refuse_words
 from m512.cli.files import one_of_csv, page_moves, page_numbers
 from m512.errors import BoardError, NoAnswerError, RefusedError, WordError
 
@@ -23,9 +23,18 @@ if TYPE_CHECKING:
 ID_MAX = 30
 
 
+def _servos(_context: click.Context, _parameter: click.Parameter, text: str) -> str:
+    """--servos of the simulator (a model or a rate may follow an ID), if Play and Edit can move them all."""
+    for part in [] if text == "none" else text.split(","):
+        ids = re.fullmatch("([0-9]{1,3})(?:-([0-9]{1,3}))?([:@].*)?", part)
+        if not ids or not int(ids[1]) <= int(ids[2] or ids[1]) <= ID_MAX:
+            raise click.BadParameter(f"{part!r}: servos have IDs 0..{ID_MAX}, as 5 or 1-18; `none` plugs none in")
+    return text
+
+
 def robot_options(function: Any) -> Any:
     for option in (
-        click.option("--servos", default="1-18", help="With --sim: the servos that are plugged in.", show_default=True),
+        click.option("--servos", default="1-18", callback=_servos, help="With --sim: the servos that are plugged in.", show_default=True),
         click.option("--image", default="play-cm5.hex", help="With --sim: the firmware.", show_default=True),
         click.option("--motions", type=click.Path(path_type=Path), help="With --sim: motion file of any kind."),
         click.option("--sim", is_flag=True, help="Start the simulator instead of using a port."),
@@ -45,6 +54,8 @@ def robot(options: dict[str, Any], image: Any = "play") -> Iterator[Client]:
 
     if options.get("motions") and not options["sim"]:
         raise click.UsageError("--motions is for --sim; a robot gets its motions with `m512 flash` or `put`")
+    if not options["sim"]:
+        refuse_words({"servos", "image"}, "is for --sim")
     if options["sim"]:
         only_the_simulator()
         from m512.board.sim import Simulator, meet
@@ -230,12 +241,10 @@ Examples:
 @robot_options
 def get(pages: Sequence[str], output: Any, force: bool, **options: Any) -> None:
     """Read PAGES (numbers, names, ranges as 20..25, or `all`) from a running board into a file."""
-    from m512.files import formats, storage
+    from m512.files import formats
     from m512.files.image import Image
 
-    if storage.exists(output) and not force:
-        raise RefusedError(f"{output} is there already (--force overwrites it)")
-    formats.kind_of(output)  # before a robot is asked
+    formats.must_be_writable(output, force)  # before a robot is asked
     with robot(options) as client:
         numbers = page_numbers(pages, client)
         only = one_of_csv(output, numbers)

@@ -10,7 +10,7 @@ from m512.errors import FileError, WordError
 from m512.files.image import Image
 from m512.files.page import JOINTS, STEPS, Page
 from m512.files.text.words import Token, name_bytes, number, position, position_text, quote_name
-from m512.files.wording import pages_text
+from m512.files.wording import counted, pages_text
 
 FIELDS = (
     "repeat",
@@ -131,7 +131,7 @@ def _read_step(page: Page, row: list[str]) -> None:
     if page.steps == STEPS:
         raise WordError("a page has 7 steps")
     if len(row) != len(COLUMNS):
-        raise WordError(f"{len(row)} values, not {len(COLUMNS)}")
+        raise WordError(f"{counted(len(row), 'value')}, not {len(COLUMNS)}")
     step = page.steps
     page.set_time(step, number(Token(row[1]), 0, 255, "time"))
     page.set_pause(step, number(Token(row[2]), 0, 255, "pause"))

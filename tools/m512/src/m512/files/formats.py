@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from m512.errors import FileError
+from m512.errors import FileError, RefusedError
 from m512.files import image as raw
 from m512.files import scale12, storage
 from m512.files.image import Image
+from m512.files.wording import counted
 
 TEXT, BINARY, HEX, MTN, CSV = "text", "image", "Intel HEX", "RoboPlus .mtn", "CSV"
 BY_SUFFIX = {".m512": TEXT, ".bin": BINARY, ".img": BINARY, ".hex": HEX, ".ihex": HEX, ".mtn": MTN, ".csv": CSV}
@@ -43,7 +44,7 @@ def recognise(data: bytes, path: Path) -> str:
         return TEXT
     kind = BY_SUFFIX.get(path.suffix.lower())
     if kind in (None, BINARY):
-        raise FileError(f"{path}: {len(data):,} bytes that are no motion file this program knows (image, Intel HEX, .mtn, CSV or text)")
+        raise FileError(f"{path}: {counted(len(data), 'byte')} that make no motion file this program knows (image, Intel HEX, .mtn, CSV or text)")
     return kind
 
 
@@ -109,6 +110,13 @@ def kind_of(path: Path) -> str:
     if kind is None:
         raise FileError(f"{path}: the suffix decides the format: {' '.join(BY_SUFFIX)}")
     return kind
+
+
+def must_be_writable(path: Path, force: bool) -> None:
+    """The cheap questions, before the motions are read. RefusedError, FileError: it is there already, or its suffix names no format."""
+    if storage.exists(path) and not force:
+        raise RefusedError(f"{path} is there already (--force overwrites it)")
+    kind_of(path)
 
 
 def encode(path: Path, image: Image, number: int | None = None, mtn_version: str = "1.01", kind: str | None = None) -> tuple[bytes, list[str]]:

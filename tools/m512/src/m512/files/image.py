@@ -19,7 +19,7 @@ from io import StringIO
 from m512.errors import FileError
 from m512.files import selection
 from m512.files.page import EMPTY, PAGE_BYTES, Fault, Kind, Page
-from m512.files.wording import Findings, named_pages_text
+from m512.files.wording import Findings, counted, named_pages_text
 
 SIZES = {65536: (0, 128), 65024: (1, 128), 131072: (0, 256)}
 HEX_BASE = {128: 0x0E000, 256: 0x1E000}
@@ -121,7 +121,7 @@ def _cut_links(page: Page, number: int, count: int, cut: Findings) -> None:
 
 def from_bytes(data: bytes, bits: int = 10) -> Image:
     if len(data) not in SIZES:
-        raise FileError(f"{len(data):,} bytes is not the size of a motion image (65,536, 65,024 or 131,072)")
+        raise FileError(f"{counted(len(data), 'byte')} is not the size of a motion image (65,536, 65,024 or 131,072)")
     first, _ = SIZES[len(data)]
     return Image([Page(data[at : at + PAGE_BYTES]) for at in range(0, len(data), PAGE_BYTES)], first, bits)
 

@@ -41,6 +41,11 @@ def named_pages_text(titles: dict[int, str]) -> str:
     return ("page " if len(texts) == 1 else "pages ") + listed(texts)
 
 
+def counted(count: int, thing: str) -> str:
+    """ "1 page", "2 pages"."""
+    return f"{count:,} {thing}" + ("" if count == 1 else "s")
+
+
 class Findings:
     """Sentences about pages, gathered page by page and told once each. A value is what differs from page to page."""
 

@@ -12,6 +12,7 @@ import re
 from collections.abc import Iterator
 
 from m512.errors import FileError
+from m512.files.wording import counted
 
 BOM = b"\xef\xbb\xbf"
 LAST = b"page_end"
@@ -53,12 +54,12 @@ def _judge(data: bytes, end: int) -> list[str]:
         if file_checksum(body) == trailer:
             return [f"the file was changed on its way ({', '.join(changes)}), but its checksum shows that the text is as it was written"]
     found = _trailer(data[end:])
-    pages = data.count(LAST)
+    pages = counted(data.count(LAST), "page")
     if found is None:
-        return [f"the file has no checksum, so only you can tell whether it is complete: {pages} pages were read"]
+        return [f"the file has no checksum, so only you can tell whether it is complete: {pages} {'was' if pages == '1 page' else 'were'} read"]
     return [
         f"the file's checksum is {found.hex(' ')} and should be {file_checksum(data[:end] + _line_end(data[end:])).hex(' ')}: "
-        f"it was edited by hand, or damaged. All {pages} pages could be read; look at them before a robot plays them"
+        f"it was edited by hand, or damaged. {pages} could be read; look at them before a robot plays them"
     ]
 
 

@@ -12,7 +12,7 @@ from m512.files.mtn.envelope import unwrap
 from m512.files.mtn.long_pages import place_long_pages
 from m512.files.page import POS_UNUSED, SCHEDULE_TIME, STEPS, Page
 from m512.files.scale12 import HINT
-from m512.files.wording import pages_text
+from m512.files.wording import counted, pages_text
 
 IDS = 26  # the text has IDs 0..25
 PAGES = 255  # and pages 1..255
@@ -58,7 +58,7 @@ class Lines:
     def numbers(self, text: str, what: str, count: int) -> list[Fraction]:
         parts = text.replace(",", ".").split()
         if len(parts) != count:
-            raise self.error(f"{what} has {len(parts)} values, not {count}")
+            raise self.error(f"{what} has {counted(len(parts), 'value')}, not {count}")
         try:
             # No exponents, few digits: "1e999999" would take for ever.
             if any(len(part) > DIGITS_MOST or set(part) - set("0123456789.-") for part in parts):

@@ -12,7 +12,7 @@ from m512.files.image import Image, is_erased
 from m512.files.mtn.envelope import BOM, file_checksum
 from m512.files.mtn.reader import IDS, PAGES, UNITS_PER_SECOND, UNUSED_WORD
 from m512.files.page import JOINTS, POS_UNUSED, SCHEDULE_TIME, STEPS, Fault, Kind, Page, is_used
-from m512.files.wording import Findings, named_pages_text
+from m512.files.wording import Findings, counted, named_pages_text
 
 
 def rate_of(speed: int) -> Fraction | None:
@@ -41,7 +41,9 @@ def write(image: Image, version: str = "1.01") -> tuple[bytes, list[str]]:
         lines += _page_lines(page)
     told = losses.lines()
     if blank:
-        told.append(f"{blank} pages: what lies in unused steps, unused joints and byte 63 takes RoboPlus' usual values (no effect on playing)")
+        told.append(
+            f"{counted(blank, 'page')}: what lies in unused steps, unused joints and byte 63 takes RoboPlus' usual values (no effect on playing)"
+        )
     body = BOM + "\n".join(lines + [""]).encode("utf-8")
     return body + file_checksum(body), told
 

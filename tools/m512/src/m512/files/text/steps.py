@@ -8,6 +8,7 @@ import re
 from m512.errors import WordError
 from m512.files.page import JOINTS, STEPS, Page
 from m512.files.text.words import Token, joints_of, mirrored, position, step_speed, ticks
+from m512.files.wording import counted
 
 Words = dict[int, int]  # joint -> position word
 
@@ -134,7 +135,7 @@ class JointWords:
         if not self.row:
             raise WordError(f'{tokens[first]}: neither joint:position nor a pose; a row of positions needs a "row" line')
         if count != len(self.row):
-            raise WordError(f"{count} positions; the row has {len(self.row)} joints")
+            raise WordError(f"{counted(count, 'position')}; the row has {counted(len(self.row), 'joint')}")
         for joint, token in zip(self.row, tokens[first:end]):
             word = position(token.text, words.get(joint, 0x4000), self.pos_max)
             if token.text != "." or joint in words:
