@@ -12,7 +12,7 @@ from m512.board.link import Link
 from m512.errors import FileError, M512Error
 from m512.files import formats, storage
 
-TIMES, MOST = 8, 24
+TIMES, MOST = 8, 40
 LEAST_SECONDS = 0.02  # of the larger one: less is too little to compare
 PAGES = body([Block(name="x")], full=False)
 HEAD, PAGE = PAGES[: PAGES.index(b"page_begin")], PAGES[PAGES.index(b"page_begin") :]
