@@ -383,7 +383,8 @@ void answers_printed(const char *line)
         take_shape(answers.shape);
         answers.shape[0] = '\0';
     }
-    if (answers.line[0] == '\0' || line[0] != '@' || strncmp(line, "@now ", 5) == 0) {
+    const bool is_echo = strcasecmp(line, answers.line) == 0;   /* after noise it may stand without a prompt */
+    if (answers.line[0] == '\0' || line[0] != '@' || strncmp(line, "@now ", 5) == 0 || is_echo) {
         return;
     }
     static char answer[LINE_BYTES];
