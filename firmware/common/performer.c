@@ -65,15 +65,16 @@ static player_status_t start_player(performer_t *performer, uint8_t page, uint32
     return player_start(&performer->player, &performer->link, page, law, performer->goal_pos, joints);
 }
 
-static performer_status_t somebody_can_move(const performer_t *performer)
+/* Whether one of `joints` can. */
+static performer_status_t somebody_can_move(const performer_t *performer, uint32_t joints)
 {
     if (!performer_is_idle(performer)) {
         return PERFORMER_ERR_BUSY;
     }
-    if (performer->servos->present == 0) {
+    if ((performer->servos->present & joints) == 0) {
         return PERFORMER_ERR_NO_SERVOS;
     }
-    return performer_usable(performer) == 0 ? PERFORMER_ERR_RELEASED : PERFORMER_OK;
+    return (performer_usable(performer) & joints) == 0 ? PERFORMER_ERR_RELEASED : PERFORMER_OK;
 }
 
 /* Begins the state READY. */
@@ -109,7 +110,7 @@ static void call_link(performer_t *performer, uint8_t code)
 
 performer_status_t performer_start(performer_t *performer, uint8_t page, uint8_t code)
 {
-    performer_status_t status = somebody_can_move(performer);
+    performer_status_t status = somebody_can_move(performer, SERVO_LINK_ALL);
     if (status != PERFORMER_OK) {
         return status;
     }
@@ -132,15 +133,9 @@ performer_status_t performer_start(performer_t *performer, uint8_t page, uint8_t
 performer_status_t performer_move(performer_t *performer, const uint16_t to_pos[PAGE_JOINTS], uint32_t joints,
                                   uint16_t deg_s)
 {
-    const performer_status_t status = somebody_can_move(performer);
+    const performer_status_t status = somebody_can_move(performer, joints);
     if (status != PERFORMER_OK) {
         return status;
-    }
-    if ((joints & performer->servos->present) == 0) {
-        return PERFORMER_ERR_NO_SERVOS;
-    }
-    if ((joints & performer_usable(performer)) == 0) {
-        return PERFORMER_ERR_RELEASED;
     }
     performer_layers_drop(performer, joints);   /* the last word counts: code no longer moves them */
     memcpy(performer->player.next_pos, to_pos, sizeof performer->player.next_pos);
