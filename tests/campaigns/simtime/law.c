@@ -44,7 +44,9 @@ typedef struct {
 
 static struct {
     uint16_t now[JOINTS];
-    uint16_t goal[KEPT][JOINTS];
+    uint16_t goal[KEPT][JOINTS];   /* at the end of each tick */
+    uint32_t now_tick[JOINTS];
+    int twice[JOINTS];             /* a late tick sends two: the first of them, the last time that there were two */
     uint32_t ticks;
     uint32_t present;              /* joints of the last frame, a bit each */
     step_t step[STEPS_KEPT];
@@ -101,6 +103,11 @@ static bool is_one_of(const char *line, const char *const *words)
         }
     }
     return false;
+}
+
+static void forget_aims(void)
+{
+    memset(law.aim, 0, sizeof law.aim);
 }
 
 static void judge_no_more(void)
@@ -366,8 +373,11 @@ void law_frame(const uint8_t *ids_and_goals, unsigned count, unsigned bytes_each
         if (is_at_rest && (law.present >> id & 1u) != 0 && goal != law.now[id]) {
             session_fail("a pause is at rest", "servo %u from %u to %u", id, law.now[id], goal);
         }
+        if (law.now_tick[id] == session.tick) {
+            law.twice[id] = law.now[id];
+        }
+        law.now_tick[id] = session.tick;
         law.now[id] = (uint16_t)goal;
-        views_goal(id, goal);
         present |= 1u << id;
     }
     if (present != law.present && law.knows_place) {
@@ -405,13 +415,6 @@ static void take_answer(void)
         law.aim[id].period = period_ms * SECOND / 1000;
     }
     law.asked[0] = '\0';
-}
-
-static void forget_aims(void)
-{
-    for (unsigned id = 0; id < JOINTS; id++) {
-        law.aim[id].due = NEVER_TICK;
-    }
 }
 
 void law_printed(const char *line)
@@ -461,7 +464,7 @@ void law_printed(const char *line)
         take_answer();
     } else if (strncmp(line, "Nobody drives", 13) == 0) {
         law.is_stopped = true;
-        memset(law.aim, 0, sizeof law.aim);
+        forget_aims();
     } else if (strstr(line, "dropped") != NULL || strstr(line, "Battery") != NULL || strncmp(line, "Servo ", 6) == 0 ||
                strncmp(line, "Paused", 6) == 0) {
         judge_no_more();
@@ -477,7 +480,7 @@ void law_typed(const char *line)
     unsigned number, code;
     law.is_mixed = law.asked[0] != '\0' && session.tick - law.asked_tick < SECOND;
     if (law.is_mixed) {
-        memset(law.aim, 0, sizeof law.aim);   /* either line may send a joint elsewhere, and which OK is whose? */
+        forget_aims();   /* either line may send a joint elsewhere, and which OK is whose? */
     }
     law.asked_tick = session.tick;
     snprintf(law.asked, sizeof law.asked, "%s", line);
@@ -504,7 +507,7 @@ void law_typed(const char *line)
         law.is_shaped = false;
     }
     if (!begins(line, "aim") && !begins(line, "swing") && !begins(line, "play")) {
-        memset(law.aim, 0, sizeof law.aim);
+        forget_aims();
     }
     if ((begins(line, "stop") || begins(line, "@stop")) && !law.is_stopped) {
         law.is_stopped = true;
@@ -535,7 +538,7 @@ void law_remote(unsigned buttons)
     }
     law.paused_tick = NEVER_TICK;
     put_code(buttons < 255 ? buttons : ANY_CODE);
-    memset(law.aim, 0, sizeof law.aim);
+    forget_aims();
     if (law.has_modes || buttons == 256 || (is_stop && law.is_stopped)) {
         judge_no_more();
         law.approach_tick = NEVER_TICK;
@@ -557,7 +560,10 @@ void law_boot(void)
     law.code = ANY_CODE;
     law.code_tick = law.code_before_tick = session.tick;
     law.asked[0] = '\0';
-    memset(law.aim, 0, sizeof law.aim);
+    forget_aims();
+    for (unsigned id = 0; id < JOINTS; id++) {
+        law.twice[id] = UNKNOWN;
+    }
     if (session.boots == 0) {
         law.approach = 60;
     }
@@ -570,7 +576,7 @@ bool law_is_exact(void)
 
 bool law_was_goal(unsigned id, unsigned goal, unsigned ticks)
 {
-    bool was = law.now[id] == goal;
+    bool was = law.now[id] == goal || law.twice[id] == (int)goal;
     for (uint32_t i = 0; i < ticks && !was; i++) {
         was = goal_at(law.ticks - i, id) == goal;
     }

@@ -159,7 +159,6 @@ void calls_printed(const char *line);
 /* views.c */
 void views_boot(void);
 void views_tick(void);
-void views_goal(unsigned id, unsigned goal);   /* in a frame */
 void views_typed(const char *line);
 void views_printed(const char *line);
 void views_list(const char *answer, int first, int last);

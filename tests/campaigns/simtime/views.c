@@ -28,9 +28,6 @@ static struct {
     uint32_t set_tick;
     int goal_now[JOINTS];          /* by the newest @now */
     uint32_t now_tick;
-    uint32_t goal_tick[JOINTS];    /* of the newest goal of a joint */
-    int goal_last[JOINTS];
-    int goal_twice[JOINTS];        /* the one before it in the same tick, the last time that there was one */
 } views;
 
 /* ---- pages ---- */
@@ -188,26 +185,11 @@ static bool has_goal(unsigned id)
     return (goal[0] | goal[1] << 8) == views.goal_now[id];
 }
 
-/* The history of goals has one for each tick. A late tick sends two: then the first is kept here. */
-void views_goal(unsigned id, unsigned goal)
-{
-    if (views.goal_tick[id] == session.tick) {
-        views.goal_twice[id] = views.goal_last[id];
-    }
-    views.goal_tick[id] = session.tick;
-    views.goal_last[id] = (int)goal;
-}
-
-static bool was_goal(unsigned id, int goal)
-{
-    return goal == views.goal_twice[id] || law_was_goal(id, (unsigned)goal, NOW_AGE);
-}
-
 /* The goals of that line have been sent, or are sent in the ticks that follow. */
 static void look_at_goals(void)
 {
     for (unsigned id = 0; id < JOINTS; id++) {
-        if (views.goal_now[id] != UNKNOWN && !was_goal(id, views.goal_now[id]) && !has_goal(id)) {
+        if (views.goal_now[id] != UNKNOWN && !law_was_goal(id, (unsigned)views.goal_now[id], NOW_AGE) && !has_goal(id)) {
             session_fail("goals are shown as they are sent", "servo %u: %d", id, views.goal_now[id]);
         }
     }
@@ -318,9 +300,6 @@ void views_boot(void)
     views.is_list = views.is_servos = views.is_settings = false;
     views.asked[0] = '\0';
     views.now_tick = NEVER_TICK;
-    for (unsigned id = 0; id < JOINTS; id++) {
-        views.goal_twice[id] = UNKNOWN;
-    }
     for (unsigned i = 0; i < views.settings; i++) {
         views.setting[i].value = views.setting[i].sure;
     }
