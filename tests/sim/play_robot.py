@@ -77,6 +77,13 @@ def robot(servos=JOINTS, pages=None, image=IMAGE, kind="cm5", **options):
     return board
 
 
+def press_start(board):
+    """Start on the panel, as a finger does."""
+    board.press("START")
+    board.run(ms=50)
+    board.release("START")
+
+
 def ask(board, line, ms=3000):
     """Types a line and returns its answer, without the echo and the next prompt."""
     board.run(ms=5)

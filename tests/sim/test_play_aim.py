@@ -6,7 +6,7 @@ import random
 
 import pytest
 
-from tests.sim.play_robot import JOINTS, STOP, ask, robot
+from tests.sim.play_robot import JOINTS, STOP, ask, press_start, robot
 from tests.sim.walking_robot import EXIT, LOOP, looping, pages, run_of_a_walk, where
 
 HEAD = (19, 20)
@@ -179,13 +179,7 @@ def by_button_6(board):
     board.rc(0)
 
 
-def by_start(board):
-    board.press("START")
-    board.run(ms=50)
-    board.release("START")
-
-
-@pytest.mark.parametrize("stop", [by_button_6, by_start, lambda board: ask(board, "code 255"), lambda board: ask(board, "stop")])
+@pytest.mark.parametrize("stop", [by_button_6, press_start, lambda board: ask(board, "code 255"), lambda board: ask(board, "stop")])
 def test_every_stop_ends_what_code_moves_while_nothing_plays(stop):
     board = robot()
     ask(board, "swing 1 512 100 2000")

@@ -3,7 +3,7 @@
 
 import pytest
 
-from tests.sim.play_robot import JOINTS, LEFT, STOP, UP, ask, robot
+from tests.sim.play_robot import JOINTS, LEFT, STOP, UP, ask, press_start, robot
 
 BUTTON_1 = 16  # bow
 REPEAT_MS = 50
@@ -34,12 +34,6 @@ def held_play(mode="latch", buttons=BUTTON_1, before="Playing", **options):
     raise AssertionError(text)
 
 
-def by_start(board):
-    board.press("START")
-    board.run(ms=30)
-    board.release("START")
-
-
 def by_word(word):
     def say(board):
         board.send(word + "\r")
@@ -52,7 +46,7 @@ def by_button_6(board):
     board.run(ms=REPEAT_MS)
 
 
-ENDS = [by_start, by_word("stop"), by_word("break"), by_word("@stop"), by_word("@break"), by_button_6]
+ENDS = [press_start, by_word("stop"), by_word("break"), by_word("@stop"), by_word("@break"), by_button_6]
 
 
 @pytest.mark.parametrize("mode", ["latch", "hold", "drive"])
@@ -156,7 +150,7 @@ def test_fingers_that_leave_a_chord_on_the_panel_do_not_call_back_what_start_has
     board.run(ms=3000)
     board.press("LEFT")
     board.run(ms=100)
-    by_start(board)
+    press_start(board)
     board.release("LEFT")
     board.expect("Stopped after", ms=6000)
     board.run(ms=1000)
@@ -165,7 +159,7 @@ def test_fingers_that_leave_a_chord_on_the_panel_do_not_call_back_what_start_has
 
 def test_a_button_that_comes_down_behind_a_stop_calls_a_play_back():
     board = held_play(buttons=UP)
-    by_start(board)
+    press_start(board)
     hold(board, UP | LEFT, 200)
     hold(board, 0, 3000)
     assert ask(board, "status").startswith("Playing")
