@@ -183,7 +183,7 @@ def test_text_continued_line_and_comments():
         ("page 1; step 1ms | 1:1", "less than half a tick"),
         ("page 1; step 1 | 1:1024", "a position must be 0..1023, not 1024"),
         ("page 1; step 1 | 31:1", "joints are IDs 0..30"),
-        ("page 1; step 1 | 5", "1 positions; the row has 4 joints"),
+        ("page 1; step 1 | 5", "1 position; the row has 4 joints"),
         ("page 1; step 1 | 1:+5", "there is no position to change"),
         ("page 1; step 1 | same", "no step before"),
         ("page 1; step 1 | @x", "no pose is called x"),
