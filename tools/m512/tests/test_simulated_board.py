@@ -145,6 +145,21 @@ def test_board_put_through_edit(m512, started, motions, tmp_path):
     assert from_bytes((tmp_path / "zero.bin").read_bytes())[0].word(2, 3) == 0x10000 - 12
 
 
+@pytest.mark.parametrize("there, new", [("page 51", "page 51"), ("page 51", ""), ("page 51 bow", ""), ("page 51 bow", "page 51")])
+def test_put_does_not_lose_a_motion_unasked_where_a_name_is_missing(m512, started, tmp_path, there, new):
+    edit = started("boot-cm5.hex", "edit-cm5.hex", text=f"{MOTIONS}{there}\n  step 25 | 1:300\n")
+    start(m512, edit)
+    path = tmp_path / "new.m512"
+    path.write_text(MOTIONS + (new and f"{new}\n  step 25 | 1:310\n"))
+    before = bytes(edit.board.flash[0xE000:0x1E000])
+    result = m512("put", path, "51", "-p", edit.path)
+    assert result.exit_code != 0 and "page 51" in result.stderr
+    assert bytes(edit.board.flash[0xE000:0x1E000]) == before
+    if there == new:
+        assert "This replaces page 51 on the robot. Save? Nobody can be asked here: say --yes" in result.stderr
+        assert m512("put", path, "51", "--yes", "-p", edit.path).exit_code == 0
+
+
 def test_sim_option_plays_without_a_robot(m512, motions):
     result = m512("play", "nod", "--sim", "--motions", motions, "--json")
     assert result.exit_code == 0, result.stderr

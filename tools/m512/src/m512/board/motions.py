@@ -64,7 +64,7 @@ def write_motions(url: str, image: Image, board: str = "") -> None:
 
 def save_pages(client: Client, image: Image, numbers: list[int], confirm: Callable[[str], None] = lambda question: None) -> list[int]:
     """Saves those of the pages that the board holds otherwise; returns their numbers. confirm: is asked, before anything is written,
-    about pages of another name, and about a trim, that are lost; raises for a no."""
+    about pages of another name or of none, and about a trim, that are lost; raises for a no."""
     if not client.can_save:
         raise BoardError(f"Play does not save pages. Edit does: m512 run {client.file_of('edit')}; or write a whole motion file: m512 flash FILE")
     lost = {number: title for number, title in image.beyond(client.pages).items() if number in numbers}
@@ -80,8 +80,8 @@ def save_pages(client: Client, image: Image, numbers: list[int], confirm: Callab
             continue
         if not number and bytes(there) not in (EMPTY, ERASED):
             replaced.append("the trim (page 0)")
-        if number and not there.is_empty and there.title != new.title:
-            replaced.append(f'page {number} "{there.title}"')
+        if number and not there.is_empty and (there.title != new.title or not there.title or not new.steps):
+            replaced.append(named_pages_text({number: there.title}))
         changed.append(number)
     if replaced:
         confirm(f"This replaces {' and '.join(replaced)} on the robot. Save?")
