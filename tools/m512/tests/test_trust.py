@@ -120,6 +120,16 @@ def test_motions_at_an_address_are_judged_as_a_motion_file(tmp_path):
         plan(tmp_path / "half.bin", 0xE200)
 
 
+@pytest.mark.parametrize("name", ["x.m512", "x.mtn", "x.csv", "x.hex", "text.bin"])
+def test_an_address_is_for_raw_binaries(m512, tmp_path, name):
+    """Others would go to the robot letter by letter, over its program."""
+    source = tmp_path / name
+    source.write_bytes(formats.encode(source.with_suffix(".m512" if name == "text.bin" else source.suffix), read_text(TEXT), 3)[0])
+    result = m512("flash", source, "--address", "0", "--dry-run", "-p", "none")
+    assert result.exit_code == 5 and "--address is for raw binaries" in result.stderr and name in result.stderr
+    assert m512("flash", source, "--address", "0xE000", "--dry-run", "-p", "none").exit_code == 5
+
+
 def test_an_address_below_the_flash_is_refused(tmp_path):
     (tmp_path / "x.bin").write_bytes(bytes(300))
     with pytest.raises(RefusedError, match="no address -5"):

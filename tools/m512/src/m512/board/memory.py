@@ -117,9 +117,9 @@ def plan(path: Path, address: int | None = None, board: str | None = None, with_
 
 def _segments(path: Path, data: bytes, address: int | None, out: Plan, with_trim: bool, damaged: str) -> Segments:
     is_hex = data[:200].lstrip(b"\xef\xbb\xbf \r\n").startswith(b":")
-    if is_hex and address is not None:
-        raise RefusedError("Intel HEX says its addresses itself; --address is for raw binaries")
-    if not is_hex and address is None:
+    if address is not None:
+        _must_be_raw(path, data)
+    elif not is_hex:
         return _motions(path, formats.decode(data, path), out, with_trim, damaged)
     segments = hex_segments(data.decode("ascii", "replace")) if address is None else [(address, data)]
     if segments and segments[0][0] >= 0x20000:
@@ -129,6 +129,15 @@ def _segments(path: Path, data: bytes, address: int | None, out: Plan, with_trim
     code = [(start, piece[: MOTIONS[0] - start]) for start, piece in segments if start < MOTIONS[0]]
     motions = [(max(start, MOTIONS[0]), piece[max(MOTIONS[0] - start, 0) :]) for start, piece in segments if start + len(piece) > MOTIONS[0]]
     return code + (_placed_motions(path, motions, out, with_trim, damaged) if motions else [])
+
+
+def _must_be_raw(path: Path, data: bytes) -> None:
+    try:
+        kind = formats.recognise(data, path)
+    except FileError:  # no file of motions at all
+        return
+    if kind != formats.BINARY:
+        raise RefusedError(f"{path.name} is {kind}, which has a place of its own: leave out --address. --address is for raw binaries")
 
 
 def _placed_motions(path: Path, segments: Segments, out: Plan, with_trim: bool, damaged: str) -> Segments:
