@@ -108,6 +108,35 @@ def test_term_lists_ports(m512):
     assert m512("term", "--list").exit_code == 0
 
 
+def test_a_log_does_not_touch_a_file_that_is_there(m512, tmp_path):
+    mine = tmp_path / "lib.bin"
+    mine.write_bytes(b"mine")
+    result = m512("term", "-p", tmp_path / "no-port", "--log", mine, input="")
+    assert result.exit_code == 5 and f"{mine} is there already (--force overwrites it)" in result.stderr
+    assert m512("term", "-p", tmp_path / "no-port", "--log", mine, "--force", input="").exit_code == 6
+    assert mine.read_bytes() == b"mine"  # no port: nothing is logged
+    with Echo() as board:
+        assert m512("term", "-p", board.path, "--log", mine, "--force", input="list\n").exit_code == 0
+    assert b"<list>" in mine.read_bytes() and b"mine" not in mine.read_bytes()
+    result = m512("term", "-p", tmp_path / "no-port", "--log", tmp_path, input="")
+    assert result.exit_code == 4 and f"{tmp_path} is a folder; name a file in it" in result.stderr
+
+
+def test_a_log_that_a_key_begins_does_not_touch_a_file_that_is_there(term, tmp_path):
+    mine = tmp_path / "lib.bin"
+    mine.write_bytes(b"mine")
+    with Echo() as board:
+        child = term("-p", board.path)
+        child.expect("to quit")
+        child.send("\x1dg")
+        child.expect("log to: ")
+        child.send(f"{mine}\r")
+        child.expect("is there already")
+        child.send("list\r")
+        child.expect("<list>")
+    assert mine.read_bytes() == b"mine"
+
+
 def test_what_is_sent_first_is_read_once(m512):
     """A pipe gives its bytes once."""
     read, write = os.pipe()

@@ -366,6 +366,13 @@ def test_a_folder_in_place_of_a_file_is_called_one(m512, files, monkeypatch, wor
     assert result.exit_code == 4 and " is a folder; " in result.stderr and not (files / "y.bin").exists()
 
 
+def test_a_folder_is_no_target(m512, files):
+    for words in (("convert", files / "x.bin", files), ("pages", files / "x.bin", "delete", "3", "-o", files)):
+        for force in ((), ("--force",)):
+            result = m512(*words, *force)
+            assert result.exit_code == 4 and f"{files} is a folder; name a file in it" in result.stderr
+
+
 def test_get_knows_its_file_before_it_asks_a_robot(m512, files):
     result = m512("get", "1", "-o", files / "x.foo", "-p", files / "no_port")
     assert result.exit_code == 4 and "the suffix decides the format" in result.stderr

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from m512.board.link import Link
-from m512.errors import FileError, M512Error, PortError
+from m512.errors import FileError, M512Error, PortError, RefusedError
 from m512.files import storage
 
 KEY = "\x1d"  # Ctrl-]
@@ -32,13 +32,18 @@ class Terminal:
         self.log: BinaryIO | None = None
         self.running, self.held, self.trouble = True, False, ""
         self.heard_at = 0.0
-        if log:
-            self._open_log(log)
         self.link = Link(url, image=image)
+        if log:
+            try:
+                self._open_log(log)
+            except M512Error:
+                self.link.close()
+                raise
 
     def _open_log(self, path: Path) -> None:
+        """What is in the file is lost."""
         try:
-            self.log = open(path, "ab")
+            self.log = open(path, "wb")
         except OSError as error:
             raise FileError(f"cannot write {path}: {error.strerror}") from None
 
@@ -161,7 +166,10 @@ class Terminal:
         name = self._ask(console, "log to: ")
         if name:
             try:
+                storage.must_be_free(Path(name), False)
                 self._open_log(Path(name))
+            except RefusedError:
+                self._say(f"{name} is there already; name another file")
             except FileError as error:
                 self._say(str(error))
 

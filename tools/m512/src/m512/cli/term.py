@@ -21,12 +21,13 @@ Examples:
 )
 @port_option
 @click.option("--log", type=click.Path(path_type=Path), help="Write all that the board sends to this file.")
+@click.option("--force", is_flag=True, help="Overwrite the file of --log.")
 @click.option("--send", type=click.Path(path_type=Path), help="Send this file first (as typed; a line at a time).")
 @click.option("--list", "listing", is_flag=True, help="List the ports and end.")
 @click.option("--sim", is_flag=True, help="Start the simulator with Edit instead of using a port.")
 @click.option("--motions", type=click.Path(path_type=Path), help="With --sim: motion file of any kind.")
 @click.option("--image", default="edit-cm5.hex", show_default=True, help="With --sim or -p bus:...: the firmware.")
-def term(port: str, log: Path | None, send: Path | None, listing: bool, sim: bool, motions: Path | None, image: Any) -> None:
+def term(port: str, log: Path | None, force: bool, send: Path | None, listing: bool, sim: bool, motions: Path | None, image: Any) -> None:
     """A terminal at 57,600 baud, good for Edit's full screen.
 
     Everything typed goes to the board, but for Ctrl-]: then h shows help, q quits, l calls the boot loader with '#',
@@ -36,7 +37,9 @@ def term(port: str, log: Path | None, send: Path | None, listing: bool, sim: boo
     from m512.board.terminal import Terminal
     from m512.files import storage
 
-    data = storage.read(send) if send else b""  # what cannot be read is said before the board is touched
+    data = storage.read(send) if send else b""  # what cannot be read or written is said before the board is touched
+    if log:
+        storage.must_be_free(log, force)
     if listing:
         for device, text in ports.available():
             ui.show(f"{device}  {text}".rstrip())

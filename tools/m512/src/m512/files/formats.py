@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from m512.errors import FileError, RefusedError
+from m512.errors import FileError
 from m512.files import image as raw
 from m512.files import scale12, storage
 from m512.files.image import Image
@@ -114,8 +114,7 @@ def kind_of(path: Path) -> str:
 
 def must_be_writable(path: Path, force: bool) -> None:
     """The cheap questions, before the motions are read. RefusedError, FileError: it is there already, or its suffix names no format."""
-    if storage.exists(path) and not force:
-        raise RefusedError(f"{path} is there already (--force overwrites it)")
+    storage.must_be_free(path, force)
     kind_of(path)
 
 

@@ -11,7 +11,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from m512.errors import FileError
+from m512.errors import FileError, RefusedError
 from m512.streams import end_results
 
 MOST_BYTES = 4 << 20  # no motion file, firmware or backup is larger; /dev/zero is. Readers take time in proportion to it
@@ -40,6 +40,14 @@ def is_stream(path: Path) -> bool:
 def exists(path: Path) -> bool:
     """Whether writing would overwrite something."""
     return path.exists() and not is_stream(path)
+
+
+def must_be_free(path: Path, force: bool) -> None:
+    """RefusedError: a file is there already. FileError: a folder is."""
+    if path.is_dir():
+        raise FileError(f"{path} is a folder; name a file in it")
+    if exists(path) and not force:
+        raise RefusedError(f"{path} is there already (--force overwrites it)")
 
 
 def read(path: Path) -> bytes:
