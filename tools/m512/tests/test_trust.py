@@ -237,6 +237,19 @@ def test_restore_answered_no_leaves_the_board_as_it_was_found(m512, board, tmp_p
     assert board.left[-1] == left
 
 
+@pytest.mark.parametrize("what", ["", ",", " "])
+def test_a_backup_of_nothing_is_none(m512, board, tmp_path, what):
+    assert m512("backup", tmp_path / "b", "-p", board.path, "--what", "motions").exit_code == 0
+    for words in (("backup", tmp_path / "c"), ("restore", tmp_path / "b")):
+        result = m512(*words, "-p", board.path, "--what", what)
+        assert result.exit_code == 2 and "the areas are motions, app, eeprom" in result.stderr, result.stderr
+    assert not (tmp_path / "c").exists()
+    manifest = json.loads((tmp_path / "b" / "manifest.json").read_text())
+    (tmp_path / "b" / "manifest.json").write_text(json.dumps({**manifest, "files": {}}))
+    result = m512("restore", tmp_path / "b", "-p", board.path)
+    assert result.exit_code == 4 and f"{tmp_path / 'b'} holds nothing to restore" in result.stderr
+
+
 def test_restore_that_is_refused_leaves_the_board_as_it_was_found(m512, tmp_path):
     """An application of a CM-2 for a CM-5, of which Play was running."""
     flash = bytearray(make_app(board=2)).ljust(0x20000, b"\xff")
@@ -632,7 +645,13 @@ def test_a_dry_run_that_hears_nobody_names_the_port(m512, files):
     with BlockPeer() as silent:
         silent.on_byte = lambda byte: None
         result = m512("flash", files / "x.bin", "-p", silent.path, "--dry-run")
-    assert result.exit_code == 0 and f"{silent.path}: no boot loader answers, and neither" in result.stderr
+    assert result.exit_code == 7 and f"{silent.path}: no boot loader answers, and neither" in result.stderr
+
+
+def test_a_loader_that_was_read_answers_at_once(m512, files, board):
+    assert m512("pages", board.path, "list").exit_code == 0
+    result = m512("flash", files / "x.bin", "-p", board.path, "--dry-run")
+    assert result.exit_code == 0 and "the board holds this already" in result.stderr, result.stderr
 
 
 @pytest.mark.parametrize(

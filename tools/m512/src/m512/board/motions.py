@@ -27,7 +27,9 @@ def read_motions(url: str, board: str = "") -> Image:
 
             loader = loaders.enter(link, ui.say, board=board)
             with ui.phase("Reading") as progress:
-                return from_bytes(loader.read(*MOTIONS, progress))
+                data = loader.read(*MOTIONS, progress)
+            loader.leave(loaders.STAY)  # the next command finds it at its prompt
+            return from_bytes(data)
         return _read_pages(client)
 
 

@@ -14,7 +14,7 @@ import click
 from click.core import ParameterSource
 
 from m512 import ui
-from m512.errors import M512Error, NoAnswerError, PortError, RefusedError
+from m512.errors import FileError, M512Error, NoAnswerError, PortError, RefusedError
 
 
 class Finite(click.FloatRange):
@@ -194,8 +194,7 @@ def _look(plan: Any, port: str, board: str) -> None:
             client = Client(link)
         except NoAnswerError as error:
             if not loaders.at_prompt(link):
-                ui.say(f"{link.url}: no boot loader answers, and {error}: what is on the board is not known")
-                return
+                raise NoAnswerError(f"{link.url}: no boot loader answers, and {error}: what is on the board is not known") from None
             found = look.through_loader(loaders.identify(link, board=board), plan, ui.phase)
         else:
             found = look.through_application(client, plan, ui.phase)
@@ -247,9 +246,9 @@ def _areas(text: str) -> list[str]:
     from m512.board.backup import AREAS
 
     areas = [area for area in text.split(",") if area]
-    for area in areas:
+    for area in areas or [text]:
         if area not in AREAS:
-            raise click.UsageError(f"{area}: the areas are {', '.join(AREAS)}")
+            raise click.UsageError(f"--what {area!r}: the areas are {', '.join(AREAS)}")
     return areas
 
 
@@ -294,13 +293,13 @@ Examples:
   m512 restore robot1 --what motions --yes"""
 )
 @click.argument("folder", type=click.Path(path_type=Path))
-@click.option("--what", default="", help="Areas to write (default: all of the backup).")
+@click.option("--what", help="Areas to write (default: all of the backup).")
 @click.option("--yes", is_flag=True, help="Do not ask.")
 @port_option
 @board_option
 @wait_option
 @json_option
-def restore(folder: Path, what: str, yes: bool, port: str, board: str, wait: float, as_json: bool) -> None:
+def restore(folder: Path, what: str | None, yes: bool, port: str, board: str, wait: float, as_json: bool) -> None:
     """Show what a backup would change on the board, ask, and write it."""
     from m512.board import backup as backups
     from m512.board import download, loaders
@@ -308,8 +307,10 @@ def restore(folder: Path, what: str, yes: bool, port: str, board: str, wait: flo
     from m512.files.wording import counted
 
     saved = backups.load(folder)
-    areas = _areas(what) if what else list(saved.data)
+    areas = list(saved.data) if what is None else _areas(what)
     missing = [area for area in areas if area not in saved.data]
+    if not areas:
+        raise FileError(f"{folder} holds nothing to restore")
     if missing:
         raise RefusedError(f"the backup has no {', '.join(missing)}")
     link, loader = connect(port, wait, yes, board)
