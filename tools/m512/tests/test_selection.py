@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Which pages an argument means: one parser for every command, of files and of boards, and one error."""
 
+import re
+
 import pytest
 
 from m512.errors import FileError, WordError
@@ -118,8 +120,8 @@ def test_ranges_of_a_board_and_of_a_file(m512, started, lib):
     assert m512("get", "2..6", "bow", "-o", got, "-p", edit.path).exit_code == 0
     assert read_text(TEXT)[3] == selection_image(got)[3] and selection_image(got).used() == [3, 4, 5, 20]
     assert m512("get", "all", "--force", "-o", got, "-p", edit.path).exit_code == 0
-    result = m512("get", "0", "2", "-o", got.with_suffix(".csv"), "-p", edit.path)
-    assert result.exit_code == 2 and "a .csv holds one page, and not pages 0 and 2" in result.stderr
+    result = m512("get", "0", "3", "-o", got.with_suffix(".csv"), "-p", edit.path)
+    assert result.exit_code == 2 and "a .csv holds one page, and not pages 0 and 3" in result.stderr
     assert selection_image(got)[21] == IMAGE[21] and selection_image(got).used() == [3, 4, 5, 7, 20, 21]  # a damaged page byte for byte
     put = m512("put", lib, "3..5:60", "-p", edit.path)
     assert put.exit_code == 0, put.stderr
@@ -136,6 +138,36 @@ def selection_image(path):
     from m512.files import formats
 
     return formats.load(path)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("pages", "LIB", "show", "50"),
+        ("pages", "LIB", "extract", "50", "-o", "NEW"),
+        ("pages", "LIB", "delete", "3", "99", "-o", "NEW"),
+        ("pages", "OTHER", "merge", "LIB", "50:3", "-o", "NEW"),
+        ("convert", "LIB", "NEW", "--only", "50"),
+        ("put", "LIB", "50", "-p", "none"),
+        ("pages", "LIB", "copy", "50", "3", "--replace", "-o", "NEW"),
+        ("pages", "LIB", "renumber", "50", "60", "-o", "NEW"),
+        ("pages", "LIB", "mirror", "50", "60", "-o", "NEW"),
+        ("pages", "LIB", "retime", "50", "2", "-o", "NEW"),
+    ],
+)
+def test_an_empty_page_is_refused_by_its_number_as_in_a_range(m512, lib, words):
+    files = {"LIB": lib, "OTHER": lib.with_name("other.m512"), "NEW": lib.with_name("new.bin")}
+    result = m512(*(files.get(word, word) for word in words))
+    number = "99" if "99" in words else "50"
+    assert result.exit_code in (2, 5) and re.search(rf"\b{number}\b.* holds nothing", result.stderr), result.stderr
+    assert not lib.with_name("new.bin").exists()
+
+
+def test_an_empty_page_of_a_board_is_refused_by_its_number(m512, started, lib):
+    edit = started("edit-cm5.hex", text=TEXT)
+    result = m512("get", "3", "50", "-o", lib.with_name("got.bin"), "-p", edit.path)
+    assert result.exit_code == 2 and "50: this page holds nothing" in result.stderr and not lib.with_name("got.bin").exists()
+    assert m512("get", "0", "-o", lib.with_name("got.bin"), "-p", edit.path).exit_code == 0  # the trim may be none
 
 
 @pytest.mark.parametrize("action", ["copy", "renumber", "mirror"])

@@ -221,7 +221,7 @@ def copy(source: Source, page: str, target: Any, replace: bool, **where: Any) ->
     source.store(operations.copy(source.image, source.image.find(page), target, replace), **where)
 
 
-@pages.command(epilog="Example: m512 pages lib.bin delete 40 old_wave --in-place")
+@pages.command(epilog="Example: m512 pages lib.bin delete 15 old_wave --in-place")
 @click.argument("page", nargs=-1, required=True)
 @changes
 def delete(source: Source, page: Sequence[str], **where: Any) -> None:

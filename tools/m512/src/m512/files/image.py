@@ -86,6 +86,10 @@ class Image:
         """Pages that hold something; page 0, the trim, among them."""
         return [number for number, page in self.items() if not page.is_empty and not is_erased(page)]
 
+    def holds_nothing(self, number: int) -> bool:
+        page = self[number]
+        return is_erased(page) or page.is_empty and not page.fault(self.kind)
+
     def _words(self) -> dict[int, str]:
         """The names as somebody types them."""
         return {number: name.decode("utf-8", "replace") for name, numbers in self.names().items() for number in numbers}

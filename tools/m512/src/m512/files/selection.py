@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Which pages somebody means, for every command, of a file and of a board:
 
-    12  wave       one page, by number or name (exact, else unambiguous without regard to case)
+    12  wave       one page that holds something, or page 0, by number or name (exact, else unambiguous without regard to case)
     20..25         those of them that hold something
     all            all that hold something, but for page 0, the robot's trim
     wave:40        page `wave` to number 40; 20..25:60 goes to 60..65
@@ -31,6 +31,9 @@ class Pages(Protocol):
 
     def used(self) -> list[int]:
         """Pages that hold something."""
+
+    def holds_nothing(self, number: int) -> bool:
+        """Whether a page has neither steps nor a name, and is not damaged."""
 
 
 def find(word: str, names: Mapping[int, str], error: Callable[[str], M512Error], whose: str = "") -> int:
@@ -96,7 +99,10 @@ def _meant(word: str, pages: Pages) -> list[int]:
         return [pages.find(word)]
     span = number_range(word)
     if word != "all" and not span:
-        return [pages.find(word)]
+        number = pages.find(word)
+        if number and pages.holds_nothing(number):
+            raise WordError(f"{word}: this page holds nothing")
+        return [number]
     low, high = span or (1, NUMBER_MOST)
     found = [number for number in pages.used() if low <= number <= high]
     if not found:

@@ -89,6 +89,13 @@ def need_good(image: Image, number: int) -> Page:
     return page
 
 
+def _need_motion(image: Image, number: int) -> Page:
+    page = need_good(image, number)
+    if number and page.is_empty:
+        raise RefusedError(f"page {number} holds nothing")
+    return page
+
+
 def rename(image: Image, number: int, name: str) -> list[str]:
     if not all(" " <= letter <= "~" for letter in name):
         raise FileError(f"{name!r}: a page name is made of ASCII letters, digits, signs and blanks")
@@ -128,7 +135,7 @@ def _no_trim(number: int) -> None:
 def copy(image: Image, source: int, target: int, replace: bool = False) -> list[str]:
     keep_trim(source, target)
     _must_be_free(image, target, replace)
-    page = need_good(image, source).copy()
+    page = _need_motion(image, source).copy()
     relink(page, {source: target})  # a page that leads to itself goes on doing so
     image[target] = page.seal()
     return [f"the copy has the same name {page.title!r} and code {page.code}"] if page.name or page.code else []
@@ -169,7 +176,7 @@ def renumber(image: Image, source: int, target: int, swap: bool = False) -> list
     """Moves a page; all links in the image follow."""
     if not source or not target:
         raise RefusedError("page 0 is the trim and stays where it is")
-    need_good(image, source)
+    _need_motion(image, source)
     if source == target:
         return []
     if not swap:
@@ -208,7 +215,7 @@ def mirror(image: Image, number: int, pairs: dict[int, int], target: int | None 
     keep_trim(number, target)
     _no_trim(number)
     _must_be_free(image, target, replace or target == number)
-    old, remarks, top = need_good(image, number), [], image.kind.pos_max
+    old, remarks, top = _need_motion(image, number), [], image.kind.pos_max
     page = old.copy()
     for joint, pair in pairs.items():
         page.set_compliance(pair, old.compliance(joint))
@@ -230,7 +237,7 @@ def retime(image: Image, number: int, factor: float) -> list[str]:
     if not 0.01 <= factor <= 100:
         raise FileError("the factor is 0.01..100")
     _no_trim(number)
-    page = need_good(image, number)
+    page = _need_motion(image, number)
     before = page_seconds(page)
     for step in range(page.steps):
         time_based = page.schedule == SCHEDULE_TIME
