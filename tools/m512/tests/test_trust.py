@@ -14,6 +14,7 @@ from hex_files import hex_file
 from test_flash import make_app
 
 from m512 import __version__
+from m512.board import bus
 from m512.board.download import Report
 from m512.board.link import Link
 from m512.board.memory import plan
@@ -471,6 +472,22 @@ def test_dry_run_looks_at_the_board_and_changes_nothing(m512, files, board):
     assert "1 of 254 flash pages would be written" in result.stderr and bytes(board.flash) == before
 
 
+def test_a_dry_run_has_its_plan_as_json(m512, files, board):
+    board.flash[0xE000 + 600] ^= 1
+    result = m512("flash", files / "x.bin", "-p", board.path, "--dry-run", "--json")
+    assert result.exit_code == 0
+    plan = json.loads(result.stdout)
+    assert plan["file"] == str(files / "x.bin") and plan["holds"] == "motions" and plan["pages"] == 254
+    assert (plan["first"], plan["last"]) == (0xE200, 0x1DFFF) and "keeps its own" in plan["notes"][0]
+    assert "1 of 254 flash pages would be written" in plan["found"][0]
+
+
+def test_a_start_without_a_file_is_told_as_json(m512, board):
+    result = m512("run", "-p", board.path, "--json")
+    assert result.exit_code == 0
+    assert json.loads(result.stdout) == {"loader": "Motion512 boot loader", "board": "cm5", "started": True}
+
+
 def test_port_without_its_path_gets_a_hint(m512):
     result = m512("play", "1", "-p", "robot")
     assert result.exit_code == 6 and "-p ./robot" in result.stderr
@@ -622,6 +639,55 @@ def test_servos_that_no_page_can_name_are_refused(m512, monkeypatch, servos, tol
 def test_words_for_the_simulator_are_not_ignored_by_a_port(m512, words):
     result = m512("pose", "-p", "/dev/no_port", *words)
     assert result.exit_code == 2 and f"{words[0]} is for --sim" in result.stderr
+
+
+@pytest.mark.parametrize("image", ["nonsense", "boot-cm5.hex", ""])
+def test_a_program_for_an_adapter_is_play_or_edit(m512, image):
+    result = m512("term", "-p", "bus:/dev/no_port", "--image", image, input="")
+    assert result.exit_code == 9 and f"no program for an adapter is called {image!r}: --image play or edit" in result.stderr
+
+
+@pytest.fixture
+def says(tmp_path, monkeypatch):
+    """says(text) puts a Play for an adapter in place that says this at its end."""
+    monkeypatch.setenv("M512_PROGRAMS", str(tmp_path))
+
+    def put(text):
+        program = tmp_path / "motion512-play"
+        program.write_text(f"#!/bin/sh\nend() {{ echo 'motion512-play: {text}' >&2; exit 4; }}\neval \"$START\"\nend\n")
+        program.chmod(0o755)
+
+    return put
+
+
+@pytest.mark.parametrize(
+    "text, ours",
+    [
+        ("--rate 3: 9600..3000000 bits a second", "bus:/dev/ttyX@3: 9600..3000000 bits a second"),
+        ("x: the folder cannot be made. --robot names another", "x: the folder cannot be made. M512_ROBOT names another"),
+        ("no home folder: name one with --robot", "no home folder: name one in M512_ROBOT"),
+    ],
+)
+def test_what_a_program_refuses_is_told_in_words_of_m512(m512, says, text, ours):
+    says(text)
+    assert m512("pose", "-p", "bus:/dev/ttyX@3").stderr == f"m512: {ours}\n"
+
+
+def test_what_a_program_says_at_its_end_is_told_in_words_of_m512(says, monkeypatch, capsys):
+    says("ended. To make them limp: --off, or m512 torque off")
+    monkeypatch.setenv("START", "trap end INT; echo serial port: /dev/pts/0 >&2; while :; do sleep 0.1; done")
+    bus.Program("bus:/dev/ttyX", "play").close()
+    assert capsys.readouterr().err == "note: ended. To make them limp: m512 torque off -p bus:/dev/ttyX\n"
+
+
+def test_a_device_that_is_no_serial_port_is_called_so(m512):
+    result = m512("doctor", "-p", "bus:/dev/null")
+    assert "/dev/null: not a serial port" in result.stdout and "Errno" not in result.stdout and "ioctl" not in result.stdout
+
+
+def test_an_image_is_not_ignored_by_a_port(m512):
+    result = m512("term", "-p", "/dev/no_port", "--image", "play", input="")
+    assert result.exit_code == 2 and "--image is for --sim or -p bus:" in result.stderr
 
 
 @pytest.mark.parametrize("words", [("--dry-run",), ("--with-trim",), ("--fast",), ("--address", "0"), ("--damaged", "keep")])

@@ -112,8 +112,15 @@ class Program:
     def _refusal(self) -> M512Error:
         """Why the program has ended instead."""
         self.close()
-        text = re.sub(r"^motion512-\w+: ", "", self.said.strip().splitlines()[-1]) if self.said.strip() else "the program did not start"
+        text = self._in_our_words(self.said.strip().splitlines()[-1]) if self.said.strip() else "the program did not start"
         return FileError(text) if self.process.returncode == EXIT_BAD_FILE else PortError(text)
+
+    def _in_our_words(self, line: str) -> str:
+        """A line of the program, with what m512 has in place of its options."""
+        text = re.sub(r"^motion512-\w+: ", "", line)
+        text = re.sub(r"--rate \d+(?=: )", lambda _: self.word, text)
+        text = text.replace("--off, or m512 torque off", f"m512 torque off -p {self.word}")
+        return text.replace("with --robot", "in M512_ROBOT").replace("--robot", "M512_ROBOT")
 
     def _tell(self) -> None:
         """Passes on what the program says, line by line, until it ends."""
@@ -121,7 +128,7 @@ class Program:
         while True:
             *lines, rest = rest.replace("\r", "\n").split("\n")
             for line in lines:
-                text = re.sub(r"^motion512-\w+: ", "", line.strip())
+                text = self._in_our_words(line.strip())
                 if text:
                     ui.say(f"note: {text}")
             some = os.read(self.errors.fileno(), 4096).decode("utf-8", "replace")

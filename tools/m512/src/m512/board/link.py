@@ -183,6 +183,8 @@ def explain(url: str, error: Exception) -> str:
         )
     if "No such file" in text or "FileNotFound" in text or "could not find" in text.lower():
         return f"{url}: no such port. Is the adapter plugged in? `m512 doctor` lists the ports"
+    if "Inappropriate ioctl" in text:
+        return f"{url}: not a serial port"
     if "busy" in text.lower() or "lock" in text.lower():
         return f"{url}: in use by another program (a terminal, another m512?). End that first"
     if "refused" in text.lower():

@@ -137,7 +137,10 @@ def _flash(
     what = str(plan.record) if plan.record else "an application" if plan.has_app else "motions"
     ui.say(f"{image.name}: {what}, {counted(len(plan.pages), 'flash page')} in 0x{first:05X}..0x{last:05X}")
     if dry_run:
-        _look(plan, port, board)
+        found = _look(plan, port, board)
+        if as_json:
+            parts = {"file": str(image), "holds": what, "pages": len(plan.pages), "first": first, "last": last, "notes": plan.remarks, "found": found}
+            ui.show(json.dumps(parts, indent=2))
         return
     link, loader = connect(port, wait, yes, board)
     with link:
@@ -175,8 +178,8 @@ def _agreed(loader: Any, plan: Any, yes: bool) -> Any:
     return todo
 
 
-def _look(plan: Any, port: str, board: str) -> None:
-    """What a plan would change on the board, which goes on with what it does."""
+def _look(plan: Any, port: str, board: str) -> list[str]:
+    """Says, and returns, what a plan would change on the board, which goes on with what it does."""
     from m512.board import bus, loaders, look, ports
     from m512.board.client import Client
     from m512.board.link import Link
@@ -188,7 +191,7 @@ def _look(plan: Any, port: str, board: str) -> None:
         if port:
             raise
         ui.say(f"note: no board was looked at ({str(error).splitlines()[0]})")
-        return
+        return []
     with link:
         try:
             client = Client(link)
@@ -200,6 +203,7 @@ def _look(plan: Any, port: str, board: str) -> None:
             found = look.through_application(client, plan, ui.phase)
     for line in found:
         ui.say(line)
+    return found
 
 
 @click.command(
@@ -240,6 +244,8 @@ def run(image: Any, **options: Any) -> None:
     with link:
         download.start(loader)
         ui.say("started")
+        if options["as_json"]:
+            ui.show(json.dumps({"loader": loader.name, "board": loader.board, "started": True}))
 
 
 def _areas(text: str) -> list[str]:

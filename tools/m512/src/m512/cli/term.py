@@ -9,7 +9,8 @@ from typing import Any
 import click
 
 from m512 import ui
-from m512.cli.board import only_the_simulator, port_option
+from m512.cli.board import only_the_simulator, port_option, refuse_words
+from m512.errors import MissingError
 
 
 @click.command(
@@ -34,6 +35,7 @@ def term(port: str, log: Path | None, force: bool, send: Path | None, listing: b
     s sends a file, b a file as it is (binary), g switches logging.
     """
     from m512.board import ports
+    from m512.board.bus import is_bus
     from m512.board.terminal import Terminal
     from m512.files import storage
 
@@ -53,4 +55,9 @@ def term(port: str, log: Path | None, force: bool, send: Path | None, listing: b
         with Simulator([image], motions) as simulator:
             Terminal(simulator.url, log).run(send, data)
         return
-    Terminal(ports.pick(port), log, "play" if "play" in image else "edit").run(send, data)
+    if not is_bus(port):
+        refuse_words({"image"}, "is for --sim or -p bus:...")
+    program = next((name for name in ("play", "edit") if name in image), None)
+    if not program:
+        raise MissingError(f"no program for an adapter is called {image!r}: --image play or edit")
+    Terminal(ports.pick(port), log, program).run(send, data)
