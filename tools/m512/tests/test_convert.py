@@ -405,3 +405,23 @@ def test_convert_a_file_of_which_no_page_is_whole_is_no_motion_file(m512, tmp_pa
     (tmp_path / "erased.bin").write_bytes(b"\xff" * size)
     result = m512("convert", tmp_path / "erased.bin", tmp_path / "y.bin")
     assert result.exit_code == 0 and (tmp_path / "y.bin").read_bytes() == b"\xff" * size, result.stderr
+
+
+@pytest.mark.parametrize("joints", ["", ",", " "])
+def test_an_empty_list_of_joints_is_refused(m512, tmp_path, joints):
+    (tmp_path / "x.m512").write_text("motion512 1\npage 1 x\n  step 1s | 1:512\n")
+    for words in (("convert", tmp_path / "x.m512", tmp_path / "y.m512"), ("layer", "wave", "-p", "none")):
+        result = m512(*words, "--joints", joints)
+        assert result.exit_code == 2 and "--joints: no joint is called ''" in result.stderr
+    assert not (tmp_path / "y.m512").exists()
+
+
+def test_losses_of_a_mtn_count_the_pages_that_there_are(m512, tmp_path):
+    from m512.files.text import read_text
+
+    image = read_text("motion512 1\npage 1 x\n  step 1s | 1:512\npage 9 y\n  step 1s | 1:512\n")
+    for number in (1, 9):
+        image[number].set_word(6, 1, 100)
+        image[number].seal()
+    (tmp_path / "x.bin").write_bytes(image.to_bytes())
+    assert "loss: 2 pages: what lies in unused steps" in m512("convert", tmp_path / "x.bin", tmp_path / "x.mtn").stderr

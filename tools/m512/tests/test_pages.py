@@ -81,20 +81,20 @@ def test_pages_extract_into_a_csv_wants_one_page_the_trim_too(m512, lib, tmp_pat
 def test_pages_rename(m512, lib):
     assert m512("pages", lib, "rename", "walk", "march", "--in-place").exit_code == 0
     assert image(lib)[3].name == b"march" and not image(lib)[3].fault()
-    assert m512("pages", lib, "rename", "march", "much too long a name", "--in-place").exit_code == 4
+    assert m512("pages", lib, "rename", "march", "much too long a name", "--in-place").exit_code == 2
 
 
 @pytest.mark.parametrize("name", ["grün", "日本", "a\nb", "\x1b[2J"])
 def test_pages_rename_takes_no_letter_that_a_page_cannot_hold(m512, lib, name):
     before = lib.read_bytes()
     result = m512("pages", lib, "rename", "walk", name, "--in-place")
-    assert result.exit_code == 4 and "ASCII" in result.stderr and lib.read_bytes() == before
+    assert result.exit_code == 2 and "ASCII" in result.stderr and lib.read_bytes() == before
 
 
 def test_pages_rename_takes_a_name_away_and_refuses_one_that_nobody_sees(m512, lib):
     before = lib.read_bytes()
     result = m512("pages", lib, "rename", "walk", "  ", "--in-place")
-    assert result.exit_code == 4 and "'  ': nobody sees" in result.stderr and lib.read_bytes() == before
+    assert result.exit_code == 2 and "'  ': nobody sees" in result.stderr and lib.read_bytes() == before
     assert m512("pages", lib, "rename", "walk", "", "--in-place").exit_code == 0 and image(lib)[3].name == b""
 
 
@@ -106,6 +106,24 @@ def test_pages_says_that_the_file_comes_first(m512, lib):
 def test_pages_rename_to_a_number_says_what_the_number_means(m512, lib):
     result = m512("pages", lib, "rename", "walk", "12", "--in-place")
     assert result.exit_code == 0 and "12 means page 12" in result.stderr
+
+
+@pytest.mark.parametrize("name", ["all", "1..3", "stand:9"])
+def test_pages_rename_to_a_word_for_pages_says_what_it_means(m512, lib, name):
+    result = m512("pages", lib, "rename", "walk", name, "--in-place")
+    assert result.exit_code == 0 and f"note: page 3 has a word for pages for a name: where pages are asked for, {name} means page 3" in result.stderr
+
+
+def test_pages_rename_leaves_the_trim_without_a_name(m512, lib):
+    before = lib.read_bytes()
+    result = m512("pages", lib, "rename", "0", "hello", "--in-place")
+    assert result.exit_code == 5 and "page 0 is a robot's trim and no motion" in result.stderr and lib.read_bytes() == before
+
+
+def test_pages_rename_to_a_name_that_is_taken_twice_counts_them(m512, lib):
+    assert m512("pages", lib, "rename", "stop", "stand", "--in-place").exit_code == 0
+    result = m512("pages", lib, "rename", "walk", "stand", "--in-place")
+    assert result.stderr == "note: pages 1 and 5 are called 'stand', too: only the numbers tell them apart\n"
 
 
 def test_pages_rename_to_a_name_that_is_taken_says_so(m512, lib):
@@ -125,6 +143,21 @@ def test_pages_no_motion_takes_the_place_of_the_trim(m512, lib, words, replace):
     result = m512("pages", lib, *(str(lib) if word == "LIB" else word for word in words), *replace, "--in-place")
     assert result.exit_code == 5 and "page 0 is a robot's trim and no motion" in result.stderr
     assert lib.read_bytes() == before
+
+
+def test_pages_mirror_wants_two_joints_for_a_pair(m512, lib):
+    result = m512("pages", lib, "mirror", "walk", "--pairs", "1-1", "--in-place")
+    assert result.exit_code == 2 and "1-1: pairs are 1-2 3-4 ..." in result.stderr
+
+
+def test_diff_says_that_two_files_have_different_bits(m512, lib, tmp_path):
+    high = tmp_path / "high.bin"
+    high.write_bytes(read_text("motion512 1\nbits 12\npage 1 stand\n  step 1s | 1..4:2048\n").to_bytes())
+    result = m512("diff", lib, high)
+    assert result.exit_code == 3
+    assert f"note: {high}: looks like 12 bit (positions up to 2048 in page 1) and is read so" in result.stderr
+    assert f"note: {lib} has positions of 10 bits and {high} of 12: scale one of them first (m512 convert --scale)" in result.stderr
+    assert m512("diff", lib, lib).stderr == ""
 
 
 def test_pages_merge_takes_a_trim_over_as_a_trim(m512, lib, tmp_path):
@@ -249,6 +282,8 @@ def test_pages_retime_and_time(m512, lib):
     assert [page.time(0), page.time(1), page.pause(1), page.accel] == [75, 75, 30, 48]
     assert "0.938 s -> 1.406 s" in result.stderr
     assert m512("pages", lib, "retime", "walk", "9", "--in-place").exit_code == 5
+    result = m512("pages", lib, "retime", "walk", "0", "--in-place")
+    assert result.exit_code == 2 and "0: the factor is 0.01..100" in result.stderr
     out = json.loads(m512("pages", lib, "time", "left", "--json").stdout)
     assert [p["page"] for p in out["pages"]] == [7, 3] and out["end"] == "goes on with page 3 for ever"
     assert out["pages"][1]["seconds"] == pytest.approx(2 * 180 / 128, abs=0.01)
@@ -288,8 +323,8 @@ def test_pages_time_says_where_a_servo_cannot_follow(m512, tmp_path):
 
 def test_pages_actions_want_a_place_for_the_result(m512, lib):
     before = lib.read_bytes()
-    assert m512("pages", lib, "rename", "walk", "x").exit_code == 5
-    assert lib.read_bytes() == before
+    result = m512("pages", lib, "rename", "walk", "x")
+    assert result.exit_code == 2 and "say where the result goes: -o FILE, or --in-place" in result.stderr and lib.read_bytes() == before
 
 
 def test_pages_unknown_and_ambiguous_names(m512, lib):

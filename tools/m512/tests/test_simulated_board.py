@@ -130,7 +130,7 @@ def test_board_put_through_edit(m512, started, motions, tmp_path):
     assert refused.exit_code != 0 and 'This replaces page 30 "march" on the robot.' in refused.stderr and "--yes" in refused.stderr
     assert m512("get", "all", "--force", "-o", tmp_path / "after.bin", "-p", edit.path).exit_code == 0
     assert (tmp_path / "after.bin").read_bytes() == (tmp_path / "got.bin").read_bytes()
-    assert m512("put", motions, "walk:30", "--yes", "-p", edit.path).exit_code == 0
+    assert m512("put", motions, "walk:30", "--yes", "-p", edit.path).stderr.endswith("\nsaved: page 30\n")
     motions.write_text(MOTIONS.replace("440", "450"))
     assert m512("put", motions, "walk:30", "-p", edit.path).exit_code == 0  # the same name: nothing is asked
     trim = tmp_path / "trim.m512"
@@ -218,9 +218,9 @@ def test_play_is_shaped(m512, robot):
         assert "rate" in Client(link).where()
     assert m512("play", "walk", "--rate", "150", "--amplitude", "80", "-p", robot.path).exit_code == 0
     found = json.loads(m512("shape", "--json", "-p", robot.path).stdout)
-    assert found["rate"] == "150" and found["amplitude"] == "80" and found["blend"] == "0"
+    assert found["rate"] == 150 and found["amplitude"] == 80 and found["blend"] == 0
     assert "rate 90" in m512("shape", "--rate", "90", "--blend", "-40", "-p", robot.path).stdout
-    assert json.loads(m512("shape", "--reset", "--json", "-p", robot.path).stdout)["rate"] == "100"
+    assert json.loads(m512("shape", "--reset", "--json", "-p", robot.path).stdout)["rate"] == 100
     assert m512("shape", "--rate", "5", "-p", robot.path).exit_code == 2
 
 
@@ -233,7 +233,7 @@ def test_a_page_is_laid_over_the_walk_on_joints_of_its_own(m512, robot):
     laid = m512("layer", "old", "--joints", "1,3", "-p", robot.path)
     assert laid.exit_code == 0 and "layer 100" in laid.stdout, laid.stderr
     assert m512("layer", "off", "-p", robot.path, "--json").exit_code == 0
-    assert json.loads(m512("shape", "--json", "-p", robot.path).stdout)["layer"] == "0"
+    assert json.loads(m512("shape", "--json", "-p", robot.path).stdout)["layer"] == 0
     assert m512("layer", "fly", "-p", robot.path).exit_code == 8
     assert "belongs to a page" in m512("layer", "off", "--joints", "1", "-p", robot.path).stderr
 

@@ -723,7 +723,7 @@ def test_a_loader_that_was_read_answers_at_once(m512, files, board):
 @pytest.mark.parametrize(
     "name, data, one",
     [
-        ("one.bin", b"\xff", "1 byte "),
+        ("one.bin", b"\xff", "1 byte that makes no motion file "),
         ("row.m512", b"motion512 1\nrow 1..6\npage 1 x\n  step 1s | 512\n", "1 position;"),
         ("row.m512", b"motion512 1\nrow 1\npage 1 x\n  step 1s | 512 512\n", "the row has 1 joint"),
     ],

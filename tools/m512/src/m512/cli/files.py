@@ -60,13 +60,13 @@ def _meant(parse: Callable[..., Any], words: Sequence[str], pages: Any) -> Any:
 
 
 def id_list(text: str) -> list[int]:
-    """IDs of an option's value."""
+    """IDs of the option --joints."""
     from m512.files.text.words import joints_of
 
     try:
         return joints_of(text.replace(" ", ","), {})
     except WordError as error:
-        raise click.UsageError(str(error)) from None
+        raise click.UsageError(f"--joints: {error}") from None
 
 
 @click.command(
@@ -144,7 +144,7 @@ def convert(
         part = excerpt(whole, wanted, count and int(count) or conversion.fitting(whole, target))
         image, moved, left = part.image, part.moved, part.left
         notes += part.notes(whole, wanted)
-    if joints:
+    if joints is not None:
         from m512.files.scale12 import keep_joints
 
         losses += keep_joints(image, id_list(joints))
@@ -218,7 +218,13 @@ def diff(first: str, second: str, bits: str | None, board: str, as_json: bool) -
     Each is a motion file, the folder of a backup, or the port of a board. Exit code 0 when they are equal, 3 when they differ."""
     from m512.pages import difference
 
-    found = difference.images(*(_motions_of(word, int(bits) if bits else None, board) for word in (first, second)))
+    here, there = (_motions_of(word, int(bits) if bits else None, board) for word in (first, second))
+    if here.bits != there.bits:
+        for word, image in ((first, here), (second, there)):
+            for note in image.notes:
+                ui.say(f"note: {word}: {note}")
+        ui.say(f"note: {first} has positions of {here.bits} bits and {second} of {there.bits}: scale one of them first (m512 convert --scale)")
+    found = difference.images(here, there)
     if as_json:
         ui.show(json.dumps([change.as_dict() for change in found], indent=2))
     else:

@@ -33,7 +33,7 @@ def show_shape(client: Client, as_json: bool) -> None:
     """What is in force now."""
     found = client.shape()
     if as_json:
-        ui.show(json.dumps(found))
+        ui.show(json.dumps({word: int(text) if re.fullmatch("-?[0-9]+", text) and word != "aim" else text for word, text in found.items()}))
     else:
         ui.show("  ".join(f"{word} {value}" for word, value in found.items()))
 
@@ -50,7 +50,7 @@ Examples:
 @robot_options
 def layer(page: str, joints: Any, **options: Any) -> None:
     """Play a second PAGE over the one that plays, on joints of its own; all others go on as without it."""
-    chosen = id_list(joints) if joints else []
+    chosen = [] if joints is None else id_list(joints)
     if page == "off" and chosen:
         raise click.UsageError("--joints belongs to a page; `layer off` ends the whole layer")
     must_last("a layer", options)

@@ -47,7 +47,7 @@ class Source:
         return image
 
     def store(self, remarks: Iterable[str], output: Any, in_place: bool, yes: bool, number: int | None = None) -> None:
-        """Writes the changed image where it was asked for. `number`: the page of a .csv."""
+        """Writes the changed image where it was asked for: to the file or board that it is from, unless `output`. `number`: the page of a .csv."""
         for remark in remarks:
             ui.say(f"note: {remark}")
         if output:
@@ -56,7 +56,7 @@ class Source:
                 ui.say(f"loss: {loss}")
         elif self.board:
             self._to_board(yes)
-        elif in_place:
+        else:
             if self._is_written_by_hand():
                 raise RefusedError(
                     f"{self.word} is somebody's text: --in-place would make numbers of its comments, poses, names "
@@ -64,8 +64,6 @@ class Source:
                 )
             for loss in formats.save(Path(self.word), self.image, kind=self.image.form):
                 ui.say(f"loss: {loss}")
-        else:
-            raise RefusedError("say where the result goes: -o FILE, or --in-place")
 
     def _is_written_by_hand(self) -> bool:
         """Whether the file is a text that this program would write otherwise."""
@@ -99,9 +97,14 @@ def changes(function: Any) -> Any:
     def action(source: Source, force: bool, **options: Any) -> None:
         if options["output"] and options["in_place"]:
             raise click.UsageError("-o FILE or --in-place: say one of the two")
+        if not (options["output"] or options["in_place"] or source.board):
+            raise click.UsageError("say where the result goes: -o FILE, or --in-place")
         if options["output"]:
             formats.must_be_writable(Path(options["output"]), force)
-        function(source, **options)
+        try:
+            function(source, **options)
+        except WordError as error:
+            raise click.UsageError(str(error)) from None
 
     changing = click.option("-o", "--output", type=click.Path(), help="Write the result here.")(action)
     changing = click.option("--in-place", is_flag=True, help="Write the result back to the file.")(changing)
@@ -302,10 +305,7 @@ def mirror(source: Source, page: str, target: Any, pairs: Any, replace: bool, **
     from m512.files.text.words import joint_pairs
     from m512.pages import operations
 
-    try:
-        table = joint_pairs(pairs.split(","), {})
-    except WordError as error:
-        raise click.UsageError(str(error)) from None
+    table = joint_pairs(pairs.split(","), {})
     source.store(operations.mirror(source.image, source.image.find(page), table, target, replace), **where)
 
 

@@ -294,6 +294,7 @@ def put(source: Path, pages: Sequence[str], yes: bool, **options: Any) -> None:
         raise RefusedError(f"page 0 of {source}: {goal[0].trim_problem()}")
     with robot(options, image="edit") as client:
         changed = save_pages(client, goal, [target for _, target in moves], lambda question: ui.confirm(question, yes))
-    ui.say(f"saved: pages {' '.join(map(str, changed)) or 'none, they were there already'}")
+    what = "page" if len(changed) == 1 else "pages"
+    ui.say(f"saved: {what} {' '.join(map(str, changed)) or 'none, they were there already'}")
     if options["as_json"]:
         ui.show(json.dumps({"saved": changed}))

@@ -44,7 +44,9 @@ def recognise(data: bytes, path: Path) -> str:
         return TEXT
     kind = BY_SUFFIX.get(path.suffix.lower())
     if kind in (None, BINARY):
-        raise FileError(f"{path}: {counted(len(data), 'byte')} that make no motion file this program knows (image, Intel HEX, .mtn, CSV or text)")
+        raise FileError(
+            f"{path}: {counted(len(data), 'byte')} that {'makes' if len(data) == 1 else 'make'} no motion file this program knows (image, Intel HEX, .mtn, CSV or text)"
+        )
     return kind
 
 

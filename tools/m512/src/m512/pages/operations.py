@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 
-from m512.errors import FileError, RefusedError
+from m512.errors import RefusedError, WordError
 from m512.files.image import Image, is_erased
 from m512.files.page import JOINTS, SCHEDULE_TIME, STEPS, Page, is_used
 from m512.files.selection import page_number
+from m512.files.wording import pages_text
 from m512.motion.player import page_seconds
 
 NOMINAL_SPEED = 32
@@ -96,21 +98,33 @@ def _need_motion(image: Image, number: int) -> Page:
     return page
 
 
+def _no_trim(number: int) -> None:
+    if number == 0:
+        raise RefusedError("page 0 is a robot's trim and no motion")
+
+
 def rename(image: Image, number: int, name: str) -> list[str]:
+    """WordError: no page can have this name."""
+    _no_trim(number)
     if not all(" " <= letter <= "~" for letter in name):
-        raise FileError(f"{name!r}: a page name is made of ASCII letters, digits, signs and blanks")
+        raise WordError(f"{name!r}: a page name is made of ASCII letters, digits, signs and blanks")
     if name and not name.strip():
-        raise FileError(f"{name!r}: nobody sees a name of blanks; '' takes the page's name away")
+        raise WordError(f"{name!r}: nobody sees a name of blanks; '' takes the page's name away")
     if len(name) > 13:
-        raise FileError(f"{name!r}: a page name has at most 13 characters, not {len(name)}")
+        raise WordError(f"{name!r}: a page name has at most 13 characters, not {len(name)}")
     page = need_good(image, number)
     page.name = name.encode("ascii")
     page.seal()
     other = page_number(name)
     if other is not None and other != number:
         return [f"page {number} has a number for a name: where a page is asked for, {name} means page {other}"]
-    same = [str(n) for n, page in image.items() if name and n != number and page.name == name.encode("ascii")]
-    return [f"page {' and '.join(same)} is called {name!r}, too: only the numbers tell them apart"] if same else []
+    notes = []
+    if re.fullmatch(r"all|[0-9]+\.\.[0-9]+|.+:[0-9]+", name):
+        notes.append(f"page {number} has a word for pages for a name: where pages are asked for, {name} means page {number}")
+    same = [n for n, page in image.items() if name and n != number and page.name == name.encode("ascii")]
+    if same:
+        notes.append(f"{pages_text(same)} {'is' if len(same) == 1 else 'are'} called {name!r}, too: only the numbers tell them apart")
+    return notes
 
 
 def _must_be_free(image: Image, number: int, replace: bool, how: str = "--replace overwrites it") -> None:
@@ -125,11 +139,6 @@ def keep_trim(source: int, target: int) -> None:
     """Page 0 goes to page 0 alone, and nothing else goes there: a robot with a motion for a trim stands askew."""
     if (source == 0) != (target == 0):
         raise RefusedError("page 0 is a robot's trim and no motion: it stays page 0, and no other page becomes it")
-
-
-def _no_trim(number: int) -> None:
-    if number == 0:
-        raise RefusedError("page 0 is a robot's trim and no motion")
 
 
 def copy(image: Image, source: int, target: int, replace: bool = False) -> list[str]:
@@ -235,7 +244,7 @@ def mirror(image: Image, number: int, pairs: dict[int, int], target: int | None 
 def retime(image: Image, number: int, factor: float) -> list[str]:
     """Makes a page take `factor` times as long: step times, pauses and ramp, rounded to ticks."""
     if not 0.01 <= factor <= 100:
-        raise FileError("the factor is 0.01..100")
+        raise WordError(f"{factor:g}: the factor is 0.01..100")
     _no_trim(number)
     page = _need_motion(image, number)
     before = page_seconds(page)

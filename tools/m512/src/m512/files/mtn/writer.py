@@ -37,7 +37,7 @@ def write(image: Image, version: str = "1.01") -> tuple[bytes, list[str]]:
     for number in range(1, PAGES + 1):
         page = image[number] if number < image.end and not _is_blank(image[number]) else Page()
         _page_losses(page, enabled, partial(losses.add, number, page.title))
-        blank += _changes_without_effect(page)
+        blank += number < image.end and not image.holds_nothing(number) and _changes_without_effect(page)
         lines += _page_lines(page)
     told = losses.lines()
     if blank:

@@ -151,7 +151,7 @@ def joint_pairs(texts: Iterable[str], names: dict[str, int]) -> dict[int, int]:
     pairs: dict[int, int] = {}
     for text in texts:
         ids = [joint for part in text.split("-") for joint in joints_of(part, names)]
-        if len(ids) not in (1, 2) or any(joint in pairs for joint in ids):
+        if len(ids) not in (1, 2) or len(set(ids)) != len(ids) or any(joint in pairs for joint in ids):
             raise WordError(f"{text}: pairs are 1-2 3-4 ..., a single joint 19 is mirrored in place, none twice")
         pairs[ids[0]], pairs[ids[-1]] = ids[-1], ids[0]
     return pairs
