@@ -59,14 +59,16 @@ static void enter_page(player_t *player, uint8_t page, const uint8_t header[HEAD
     player->next_repetition = 1;
 }
 
-bool sequence_start(player_t *player, link_t *link, uint8_t page)
+bool sequence_start(player_t *player, link_t *link, uint8_t named)
 {
     uint8_t header[HEADER_BYTES];
     player->fault_page = 0;
     player->fault = PAGE_OK;
-    page = resolve(player, link, page, header);
+    const uint8_t page = resolve(player, link, named, header);
     if (page != 0) {
         enter_page(player, page, header);
+    } else if (player->fault == PAGE_OK) {
+        (void)fail(player, named, PAGE_EMPTY); /* pages with PLAY_COUNT 0 alone: nothing plays */
     }
     return page != 0;
 }

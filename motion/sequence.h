@@ -8,7 +8,7 @@
 
 /* Finds the page that plays first; `next` is its first step. false: there is none; only .fault and .fault_page have
  * changed. */
-bool sequence_start(player_t *player, link_t *link, uint8_t page);
+bool sequence_start(player_t *player, link_t *link, uint8_t named);
 
 /* `next` becomes `now`; the step after it becomes `next`. At the last step of a page this decides the link. Returns
  * PLAYER_EV_ bits. Call it only if next.page is not 0. */

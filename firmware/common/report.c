@@ -24,8 +24,9 @@ const char *report_page_fault_P(uint8_t page_status)
 void report_bad_page(uint8_t page, uint8_t fault)
 {
     text_P_number(TEXT_P("Page "), page);
-    if (fault == PAGE_EMPTY || page_store_is_erased(page)) {
-        TEXT(" is empty");
+    const bool is_erased = page_store_is_erased(page);
+    if (fault == PAGE_EMPTY || is_erased) {
+        text_P(is_erased || page_store_byte(page, PAGE_AT_STEPS) == 0 ? TEXT_P(" is empty") : TEXT_P(" has PlayCount 0"));
         return;
     }
     TEXT(" is damaged: ");
@@ -51,7 +52,7 @@ void report_refusal(performer_status_t status, uint8_t page, uint8_t fault)
         TEXT("No servo answers: check power and cable, then search again");
         break;
     case PERFORMER_ERR_LAW:
-        TEXT("This image has no classic law: set law 0");
+        TEXT("Edit has no classic law: in Play say law exact");
         break;
     default:
         TEXT("The servos were switched off: switch them on first");

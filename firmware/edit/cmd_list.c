@@ -66,7 +66,7 @@ COMMAND(cmd_help)
 
 COMMAND(cmd_mon)
 {
-    return dialog_refuse(TEXT_P("MON and TOSS are an image of their own: load monitor.hex"));
+    return dialog_refuse(TEXT_P("MON and TOSS are an image of their own: load Monitor"));
 }
 
 /* ---- LIST, FIND ---- */

@@ -53,7 +53,10 @@ static NOINLINE void tell_namesake(uint8_t named, uint8_t own)
 {
     char name[PAGE_NAME_BYTES];
     page_store_name(named, name);
-    uint8_t other = name[0] == '\0' ? 0 : page_store_find(&the_pages, name, 0);
+    if (name[0] == '\0') {
+        return;
+    }
+    uint8_t other = page_store_find(&the_pages, name, 0);
     if (other == own) {
         other = page_store_find(&the_pages, name, own);
     }
@@ -71,6 +74,9 @@ COMMAND(cmd_copy)
         return DIALOG_TO_ASK;
     }
     uint8_t from = (uint8_t)args->number[0];
+    if (the_session.page == 0 && from != 0 && !dialog_ask(TEXT_P("Page 0 holds the trim. "))) {
+        return DIALOG_TO_ASK;
+    }
     session_begin();
     session_load(from);
     tell_namesake(from, the_session.page);

@@ -47,6 +47,9 @@ COMMAND(cmd_int)
 {
     uint8_t a = (uint8_t)args->number[0], b = (uint8_t)args->number[1], steps = the_session.cells[PAGE_AT_STEPS];
     uint16_t percent = PERCENT_DEFAULT;
+    if (cmd_step_is_trim_page()) {
+        return SHELL_ERR_REPORTED;
+    }
     if (args->count > 3 && !shell_take(args, 3, RANGE_SHARE, &percent)) {
         return SHELL_ERR_RANGE;
     }
@@ -115,6 +118,9 @@ static void paste_step(uint8_t from, uint8_t to)
 COMMAND(cmd_paste)
 {
     uint8_t to = session_steps();
+    if (cmd_step_is_trim_page()) {
+        return SHELL_ERR_REPORTED;
+    }
     if (the_dialog.take_page == DIALOG_NO_PAGE) {
         return dialog_refuse(TEXT_P("Nothing noted: TAKE first"));
     }

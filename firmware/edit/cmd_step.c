@@ -27,6 +27,14 @@ bool cmd_step_is_trim(uint8_t step)
     return is_trim;
 }
 
+bool cmd_step_is_trim_page(void)
+{
+    if (the_session.page == 0) {
+        TEXT("Page 0 is the trim: its columns stay in their places");
+    }
+    return the_session.page == 0;
+}
+
 /* Page 0: computes the trim from the master pose and this robot's pose. */
 static void update_trim(uint8_t step)
 {
@@ -36,6 +44,7 @@ static void update_trim(uint8_t step)
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         session_update_trim(joint);
     }
+    the_screen.lead = true;
     TEXT("Offset Updated");
 }
 
@@ -93,7 +102,7 @@ COMMAND(cmd_insert)
 {
     uint8_t step = (uint8_t)args->number[0];
     uint8_t steps = the_session.cells[PAGE_AT_STEPS];
-    if (cmd_step_is_trim(step)) {
+    if (cmd_step_is_trim_page()) {
         return SHELL_ERR_REPORTED;
     }
     session_begin_turn(UNDO_TURN(UNDO_TURN_UP, step, LAST_STEP));
@@ -125,6 +134,9 @@ static uint8_t delete_step(uint8_t step)
 
 COMMAND(cmd_delete)
 {
+    if (cmd_step_is_trim_page()) {
+        return SHELL_ERR_REPORTED;
+    }
     if (args->count > 1) {
         return delete_step((uint8_t)args->number[0]);
     }
@@ -167,6 +179,9 @@ COMMAND(cmd_move)
 
 COMMAND(cmd_swap)
 {
+    if (cmd_step_is_trim_page()) {
+        return SHELL_ERR_REPORTED;
+    }
     session_begin_turn(UNDO_TURN(UNDO_TURN_SWAP, args->number[0], args->number[1]));
     return dialog_edited();
 }

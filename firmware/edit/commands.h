@@ -43,6 +43,8 @@ COMMAND(cmd_move);
 COMMAND(cmd_swap);
 /* Refuses, with a sentence, the step of page 0 that holds the trim: it is computed, and no pose. */
 bool cmd_step_is_trim(uint8_t step);
+/* Refuses, with a sentence, to shift or exchange the steps of page 0: a pose in the trim's column would move every goal. */
+bool cmd_step_is_trim_page(void);
 
 /* cmd_shape.c */
 COMMAND(cmd_int);

@@ -77,11 +77,29 @@ static void change_byte(uint16_t address, uint8_t bits)
     mark_byte(address);
 }
 
+/* Before the first change of an edit: the spare page becomes the page as it was. An edit that changes nothing leaves the
+ * spare, and what it undoes, alone. */
+static void take_spare(void)
+{
+    if (!the_session.is_begun) {
+        return;
+    }
+    the_session.is_begun = false;
+    the_session.undo_reloads = false;
+    the_session.spare_for = SESSION_SPARE_NONE;
+    if (the_session.spare != NULL) {
+        memcpy(the_session.spare, the_session.cells, PAGE_BYTES);
+    }
+}
+
 void session_set_byte(uint16_t address, uint8_t byte)
 {
     uint8_t bits = the_session.cells[address] ^ byte;
     if (bits == 0) {
         return;
+    }
+    if (address < CELLS_POSE_AT) {
+        take_spare();
     }
     change_byte(address, bits);
     if (address < CELLS_POSE_AT) {
@@ -303,11 +321,7 @@ void session_move(session_way_t way)
 static void begin(uint8_t turn)
 {
     the_session.was_changed = the_session.is_changed;
-    the_session.undo_reloads = false;
-    the_session.spare_for = SESSION_SPARE_NONE;
-    if (the_session.spare != NULL) {
-        memcpy(the_session.spare, the_session.cells, PAGE_BYTES);
-    }
+    the_session.is_begun = true;
     undo_begin(&the_session.undo, turn);
 }
 
@@ -350,6 +364,7 @@ static bool exchange_spare(bool back)
 bool session_end(void)
 {
     bool kept = undo_end(&the_session.undo);
+    the_session.is_begun = false;
     the_session.is_changed = differs_from_flash();
     if (kept) {
         return true;
@@ -404,6 +419,7 @@ static void flip_byte(void *context __attribute__((unused)), uint16_t address, u
 void session_begin_turn(uint8_t turn)
 {
     begin(turn);
+    take_spare();
     turn_steps(NULL, turn, false);
 }
 

@@ -33,6 +33,7 @@ typedef struct {
     bool was_damaged;                 /* the checksum was wrong when the page was opened; a save repairs it */
     bool is_changed;                  /* differs from what flash holds: the unsaved mark */
     bool was_changed;                 /* is_changed before the command under way */
+    bool is_begun;                    /* an edit has begun and changed nothing yet */
     bool undo_reloads;                /* the last command was too large to note, but flash has the page as it was before */
     uint8_t spare_for;                /* what the spare page may be used for: SESSION_SPARE_... */
     uint16_t spare_crc;               /* of the spare page; if it does not fit, a play has overwritten the page */

@@ -178,7 +178,8 @@ static uint8_t answer_of(layers_status_t status)
     case LAYERS_ERR_EMPTY:
         return requests_refusal(PERFORMER_ERR_EMPTY);
     case LAYERS_ERR_JOINTS:
-        return requests_refuse(REQUEST_ERR_SERVOS, TEXT_P("None of these servos can be moved: missing, or off (say on)"));
+        return requests_refuse(REQUEST_ERR_SERVOS,
+                               TEXT_P("None of these servos can be moved: missing, or off (stop, then on)"));
     case LAYERS_ERR_FULL:
         return requests_refuse(REQUEST_ERR_FULL, TEXT_P("Four joints are moved already: free one"));
     case LAYERS_ERR_BUSY:
@@ -186,7 +187,7 @@ static uint8_t answer_of(layers_status_t status)
     case LAYERS_ERR_RANGE:
         return requests_refuse(REQUEST_ERR_RANGE, TEXT_P("Too far or too fast"));
     default:
-        return requests_refuse(REQUEST_ERR_IDLE, TEXT_P("Nothing is playing"));
+        return requests_refuse(REQUEST_ERR_IDLE, TEXT_P("A layer needs a page that plays"));
     }
 }
 

@@ -127,6 +127,12 @@ def test_two_pages_of_one_name_are_told():
         assert r.line("save") == "save OK"
         assert r.line("save 5") == "save 5 OK Page 1 has this name too"
         assert r.line("copy 1") == "copy 1 Page 5 has this name too"
+        r.line("page 0")
+        assert r.flash_page(0)[0] in (0, 0xFF)  # no name, as other pages: that is no name which two have
+        r.line("goto 1 1")
+        r.line("set 401")
+        assert r.line("save") == "save OK"
+        r.line("page 1")
         r.line("name")
         r.line(" ")  # no name at all
         assert r.line("save") == "save OK" and r.line("save 6") == "save 6 OK"

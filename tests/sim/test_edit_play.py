@@ -141,9 +141,10 @@ def test_what_is_typed_while_a_broken_play_slows_down_is_kept():
 def test_play_of_what_cannot_be_played_says_why():
     torn = page("torn", [(30, {})])
     torn.data[99] ^= 1
-    with start(pages={20: torn, 21: page("none")}) as r:
+    with start(pages={20: torn, 21: page("none"), 22: page("count 0", [(40, {})], repeat=0)}) as r:
         assert r.line("play 20") == "play 20 Page 20 is damaged: checksum is wrong"
         assert "empty" in r.line("play 21")
+        assert r.line("play 22") == "play 22 Page 22 has PlayCount 0"
         r.line("page 0")
         assert r.line("play") == "play Page must be 1..127"
 

@@ -151,7 +151,7 @@ def test_page_0_computes_the_trim():
         assert r.board.servos[3].goal == 612 - 12 and r.cell(0, 3) == "0612"
 
 
-@pytest.mark.parametrize("line", ["go 2", "mirror 2", "write", "write 2", "insert 2", "move 0 2"])
+@pytest.mark.parametrize("line", ["go 2", "mirror 2", "write", "write 2", "move 0 2"])
 def test_the_trim_is_no_pose(line):
     """As goals its numbers would be the end of a joint's travel; a pose there would be the trim."""
     with start() as r:
@@ -161,6 +161,29 @@ def test_the_trim_is_no_pose(line):
         before = [r.board.servos[joint].goal for joint in (1, 2, 3)], r.cell(3, 3)
         assert r.line(line) == f"{line} That column is the trim"
         assert ([r.board.servos[joint].goal for joint in (1, 2, 3)], r.cell(3, 3)) == before
+
+
+@pytest.mark.parametrize("line", ["insert 1", "insert 0", "delete", "delete 0", "swap 1 2", "int 0 1", "paste 2"])
+def test_the_columns_of_page_0_stay_in_their_places(line):
+    """A pose that is shifted into the trim's column would move every goal."""
+    with start() as r:
+        r.line("take 0")
+        r.line("page 0")
+        r.line("step 3")
+        r.line("on")
+        before = r.show().splitlines()[:30]
+        assert r.line(line) == f"{line} Page 0 is the trim: its columns stay in their places"
+        assert r.show().splitlines()[:30] == before
+
+
+def test_copy_of_a_motion_to_page_0_asks():
+    with start() as r:
+        r.line("page 0")
+        before = r.cell(3, 1)
+        r.line("copy 5")
+        assert "Page 0 holds the trim. Are you sure?[y/N]" in r.command
+        r.keys("n")
+        assert r.cell(3, 1) == before
 
 
 def test_exit_restarts_the_controller():
@@ -173,5 +196,5 @@ def test_exit_restarts_the_controller():
 
 def test_mon_says_where_it_is():
     with start() as r:
-        assert r.line("mon") == r.line("monitor").replace("monitor MON", "mon MON") and "monitor.hex" in r.message
+        assert r.line("mon") == r.line("monitor").replace("monitor MON", "mon MON") and "load Monitor" in r.message
         assert not r.unsaved

@@ -75,7 +75,7 @@ def test_refused_words_say_one_sentence_and_change_nothing():
     board = robot(servos=WITH_HEAD, pages=pages())
     board.clear_trace()
     for line, said in (
-        ("aim 25 512", "None of these servos can be moved: missing, or off (say on)"),
+        ("aim 25 512", "None of these servos can be moved: missing, or off (stop, then on)"),
         ("aim 31 512", "ID must be 0..30"),
         ("aim 19 1024", "Position must be 0..1023"),
         ("aim 19 512 0", "Degrees/s must be 1..360"),
@@ -97,7 +97,7 @@ def test_refused_words_say_one_sentence_and_change_nothing():
     assert ask(board, "aim 20 530") == " OK"  # one of them again
     ask(board, "off 5")
     ask(board, "free 1")
-    assert ask(board, "aim 5 520") == "None of these servos can be moved: missing, or off (say on)"  # switched off by hand
+    assert ask(board, "aim 5 520") == "None of these servos can be moved: missing, or off (stop, then on)"  # switched off by hand
     assert ask(board, f"play {LOOP}") == " OK"
     assert ask(board, "aim 4 520") == "Busy: stop what is playing first"  # on its way to the first pose
     assert not board.servos[5].torque

@@ -65,7 +65,7 @@ def test_refused_layers_say_one_sentence_and_change_nothing():
         assert answer.startswith("@layer ERR ") and answer.endswith(said)
     ask(board, "break")
     board.run(ms=500)
-    assert ask(board, "layer 34") == "Nothing is playing"
+    assert ask(board, "layer 34") == "A layer needs a page that plays"
 
 
 def test_break_pause_and_a_silent_servo_hold_both_plays():

@@ -165,7 +165,7 @@ static void test_session_new_on_the_largest_page_is_undone_from_flash(void)
 }
 
 /* The largest page with edits that flash does not hold: only the spare page can bring it back, and forth again; not when
- * a play has overwritten it, nor behind another edit. */
+ * a play has overwritten it, nor behind an edit that changes something. */
 static void test_session_new_on_the_largest_edited_page_is_undone_from_the_spare_page(void)
 {
     uint8_t spare[PAGE_BYTES], before[PAGE_BYTES], after[PAGE_BYTES];
@@ -191,10 +191,20 @@ static void test_session_new_on_the_largest_edited_page_is_undone_from_the_spare
     TEST_ASSERT_FALSE(session_undo());
     TEST_ASSERT_EQUAL_MEMORY(after, the_session.cells, PAGE_BYTES);
     spare[100] ^= 1;
+    session_begin();
+    session_set_byte(64, the_session.cells[64]);
+    session_set_byte(CELLS_POSE_AT, (uint8_t)(the_session.cells[CELLS_POSE_AT] + 1u)); /* MOVE to STP7 */
+    TEST_ASSERT_TRUE(session_end());
+    TEST_ASSERT_TRUE_MESSAGE(session_undo(), "an edit that changed nothing took the undo of the one before");
+    session_begin();
+    TEST_ASSERT_TRUE(session_end());
+    TEST_ASSERT_TRUE_MESSAGE(session_redo(), "an edit that changed nothing took the redo of the one before");
     the_session.spare = NULL;
     session_begin();
+    session_set_byte(64, (uint8_t)(the_session.cells[64] + 1u));
     session_end();
     the_session.spare = spare;
+    TEST_ASSERT_TRUE(session_undo());  /* the one byte, which was noted */
     TEST_ASSERT_FALSE(session_undo());
     the_session.spare = NULL;
 }

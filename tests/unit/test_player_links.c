@@ -212,6 +212,12 @@ static void test_player_passes_pages_with_play_count_0(void)
     sparse_step(3, 10, 0, 800);
     start(2);
     TEST_ASSERT_EQUAL_UINT8(3, player.next.page);
+    setUp();
+    sparse_step(4, 10, 0, 700);
+    sparse_pages[4].count = 0;
+    TEST_ASSERT_EQUAL(PLAYER_ERR_EMPTY, player_start(&player, NULL, 4, PLAYER_LAW_EXACT, pose, ALL));
+    TEST_ASSERT_EQUAL_UINT8(4, player.fault_page);
+    TEST_ASSERT_EQUAL_UINT8(PAGE_EMPTY, player.fault);
 }
 
 static void bad_next_page_ends_the_play(player_law_t law, bool damaged)

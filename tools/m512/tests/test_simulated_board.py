@@ -227,7 +227,7 @@ def test_play_is_shaped(m512, robot):
 def test_a_page_is_laid_over_the_walk_on_joints_of_its_own(m512, robot):
     start(m512, robot)
     refused = m512("layer", "old", "-p", robot.path)
-    assert refused.exit_code == 8 and "Nothing is playing" in refused.stderr
+    assert refused.exit_code == 8 and "A layer needs a page that plays" in refused.stderr
     assert m512("play", "walk", "-p", robot.path).exit_code == 0
     robot.pass_time(3)
     laid = m512("layer", "old", "--joints", "1,3", "-p", robot.path)
