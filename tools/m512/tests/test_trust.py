@@ -663,7 +663,6 @@ def says(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     "text, ours",
     [
-        ("--rate 3: 9600..3000000 bits a second", "bus:/dev/ttyX@3: 9600..3000000 bits a second"),
         ("x: the folder cannot be made. --robot names another", "x: the folder cannot be made. M512_ROBOT names another"),
         ("no home folder: name one with --robot", "no home folder: name one in M512_ROBOT"),
     ],
