@@ -22,7 +22,15 @@ async function start(): Promise<void> {
     const session = new RobotSession(body, parts, fileFormats(), storage);
     await Promise.all([session.start(), show(session, parts)]); // the robot starts in its worker while the page is built
     keepOffline(session);
+    document.addEventListener('visibilitychange', takeTyped); // the last thing that a page hears, also when it is loaded anew
     window.addEventListener('beforeunload', event => session.documents.state.get().saving === 'off' && event.preventDefault());
+}
+
+/** What stands in a field is taken as if somebody had left it. */
+function takeTyped(): void {
+    const field = document.activeElement;
+    if (document.visibilityState === 'hidden' && field?.matches('input[type=text], input[type=number]'))
+        field.dispatchEvent(new Event('change'));
 }
 
 async function show(session: RobotSession, parts: EditorParts): Promise<void> {

@@ -89,7 +89,7 @@ export class DocumentFiles implements Files {
         const pages = new Map(Array.from({ length: PAGE_COUNT - 1 }, (_, i) => [i + 1, this.pageIn(opened.image, i + 1)] as const));
         for (const [page, bytes] of pages) if (!this.holdsSteps(bytes) || this.editor.format.fault(bytes) !== null) pages.delete(page);
         if (pages.size === 0) this.state.set({ ...NOTHING, trouble: TEXTS.files.nothingWhole });
-        else if (this.adopt(pages) !== 0) this.dismiss();
+        else this.addPages(pages);
     }
 
     async createFromOpened(): Promise<void> {
@@ -152,6 +152,13 @@ export class DocumentFiles implements Files {
         const page = sent ? this.adopt(sent.pages) : 0;
         if (page !== 0) this.dismiss();
         return page;
+    }
+
+    private addPages(pages: ReadonlyMap<number, Uint8Array>): void {
+        const before = this.editor.state.get().document;
+        if (this.adopt(pages) === 0) return;
+        const isSame = this.editor.state.get().document === before;
+        this.state.set({ ...NOTHING, trouble: isSame ? TEXTS.files.allHere : null });
     }
 
     /** Into free pages; the first one is chosen. 0: there is no room, and that has been said. */

@@ -118,7 +118,7 @@ export class RobotSession implements Session {
         this.trials = new MotionTrials(this.editor, () => trialClient(body));
         this.documents = makeDocuments(this.editor, storage, {
             failed: () => this.messages.complain(TEXTS.document.couldNotSave, 'storage'),
-            copied: name => this.say({ text: TEXTS.document.secondTab(name), tone: 'calm' }),
+            copied: name => this.messages.keep({ text: TEXTS.document.secondTab(name), tone: 'calm' }),
         });
         this.transfer = makeTransfer(this.editor, this.documents, {
             name: () => (this.isSimulated ? ROBOT_IN_PAGE : this.state.get().portName),

@@ -16,6 +16,7 @@ export type Cause = 'edit' | 'robot' | 'storage';
 export class StatusMessages {
     private readonly state: Store<SessionState>;
     private readonly boardMessages = new BoardMessages();
+    private kept: Notice | null = null;
     private trouble: { readonly message: Notice; readonly cause: Cause; readonly untilMs: number } | null = null;
 
     constructor(state: Store<SessionState>) {
@@ -25,6 +26,12 @@ export class StatusMessages {
     /** null: nothing stands there. */
     say(message: Notice | null): void {
         this.state.set({ message });
+    }
+
+    /** As say(), but what the board says by itself does not take its place, unless that is a trouble. */
+    keep(message: Notice): void {
+        this.kept = message;
+        this.say(message);
     }
 
     /** Says what went wrong, until over() with that cause. */
@@ -52,7 +59,8 @@ export class StatusMessages {
     /** Says what the board says by itself, but not over a trouble that has just come. */
     hear(bytes: Uint8Array): void {
         const message = this.boardMessages.take(bytes);
-        if (message && (message.isTrouble || performance.now() > (this.trouble?.untilMs ?? 0)))
+        const isKept = this.kept !== null && this.state.get().message === this.kept;
+        if (message && (message.isTrouble || (!isKept && performance.now() > (this.trouble?.untilMs ?? 0))))
             this.say({ text: message.text, tone: message.isTrouble ? 'bad' : 'calm' });
     }
 

@@ -58,6 +58,10 @@ test('what is there already is not doubled, unless it leads to something that ca
     const same = await opened(new Map(library.pages.entries()));
     same.files.addOpened();
     expect(imageOf(same.editor.state.get().document)).toEqual(imageOf(library));
+    expect(same.files.state.get()).toMatchObject({
+        opened: null,
+        trouble: expect.stringMatching(/^All motions of the file are here already/),
+    });
     const torn = await opened(
         new Map([...library.pages.entries()].map(([page, bytes]) => [page, page === WALK_R ? renamed(page, 'other') : bytes])),
     );

@@ -85,3 +85,19 @@ test('a step that plays is told beside, counted from 1: what the board says of i
     hear('\rPage 22 is damaged\r\n] ');
     expect(message()).toBe('Page 22 is damaged');
 });
+
+test('what is kept: the board takes it away by a trouble alone, the page by whatever it says next', () => {
+    const { messages, message } = session();
+    const hear = (line: string): void => messages.hear(new TextEncoder().encode(`${line}\r\n`));
+    const kept = { text: 'This tab has a copy.', tone: 'calm' } as const;
+    messages.keep(kept);
+    vi.advanceTimersByTime(60_000);
+    hear('18 servos: 1-18');
+    expect(message()).toBe(kept.text);
+    messages.say(null);
+    hear('18 servos: 1-18');
+    expect(message()).toBe('18 servos: 1-18');
+    messages.keep(kept);
+    hear('Servo 3 does not answer');
+    expect(message()).not.toBe(kept.text);
+});

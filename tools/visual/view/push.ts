@@ -2,14 +2,17 @@
 // A push at the chest of the robot in the page: what a drag of the mouse at it does, by a key or a button.
 
 import type { Session } from './session/session.ts';
+import { TEXTS } from './texts/texts.ts';
 
 const PUSH_TICKS = 38; // 0.3 s
 const REACH_M = 0.2;
 const CHEST_M = 0.03; // above the middle of the trunk
 
-/** direction: 1 ahead, -1 back. Your robot is not pushed. */
+/** direction: 1 ahead, -1 back. Your robot is not pushed; without physics a sentence says why nothing moves. */
 export function pushRobot(session: Session, direction: 1 | -1): void {
-    if (session.state.get().source !== 'simulated') return;
+    const { source, physics } = session.state.get();
+    if (source !== 'simulated') return;
+    if (physics === 'off') return session.say({ text: TEXTS.robot.noPush, tone: 'bad' });
     const trunk = session.body.links[0]?.name ?? 'trunk';
     const stop = session.onFrame(state => {
         stop();

@@ -21,9 +21,12 @@ test('menus, Ctrl+A, F6, a joint spoken, double clicks on "Add step" and Play, a
     expect(await add.boundingBox()).toEqual(before);
 
     const time = page.getByLabel('Time of step 1', { exact: true });
-    await time.fill('99');
+    const message = page.getByRole('log', { name: 'Last message' });
+    const seconds = await time.inputValue();
+    await time.fill('300');
     await time.press('Enter');
-    expect(await time.inputValue()).toBe('1.99'); // what the step has now
+    await message.filter({ hasText: 'Nothing was changed: from 0.01 to 1.99 seconds are possible here.' }).waitFor();
+    expect(await time.inputValue()).toBe(seconds);
 
     await person.button('▶ Play').dblclick(); // plays once, and nothing is refused
     await person.doing.filter({ hasText: /^(Plays|Going slowly|Playing)/ }).waitFor();
@@ -51,22 +54,28 @@ test('menus, Ctrl+A, F6, a joint spoken, double clicks on "Add step" and Play, a
     expect(await page.evaluate(() => document.activeElement?.getAttribute('role'))).toBe('tab');
 
     const last = await page.getByRole('combobox', { name: 'Motion', exact: true }).inputValue();
+    const name = page.getByRole('textbox', { name: 'Name of the motion' });
+    await name.click();
+    await page.keyboard.type('unfinished'); // no Enter, and the field is not left
     await page.reload();
     await person.untilStanding();
     await person.open('Steps');
+    expect(await name.inputValue()).toBe('unfinished');
     expect(await page.getByRole('combobox', { name: 'Motion', exact: true }).inputValue()).toBe(last);
     await page.getByRole('combobox', { name: 'Motion', exact: true }).selectOption('3');
     await person.button('Edit a copy').click();
-    expect(await page.getByRole('textbox', { name: 'Name of the motion' }).inputValue()).toBe('wave 2');
+    expect(await name.inputValue()).toBe('wave 2');
 
     await person.open('Robot');
+    await person.button('Push ahead').click();
+    await message.filter({ hasText: 'Physics could not be loaded, so the robot cannot be pushed.' }).waitFor();
     await person.button('Factory fresh').click();
     await page.getByRole('dialog', { name: 'Factory fresh?' }).getByRole('button', { name: 'Cancel' }).click();
     await person.button('Power off').click();
     await person.doing.filter({ hasText: /^The robot is switched off/ }).waitFor();
     // Nothing is kept for a robot that is off: it would walk whenever somebody switches it on.
     await person.button('Walk').click();
-    await page.getByRole('log', { name: 'Last message' }).filter({ hasText: 'The robot is switched off' }).waitFor();
+    await message.filter({ hasText: 'The robot is switched off' }).waitFor();
     await person.button('Power on').click();
     await person.untilStanding();
     await person.leave();

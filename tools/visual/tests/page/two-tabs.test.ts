@@ -36,6 +36,19 @@ async function saveLaw(page: Page, law = 'classic'): Promise<void> {
     await page.keyboard.press('Enter');
 }
 
+test('a second tab says that it has a copy, and what that means, and the board does not talk over it', async () => {
+    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false });
+    await person.untilStanding();
+    const second = await person.page.context().newPage();
+    await second.goto(suite.address);
+    await second.locator('status-bar .doing').filter({ hasText: 'The robot stands and waits.' }).waitFor();
+    const said = await second.getByRole('log', { name: 'Last message' }).textContent();
+    expect(said).toMatch(
+        /^Another tab has this document open, so this one has a copy: .* What you change here is kept in the copy alone\.$/,
+    );
+    await person.leave();
+});
+
 test('what the first tab has saved stays, whatever the second saves or forgets; the second says so', async () => {
     const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
     await person.untilStanding();

@@ -8,11 +8,13 @@ import type { Session } from '../session/session.ts';
 import { define, isTyping, make } from '../element.ts';
 import { showPose } from './pose-picture.ts';
 import { TEXTS } from '../texts/texts.ts';
-import { nearestSetting, stepTimes } from './step-times.ts';
+import { nearestSetting, possibleSeconds, stepTimes } from './step-times.ts';
 import type { TimedField } from './step-times.ts';
 
 const PICTURE = { width: 64, height: 84 };
 const DRAG_PX = 6;
+/** Seconds that a field goes by at once. */
+const FIELD_STEP = 0.05;
 
 interface Card {
     readonly root: HTMLLIElement;
@@ -124,7 +126,7 @@ export class StepRow extends HTMLElement {
         seconds: { move: number; pause: number } | undefined,
     ): void {
         const isSpeed = schedule === 'speed';
-        card.time.step = isSpeed ? '1' : '0.05';
+        card.time.step = isSpeed ? '1' : String(FIELD_STEP);
         card.time.title = isSpeed ? TEXTS.steps.speedHint : TEXTS.steps.secondsHint;
         const write = (input: HTMLInputElement, value: string): void => {
             if (this.typing !== input) input.value = value;
@@ -163,7 +165,7 @@ export class StepRow extends HTMLElement {
     }
 
     private field(index: number, field: TimedField, title: string): HTMLInputElement {
-        const input = make('input', { type: 'number', min: 0, step: 0.05, 'aria-label': title });
+        const input = make('input', { type: 'number', min: 0, step: FIELD_STEP, 'aria-label': title });
         input.addEventListener('input', () => (this.typing = input));
         const typed = (): void => {
             this.typing = null;
@@ -184,10 +186,20 @@ export class StepRow extends HTMLElement {
         if (!Number.isFinite(typed)) return;
         const chosen = steps.has(index) ? steps : new Set([index]);
         const isSpeed = field === 'time' && editor.page(page).schedule === 'speed';
+        if (!isSpeed && !this.isPossible(index, field, typed)) return;
         const value = isSpeed ? Math.round(typed) : nearestSetting(editor, page, index, field, typed);
         editor.dispatch(
             field === 'time' ? editor.edits.setTime(document, page, chosen, value) : editor.edits.setPause(document, page, chosen, value),
         );
+    }
+
+    /** false: no step can last so long, and that has been said. What is out by one step of the field is rounded: 2 where 1.99 is the longest. */
+    private isPossible(index: number, field: TimedField, seconds: number): boolean {
+        const { editor } = this.session;
+        const [least, most] = possibleSeconds(editor, editor.state.get().page, index, field).map(limit => limit.toFixed(2));
+        const isPossible = seconds >= 0 && seconds <= Number(most) + FIELD_STEP;
+        if (!isPossible) this.session.say({ text: TEXTS.steps.secondsPossible(least ?? '', most ?? ''), tone: 'bad' });
+        return isPossible;
     }
 
     private choose(index: number, event: { readonly shiftKey: boolean; readonly ctrlKey: boolean; readonly metaKey: boolean }): void {

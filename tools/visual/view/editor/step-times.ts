@@ -26,18 +26,29 @@ function withField(view: PageView, step: number, field: TimedField, value: numbe
     return { steps: view.steps.map((one, index) => (index === step ? { ...one, [field]: value } : one)) };
 }
 
-/** The byte 0..255 with which the firmware comes nearest to so many seconds. Both fields grow with their byte: halving finds it. */
-export function nearestSetting(editor: Editor, page: number, step: number, field: TimedField, seconds: number): number {
+/** Seconds of a step with this byte; Infinity: there is no such one. */
+function secondsWith(editor: Editor, page: number, step: number, field: TimedField): (value: number) => number {
     const { document, law } = editor.state.get();
     const bytes = pageOf(document, page);
     const from = editor.firstPose(page);
     const view = editor.page(page);
-    const lasts = (value: number): number => {
+    return value => {
         const changed = writePage(editor.format, bytes, withField(view, step, field, value));
         if (!changed.ok) return Infinity;
         const { move, pause } = stepSeconds(editor.format, changed.value, step, from, law);
         return field === 'time' ? move : pause;
     };
+}
+
+/** The shortest and the longest that a step can last, in seconds. */
+export function possibleSeconds(editor: Editor, page: number, step: number, field: TimedField): readonly [number, number] {
+    const lasts = secondsWith(editor, page, step, field);
+    return [lasts(0), lasts(BYTE_MAX)];
+}
+
+/** The byte 0..255 with which the firmware comes nearest to so many seconds. Both fields grow with their byte: halving finds it. */
+export function nearestSetting(editor: Editor, page: number, step: number, field: TimedField, seconds: number): number {
+    const lasts = secondsWith(editor, page, step, field);
     let [low, high] = [0, BYTE_MAX];
     while (low < high) {
         const middle = Math.ceil((low + high) / 2);

@@ -263,6 +263,7 @@ const DE: Texts = {
             waiting: 'Das Kabel ist gezogen. Stecke es wieder ein; die Seite verbindet sich von selbst.',
         },
         noPhysics: 'Die Physik konnte nicht geladen werden, deshalb kann der Roboter nicht fallen.',
+        noPush: 'Die Physik konnte nicht geladen werden, deshalb lässt sich der Roboter nicht stoßen. Lade die Seite neu, um es noch einmal zu versuchen.',
         adapterOut: 'Der Servo-Adapter ist gezogen, und nichts spielt. Stecke ihn wieder ein.',
         adapterBack:
             'Der Servo-Adapter ist wieder da. Die Servos bewegen sich wieder, sobald ihr Drehmoment eingeschaltet ist: Gib on im Terminal ein.',
@@ -534,7 +535,8 @@ const DE: Texts = {
         removal: name =>
             `„${name}“ wird aus diesem Browser entfernt. Das lässt sich nicht rückgängig machen. Roboter und Dateien behalten, was sie haben.`,
         removes: 'Löschen',
-        secondTab: name => `Ein anderer Tab hat dieses Dokument geöffnet, deshalb hat dieser eine Kopie: ${name}.`,
+        secondTab: name =>
+            `Ein anderer Tab hat dieses Dokument geöffnet, deshalb hat dieser eine Kopie: ${name}. Was du hier änderst, wird nur in der Kopie aufbewahrt.`,
         forgotten: steps =>
             `Rückgängig: Die ersten ${steps} Änderungen dieses Dokuments waren nicht gespeichert, als sein Tab geschlossen wurde.`,
         undo: 'Rückgängig',
@@ -640,6 +642,7 @@ const DE: Texts = {
         takes: seconds => `Die Bewegung dauert ${seconds} Sekunden`,
         dragTime: 'Ziehen: wie lange der Schritt dauert',
         dragPause: 'Ziehen: wie lange die Pause dauert',
+        secondsPossible: (least, most) => `Nichts wurde geändert: Möglich sind hier ${least} bis ${most} Sekunden.`,
         follow: 'Der Roboter folgt dem ausgewählten Schritt, langsam (60° in der Sekunde)',
     },
 
@@ -910,6 +913,7 @@ const DE: Texts = {
                 ? 'Keine Bewegungen, nur die Trimmung des Roboters, auf dem die Datei entstand.'
                 : `${plural(count, '1 Bewegung', `${count} Bewegungen`)}. Hinzugefügt kommen sie auf freie Plätze, mit allem, wohin sie führen, und nichts von dir wird berührt.${damaged > 0 ? ` ${damaged} davon lassen sich nicht hinzufügen: Sie sind beschädigt.` : ''}`,
         noMotions: name => `${name} enthält keine Bewegungen: Alle sind leer. Nichts wurde geändert.`,
+        allHere: 'Alle Bewegungen der Datei sind schon hier, jede an ihrer Nummer. Nichts wurde geändert.',
         nothingWhole:
             'Keine Bewegung der Datei ist heil, deshalb wurde keine hinzugefügt. Öffne sie noch einmal und nimm sie als neues Dokument: Dort bleiben beschädigte, wie sie sind.',
         trim: 'Wenn alle Bewegungen ersetzt werden, auch Nummer 0: die Trimmung des Roboters, auf dem die Datei entstand. Lass sie weg, wenn es nicht dein Roboter ist.',

@@ -449,6 +449,7 @@ export const EN = {
         errors,
         connections,
         noPhysics: 'Physics could not be loaded, so the robot cannot fall.',
+        noPush: 'Physics could not be loaded, so the robot cannot be pushed. Load the page again to try once more.',
         adapterOut: 'The servo adapter is out, and nothing plays. Plug it in again.',
         adapterBack: 'The servo adapter is back. The servos move again once their torque is switched on: type on in the terminal.',
         noServos:
@@ -656,7 +657,8 @@ export const EN = {
         removeTitle: 'Delete this document?',
         removal: (name: string) => `"${name}" is removed from this browser. This cannot be undone. Robots and files keep what they have.`,
         removes: 'Delete',
-        secondTab: (name: string) => `Another tab has this document open, so this one has a copy: ${name}.`,
+        secondTab: (name: string) =>
+            `Another tab has this document open, so this one has a copy: ${name}. What you change here is kept in the copy alone.`,
         forgotten: (steps: number) => `Undo: the first ${steps} steps of this document were not saved when its tab was closed.`,
         undo: 'Undo',
         redo: 'Redo',
@@ -723,6 +725,7 @@ export const EN = {
         takes: (seconds: string) => `The motion takes ${seconds} seconds`,
         dragTime: 'Drag: how long the step takes',
         dragPause: 'Drag: how long it pauses',
+        secondsPossible: (least: string, most: string) => `Nothing was changed: from ${least} to ${most} seconds are possible here.`,
         follow: 'The robot follows the chosen step, slowly (60° a second)',
     },
 
@@ -963,6 +966,7 @@ export const EN = {
                 ? 'No motions, only the trim of the robot that the file was made on.'
                 : `${plural(count, '1 motion', `${count} motions`)}. Added, they go into free places with what they lead to, and nothing of yours is touched.${damaged > 0 ? ` ${damaged} of them cannot be added: they are damaged.` : ''}`,
         noMotions: (name: string) => `${name} holds no motions: all of them are empty. Nothing was changed.`,
+        allHere: 'All motions of the file are here already, each at its own number. Nothing was changed.',
         nothingWhole:
             'No motion of the file is whole, so none was added. Open it again and take it as a new document: that keeps damaged ones as they are.',
         trim: 'When all motions are replaced, number 0 too: the trim of the robot that the file was made on. Leave it out unless that robot is yours.',

@@ -259,6 +259,7 @@ const ES: Texts = {
             waiting: 'El cable está suelto. Vuelve a conectarlo; la página se reconecta sola.',
         },
         noPhysics: 'No se pudo cargar la física, así que el robot no puede caerse.',
+        noPush: 'No se pudo cargar la física, así que no se puede empujar al robot. Vuelve a cargar la página para intentarlo otra vez.',
         adapterOut: 'El adaptador de servos está desconectado y no se reproduce nada. Vuelve a conectarlo.',
         adapterBack: 'El adaptador de servos ha vuelto. Los servos se moverán otra vez cuando se active su par: escribe on en el terminal.',
         noServos:
@@ -526,7 +527,8 @@ const ES: Texts = {
         removal: name =>
             `«${name}» se elimina de este navegador. Esto no se puede deshacer. Los robots y los archivos conservan lo que tienen.`,
         removes: 'Eliminar',
-        secondTab: name => `Otra pestaña tiene abierto este documento, así que esta tiene una copia: ${name}.`,
+        secondTab: name =>
+            `Otra pestaña tiene abierto este documento, así que esta tiene una copia: ${name}. Lo que cambies aquí se guarda solo en la copia.`,
         forgotten: steps => `Deshacer: los primeros ${steps} cambios de este documento no estaban guardados cuando se cerró su pestaña.`,
         undo: 'Deshacer',
         redo: 'Rehacer',
@@ -628,6 +630,7 @@ const ES: Texts = {
         takes: seconds => `El movimiento dura ${seconds} segundos`,
         dragTime: 'Arrastrar: cuánto dura el paso',
         dragPause: 'Arrastrar: cuánto dura la pausa',
+        secondsPossible: (least, most) => `No se ha cambiado nada: aquí son posibles de ${least} a ${most} segundos.`,
         follow: 'El robot sigue el paso elegido, despacio (60° por segundo)',
     },
 
@@ -896,6 +899,7 @@ const ES: Texts = {
                 ? 'Ningún movimiento, solo el ajuste del robot en el que se hizo el archivo.'
                 : `${plural(count, '1 movimiento', `${count} movimientos`)}. Al añadirlos van a sitios libres con todo a lo que llevan, y no se toca nada tuyo.${damaged > 0 ? ` ${damaged} de ellos no se pueden añadir: están dañados.` : ''}`,
         noMotions: name => `${name} no contiene movimientos: todos están vacíos. No se ha cambiado nada.`,
+        allHere: 'Todos los movimientos del archivo ya están aquí, cada uno en su número. No se ha cambiado nada.',
         nothingWhole:
             'Ningún movimiento del archivo está entero, así que no se ha añadido ninguno. Ábrelo otra vez y tómalo como documento nuevo: así los dañados se quedan como están.',
         trim: 'Al reemplazar todos los movimientos, también el número 0: el ajuste del robot en el que se hizo el archivo. No lo incluyas si ese robot no es el tuyo.',
