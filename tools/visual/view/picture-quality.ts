@@ -14,10 +14,8 @@ const STEPS: readonly Quality[] = [
     { pixels: 0.6, shadows: true },
     { pixels: 0.45, shadows: false },
 ];
-/** From one frame to the next. */
-const BY_CHIP = { first: 0, slowMs: 45, fastMs: 22 };
-/** What one picture takes: so long it keeps the page from everything else. Without shadows it takes half of that. */
-const BY_SOFTWARE = { first: 2, slowMs: 100, fastMs: 40 };
+const SLOW_MS = 45;
+const FAST_MS = 22;
 const DOWN_AFTER = 8; // frames
 const SOFTWARE_MS = 60;
 const UP_AFTER = 240;
@@ -30,7 +28,7 @@ export class PictureQuality {
 
     constructor(bySoftware: boolean) {
         this.bySoftware = bySoftware;
-        this.step = this.limits.first;
+        this.step = bySoftware ? 2 : 0;
     }
 
     /** Milliseconds from one look at the picture to the next. A picture by software must not take the processor from the robot: it gets
@@ -43,21 +41,15 @@ export class PictureQuality {
         return STEPS[this.step] ?? { pixels: 1, shadows: true };
     }
 
-    /** frameMs: since the last look; drawMs: what the picture took that was drawn then, null: none was. true when the quality has changed. */
-    take(frameMs: number, drawMs: number | null): boolean {
-        const ms = this.bySoftware ? drawMs : frameMs;
-        if (ms === null) return false;
-        const { first, slowMs, fastMs } = this.limits;
-        this.slow = ms > slowMs ? this.slow + 1 : 0;
-        this.fast = ms < fastMs ? this.fast + 1 : 0;
-        const change = this.slow >= DOWN_AFTER && this.step < STEPS.length - 1 ? 1 : this.fast >= UP_AFTER && this.step > first ? -1 : 0;
+    /** A frame took so long; true when the quality has changed. */
+    take(frameMs: number): boolean {
+        if (this.bySoftware) return false; // slow by nature
+        this.slow = frameMs > SLOW_MS ? this.slow + 1 : 0;
+        this.fast = frameMs < FAST_MS ? this.fast + 1 : 0;
+        const change = this.slow >= DOWN_AFTER && this.step < STEPS.length - 1 ? 1 : this.fast >= UP_AFTER && this.step > 0 ? -1 : 0;
         if (change === 0) return false;
         this.step += change;
         this.slow = this.fast = 0;
         return true;
-    }
-
-    private get limits(): typeof BY_CHIP {
-        return this.bySoftware ? BY_SOFTWARE : BY_CHIP;
     }
 }

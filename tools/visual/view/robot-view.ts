@@ -109,7 +109,7 @@ export class RobotView extends HTMLElement {
     private drawFrames(scene: RobotScene): void {
         let request = 0;
         let beforeMs = 0;
-        let tookMs: number | null = null; // the picture of the last look; null: none was drawn
+        let tookMs = 0;
         let wasNew = false;
         let isDrawn = false;
         const draw = (nowMs: number): void => {
@@ -117,9 +117,8 @@ export class RobotView extends HTMLElement {
             if (wasNew) tookMs = nowMs - beforeMs; // the browser asks again when it is through with it
             wasNew = false;
             const elapsedMs = nowMs - beforeMs;
-            if (elapsedMs < this.quality.restMs(tookMs ?? 0)) return;
-            if (this.quality.take(elapsedMs, tookMs)) this.resize(scene);
-            tookMs = null;
+            if (elapsedMs < this.quality.restMs(tookMs)) return;
+            if (this.quality.take(elapsedMs)) this.resize(scene);
             beforeMs = nowMs;
             this.place(scene, elapsedMs);
             if (this.grabbed) scene.pull(this.grabbed.link, this.grabbed.point, this.grabbed.target);
