@@ -74,7 +74,7 @@ def test_what_needs_a_boot_loader_is_refused_and_what_to_do_is_said(m512, motion
 def test_a_port_that_is_not_there_is_named(m512):
     assert "/dev/nowhere: no such port" in m512("pose", "-p", "BUS", code=6, bus="bus:/dev/nowhere")
     assert "say bus:DEVICE" in m512("pose", "-p", "BUS", code=6, bus="bus:")
-    assert "--rate 5" in m512("pose", "-p", "BUS", code=6, bus=f"bus:{m512.robot.port}@5")
+    assert "@5: the rate is 9600.." in m512("pose", "-p", "BUS", code=6, bus=f"bus:{m512.robot.port}@5")
     assert all(packet[4] != SYNC_WRITE or packet[5] != GOAL for packet in m512.robot.packets())
 
 

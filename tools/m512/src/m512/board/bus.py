@@ -118,6 +118,7 @@ class Program:
     def _in_our_words(self, line: str) -> str:
         """A line of the program, with what m512 has in place of its options."""
         text = re.sub(r"^motion512-\w+: ", "", line)
+        text = re.sub(r"^--rate \d+: ", lambda _: f"{self.word}: the rate is ", text)
         text = text.replace("--off, or m512 torque off", f"m512 torque off -p {self.word}")
         return text.replace("with --robot", "in M512_ROBOT").replace("--robot", "M512_ROBOT")
 
