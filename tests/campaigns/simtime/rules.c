@@ -17,6 +17,8 @@
 #define NEWS (6u * SECOND)         /* a servo that has fallen silent is named by then */
 #define QUIET SECOND               /* asking a servo that is silent takes a part of that, and nothing is printed meanwhile */
 #define PROMPT_BACK (8u * SECOND)
+#define SEARCHED (60u * SECOND)    /* a port that has answered late is waited for at each ID */
+#define LINE_WAY 20u               /* ticks from a typed line to its first packet */
 #define LAST_FRAME 2u              /* ticks */
 #define SETTLED 64u                /* ticks without a write: a save is over */
 #define STEPS_AT 20u
@@ -37,6 +39,7 @@ static struct {
     bool is_shaped;                /* something but the pages may decide where joints go, since the last start */
     bool is_playing;               /* by what the console says */
     bool is_starting;              /* the program has not printed yet */
+    bool is_searching;             /* `servos find` has been typed, and what it found has not been printed */
     bool pages_are_edited;
     bool checks_pages;
 } rules;
@@ -103,6 +106,7 @@ static void line_typed(void)
     if (!session.is_edit && (strcmp(line, "break") == 0 || strcmp(line, "@break") == 0)) {
         rules.break_tick = session.tick;
     }
+    rules.is_searching = rules.is_searching || (!session.is_edit && session.typed_is_known && strstr(line, "find") != NULL);
     marks_typed(line);
     answers_typed(line);
     if (!session.is_edit) {
@@ -196,7 +200,7 @@ static void must_be_asked(uint8_t id, const char *what)
 
 static void must_not_be_out(uint8_t id)
 {
-    if (rules.off_tick[id] != NEVER_TICK && session.asked_tick < rules.off_tick[id]) {
+    if (rules.off_tick[id] != NEVER_TICK && session.asked_tick + LINE_WAY < rules.off_tick[id]) {
         session_fail("a joint that was let go stays so", "a goal to servo %u", id);
     }
     const uint32_t silent = rules.silent_tick[id];
@@ -361,12 +365,14 @@ static void silent_ones_named(const char *list)
     }
 }
 
-/* Servos that were well when they were searched for are known. */
-static void servos_are_searched(void)
+/* Servos that were well when they were searched for are known. has_searched: the program has asked every ID; else it lists
+ * those that it knew before. */
+static void servos_are_listed(bool has_searched)
 {
     for (unsigned id = 0; id < JOINTS; id++) {
         joint_t *joint = &session.joint[id];
-        joint->is_known = joint->servo != NULL && !rules_has_fault(joint) && long_ago(session.trouble_tick, TROUBLE);
+        joint->is_known = (has_searched || joint->is_known) && joint->servo != NULL && !rules_has_fault(joint) &&
+                          long_ago(session.trouble_tick, TROUBLE);
     }
 }
 
@@ -418,7 +424,8 @@ void rules_printed(const char *line)
         replies_printed(line);
     }
     if (strstr(line, " servos: ") != NULL) {
-        servos_are_searched();
+        servos_are_listed(rules.is_searching);
+        rules.is_searching = false;
     }
     if (strstr(line, "settings were damaged") != NULL && rules.sequence >= 0) {
         session_fail("settings are old or new", "\"%s\"", line);
@@ -442,7 +449,8 @@ static void text_must_stand(void)
     }
     const uint32_t last = session.typed_tick > session.printed_tick ? session.typed_tick : session.printed_tick;
     const bool has_prompt = strncmp(session.line, "] ", 2) == 0;
-    if (session.tick - last < QUIET || (!has_prompt && session.tick - last < PROMPT_BACK)) {
+    const uint32_t most = rules.is_searching ? SEARCHED : PROMPT_BACK;
+    if (session.tick - last < QUIET || (!has_prompt && session.tick - last < most)) {
         return;
     }
     session.typed[session.typed_count] = '\0';
@@ -536,6 +544,7 @@ void rules_boot(void)
     replies_boot();
     editor_play_boot();
     rules.is_starting = true;
+    rules.is_searching = true;
     rules.is_playing = rules.is_shaped = rules.is_slow = false;
     rules.ended_tick = rules.break_tick = NEVER_TICK;
     memset(rules.silent_tick, 0, sizeof rules.silent_tick);
@@ -563,7 +572,7 @@ void rules_started(void)
         rules.is_starting = false;
         pages_must_be_whole();
         settings_must_stand();
-        servos_are_searched();
+        servos_are_listed(true);
     }
 }
 

@@ -84,7 +84,10 @@ static void look_at_page(const char *line, unsigned page)
     }
     for (unsigned link = LINK1_AT; link <= LINK2_AT; link += 2) {
         if (at[link + 1] != 0) {
-            length += snprintf(right + length, sizeof right - (size_t)length, " on code %u to %u", at[link + 1], at[link]);
+            length += snprintf(right + length, sizeof right - (size_t)length, " on code %u", at[link + 1]);
+            if (at[link] != 0) {   /* 0: the play ends there */
+                length += snprintf(right + length, sizeof right - (size_t)length, " to %u", at[link]);
+            }
         }
     }
     if (!page_is_good(page) || is_empty(page) || strncmp(line, right, (size_t)length) != 0) {
