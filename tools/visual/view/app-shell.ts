@@ -65,7 +65,7 @@ export class AppShell extends HTMLElement {
 
     connectedCallback(): void {
         const actions = this.give(new ActionBar());
-        const robot = Object.assign(this.give(new RobotView()), { editing: this.editing, covered: () => actions.offsetHeight });
+        const robot = Object.assign(this.give(new RobotView()), { editing: this.editing, cover: actions });
         const poses = Object.assign(this.give(new PoseBar()), {
             editing: this.editing,
             margin: () => robot.margin,

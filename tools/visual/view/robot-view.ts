@@ -35,8 +35,8 @@ export class RobotView extends HTMLElement {
     /** Nobody has touched the picture since it was last looked at, and then there was nothing new to draw: the camera has come to rest. */
     isStill = false;
     editing = new Store<Editing>(EDITING_START);
-    /** How much of its lower edge something else covers, in pixels; the robot stands higher for it. */
-    covered: () => number = () => 0;
+    /** It covers some of the lower edge; the robot stands higher for it. */
+    cover: HTMLElement | null = null;
     private pose: PoseTool | null = null;
     private scene: RobotScene | null = null;
     private quality = new PictureQuality(false);
@@ -152,11 +152,12 @@ export class RobotView extends HTMLElement {
     private watchSize(scene: RobotScene): void {
         const observer = new ResizeObserver(() => this.resize(scene));
         observer.observe(this);
+        if (this.cover) observer.observe(this.cover); // it has more rows when the robot's motions are known
         this.disposals.push(() => observer.disconnect());
     }
 
     private resize(scene: RobotScene): void {
-        scene.resize(this.clientWidth, this.clientHeight, this.quality.quality, this.covered());
+        scene.resize(this.clientWidth, this.clientHeight, this.quality.quality, this.cover?.offsetHeight ?? 0);
     }
 
     private watchTheme(scene: RobotScene): void {

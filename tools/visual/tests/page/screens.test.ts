@@ -146,8 +146,13 @@ test('on a phone the robot stands above the bar of motions, and the Tour leaves 
     const person = await Visitor.come(suite.browser, suite.address, { screen: PHONE, hasPhysics: false });
     const { page } = person;
     await person.untilStanding();
-    const bar = await box(page, 'action-bar');
-    for (const foot of ['right_foot_front', 'left_foot_front']) expect((await placeOf(page, foot)).y + FOOT_PX, foot).toBeLessThan(bar.y);
+    // It says that it stands before its first picture is drawn, by software a second before; bar and camera go on moving after that: the
+    // sentence about physics comes and goes, which makes the picture lower, and the robot's motions make the bar higher.
+    await person.untilDrawn();
+    for (const foot of ['right_foot_front', 'left_foot_front']) {
+        const aboveBar = async (): Promise<number> => (await box(page, 'action-bar')).y - (await placeOf(page, foot)).y;
+        await expect.poll(aboveBar, { message: foot }).toBeGreaterThan(FOOT_PX);
+    }
     await person.button('Tour').click();
     await person.button('Start').click();
     const card = page.getByRole('region', { name: 'Tour' });
@@ -156,11 +161,31 @@ test('on a phone the robot stands above the bar of motions, and the Tour leaves 
         await page.getByText(new RegExp(`: ${stop} of`)).waitFor({ state: 'attached' });
     }
     await card.getByText('Take the right hand').waitFor();
-    const [sheet, ring] = [await box(page, 'tour-card'), await box(page, '.tour-ring')];
+    const sheet = await box(page, 'tour-card');
     expect(sheet.height).toBeLessThanOrEqual(TOUR_PX);
     expect(sheet.y + sheet.height).toBe(PHONE.height);
-    expect(ring.y + ring.height).toBeLessThan((await box(page, 'action-bar')).y);
+    // The ring goes with the hand, which the camera still follows.
+    const ringAboveBar = async (): Promise<number> => {
+        const ring = await box(page, '.tour-ring');
+        return (await box(page, 'action-bar')).y - ring.y - ring.height;
+    };
+    await expect.poll(ringAboveBar).toBeGreaterThan(0);
     await page.screenshot({ path: `${SHOTS}phone-tour.png` });
+    await person.leave();
+});
+
+test('the robot stands as high over the bar of motions when its rows have come as when the screen was turned and back', async () => {
+    const person = await Visitor.come(suite.browser, suite.address, { screen: TABLET, hasPhysics: false });
+    const { page } = person;
+    await person.untilStanding();
+    await person.untilDrawn();
+    const isStill = (): Promise<boolean> => page.locator('robot-view').evaluate(view => (view as unknown as { isStill: boolean }).isStill);
+    await expect.poll(isStill).toBe(true);
+    const { y } = await placeOf(page, 'right_foot_front');
+    await page.setViewportSize({ width: TABLET.height, height: TABLET.width });
+    await person.untilSeen();
+    await page.setViewportSize({ width: TABLET.width, height: TABLET.height });
+    await expect.poll(async () => (await placeOf(page, 'right_foot_front')).y).toBeCloseTo(y, 0);
     await person.leave();
 });
 
