@@ -435,7 +435,9 @@ static void act_on(performer_t *performer, performer_verdict_t verdict, uint32_t
 {
     drop(performer, joint);
     if (verdict == WATCH_LIMP) {
-        (void)servo_link_torque_off(performer->servos, joint);
+        servo_link_t *servos = performer->servos;
+        (void)servo_link_torque_off(servos, joint);
+        servos->torque |= joint & servos->silent;   /* else one that comes back limp would have lost nothing, and be well */
         return;
     }
     performer->end_reason = PERFORMER_END_SERVO; /* used if a play is on */

@@ -53,7 +53,7 @@ typedef struct {
 /* Public fields are read only for callers. Small fields come first: the AVR reads 64 bytes from a pointer on cheaply. */
 typedef struct {
     uint32_t present;         /* answered the last scan at 1 Mbps; a silent servo stays in here */
-    uint32_t torque;          /* torque is on, as commanded or seen last */
+    uint32_t torque;          /* torque is on, as commanded or seen last (performer.c sets it for a silent one) */
     uint32_t silent;          /* present, but silent now */
     uint32_t no_sync;         /* present, but deaf to SYNC WRITE: served by REG WRITE and ACTION */
     uint32_t no_reply;        /* present, but answers READ only (status return level 1) */

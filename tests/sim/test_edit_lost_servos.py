@@ -91,6 +91,27 @@ def test_play_that_goes_on_without_a_servo_keeps_its_ticks():
         assert len(frames) > 600 and latest < 12_000
 
 
+def test_servo_that_the_rule_let_go_is_named_limp_when_it_is_back():
+    with start(eeprom=eeprom_with_rule_limp()) as r:
+        r.line("off 5")
+        r.keys("play 8\r", ms=2500)
+        for joint in (4, 5):  # both come back limp, one of them is meant to be
+            r.board.servos[joint].fault("dead")
+        r.settle(1500)
+        assert r.message.strip() == "No answer: ID 4-5"
+        for joint in (4, 5):
+            r.board.servos[joint].clear()
+        r.settle(1500)
+        assert r.message.strip() == "Lost torque: ID 4"
+        r.keys(" ", ms=1000)
+        r.line("on 4")
+        r.board.servos[9].fault("silent")
+        r.settle(1000)
+        r.board.servos[9].clear()
+        r.settle(1000)
+        assert r.message.strip() == "All servos are well"
+
+
 def test_end_of_a_play_is_still_told_when_one_more_servo_fails():
     with start() as r:
         play_until(r, "overheating")
