@@ -28,11 +28,11 @@ static bool looks_good(const uint8_t *bytes, uint8_t count)
     return count < REMOTE_PACKET_BYTES || (bytes[4] ^ bytes[5]) == 0xFF;
 }
 
-/* A byte that belongs to no packet: text if it may have been typed, else noise. */
+/* A byte that belongs to no packet: text if it may have been typed (only ASCII is stored), else noise. */
 static void give_up(remote_t *remote, uint8_t byte, bool may_be_typed)
 {
-    if (may_be_typed && byte < 0x80) {
-        remote->text[remote->text_count++] = byte;
+    if (may_be_typed) {
+        remote->text[remote->text_count++] = byte < 0x80 ? byte : (uint8_t)'?';
     } else {
         remote->dropped++;
     }
@@ -81,8 +81,8 @@ remote_event_t remote_byte(remote_t *remote, uint8_t byte)
         remote->dropped = (uint16_t)(remote->dropped + (count == 2 && !remote->shared ? 1 : 0));
         remote->shared = false;
         remote->count = 0;
-        give_up(remote, byte, byte < 0x80);
-        return remote->text_count > 0 ? REMOTE_TEXT : REMOTE_NOTHING;
+        give_up(remote, byte, true);
+        return REMOTE_TEXT;
     }
     if (looks_good(window, count)) {
         if (count == REMOTE_PACKET_BYTES) {

@@ -6,6 +6,7 @@
  * A packet is FF 55 L ~L H ~H. Typed text never holds 0xFF, so everything outside a packet passes at once. Bytes that
  * began like a packet and turned out not to be one are searched again for the next FF 55, so that a good packet inside
  * or right after a bad one is not lost; the bytes before it are noise: counted and dropped, never typed.
+ * Elsewhere a byte above 0x7F is half of a letter: typed as a question mark, so that a name does not become another.
  *
  * One case needs care: a packet that has lost its last byte is completed by the FF of the next one. So the FF that ends
  * a good packet may begin another. A 0x55 ('U') right after it is kept back until it is clear whether it was typed. */

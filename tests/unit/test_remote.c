@@ -146,11 +146,13 @@ static void test_remote_text_behind_a_packet_that_ends_without_ff(void)
     TEST_ASSERT_EQUAL_UINT16(0, remote.dropped);
 }
 
-static void test_remote_bytes_above_0x7f_are_never_typed(void)
+/* A name that was typed with a letter that is not ASCII must not become another name. */
+static void test_remote_bytes_above_0x7f_outside_packets_are_typed_as_question_marks(void)
 {
-    FEED('a', 0x80, 0xFE, 'b');
-    TEST_ASSERT_EQUAL_STRING("ab", typed);
-    TEST_ASSERT_EQUAL_UINT16(2, remote.dropped);
+    FEED('g', 'r', 0xC3, 0xBC, 'n', 0xFF, 0x55, 0x04, 0xFB, 0x00, 0xFF, '1');
+    TEST_ASSERT_EQUAL_STRING("gr??n1", typed);
+    TEST_ASSERT_EQUAL_UINT8(1, packets);
+    TEST_ASSERT_EQUAL_UINT16(0, remote.dropped);
 }
 
 static void test_remote_run_of_ff_before_packet(void)
@@ -229,7 +231,7 @@ int main(void)
     RUN_TEST(test_remote_lost_byte_does_not_cost_the_next);
     RUN_TEST(test_remote_u_typed_right_behind_a_packet_is_text);
     RUN_TEST(test_remote_text_behind_a_packet_that_ends_without_ff);
-    RUN_TEST(test_remote_bytes_above_0x7f_are_never_typed);
+    RUN_TEST(test_remote_bytes_above_0x7f_outside_packets_are_typed_as_question_marks);
     RUN_TEST(test_remote_run_of_ff_before_packet);
     RUN_TEST(test_remote_lone_ff_costs_no_text);
     RUN_TEST(test_remote_quiet_gives_up_an_unfinished_packet);
