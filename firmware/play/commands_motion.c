@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "commands_motion.h"
 
+#include <string.h>
 #include "performer_shape.h"
 #include "pgm.h"
 #include "play.h"
@@ -11,49 +12,60 @@
 
 /* ---- play, stop, break, pause, resume, code ---- */
 
-/* Puts the words of a name together again with a space between: it may hold separators. */
-static void take_name(const shell_args_t *args, char name[PAGE_NAME_BYTES])
-{
-    uint8_t length = 0;
-    for (uint8_t i = 1; i < args->count; i++) {
-        for (const char *word = shell_word(args, i); *word != '\0' && length < PAGE_NAME_BYTES - 1; word++) {
-            name[length++] = *word;
-        }
-        if (i + 1u < args->count && length < PAGE_NAME_BYTES - 1) {
-            name[length++] = ' ';
-        }
-    }
-    name[length] = '\0';
-}
-
-/* The page with this name; 0: none or several, and an error has been printed. */
-static uint8_t page_of_name(const shell_args_t *args)
+/* Whether the words of the page's name, parted as those of a line, are the words behind the command. */
+static bool has_name(uint8_t page, const shell_args_t *args)
 {
     char name[PAGE_NAME_BYTES];
-    take_name(args, name);
-    const uint8_t page = page_store_find(&the_play.pages, name, 0);
-    const uint8_t other = page == 0 ? 0 : page_store_find(&the_play.pages, name, page);
+    shell_args_t own;
+    page_store_name(page, name);
+    shell_words(name, false, &own);
+    bool same = own.count + 1u == args->count;
+    for (uint8_t i = 0; same && i < own.count; i++) {
+        same = strcasecmp(shell_word(&own, i), shell_word(args, i + 1u)) == 0;
+    }
+    return same;
+}
+
+/* The lowest good page above `page` with the name in the line; 0: none. */
+static uint8_t next_of_name(uint8_t page, const shell_args_t *args)
+{
+    for (uint16_t number = page + 1u; number < PAGE_COUNT; number++) {
+        if (page_store_is_good(&the_play.pages, (uint8_t)number) && has_name((uint8_t)number, args)) {
+            return (uint8_t)number;
+        }
+    }
+    return 0;
+}
+
+/* The page with the name in the line; 0: none or several, and an error has been printed. */
+static uint8_t page_of_name(const shell_args_t *args)
+{
+    const uint8_t page = next_of_name(0, args);
+    const uint8_t other = page == 0 ? 0 : next_of_name(page, args);
     if (page != 0 && other == 0) {
         return page;
     }
     (void)requests_error(REQUEST_ERR_RANGE);
     if (page == 0) {
-        TEXT("No page is named ");
+        TEXT("No page is named");
     } else {
         text_P_number(TEXT_P("Say which by its number: pages "), page);
         text_P_number(TEXT_P(" and "), other);
-        TEXT(" are named ");
+        TEXT(" are named");
     }
-    text_string(name);
+    for (uint8_t i = 1; i < args->count; i++) {
+        text_put(' ');
+        text_string(shell_word(args, i));
+    }
     return 0;
 }
 
-/* Plays a page by its number, or by its name; a code may follow the number, as if from the remote. */
+/* Plays a page by its number, or by its name, if the first word is no number; a code may follow the number, as if from the
+ * remote. */
 uint8_t commands_do_play(const shell_args_t *args)
 {
     uint16_t page, code = LINK_CODE_NONE;
-    const char first = shell_word(args, 1)[0];
-    if (first >= '0' && first <= '9') {
+    if (shell_parse(shell_word(args, 1), false, &page)) {
         if (!shell_take(args, 1, RANGE_PLAYED, &page) || (args->count > 2 && !shell_take(args, 2, RANGE_CODE, &code))) {
             return SHELL_ERR_RANGE;
         }
