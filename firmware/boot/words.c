@@ -31,8 +31,10 @@ static const uint8_t limits[WORD_CODES] PROGMEM_GAP = {
     [FLASH] = 0x01, [EEPROM] = 0x01, [RAM] = 0x01, [LOAD] = 0x01, [UP] = 0x22, [EEP_UP] = 0x22, [EEP_DN] = 0x22,
     [CLEAR] = 0x02, [GO] = 0x01};
 
-/* The end of the memory that the word's address and length are about, in units of 4 KiB; 1 for words without. */
+/* The end of the memory that the word's address and length are about, in units of 4 KiB; 1 for words without. A dump of
+ * RAM that would leave it begins at 0. */
 static const uint8_t ends[WORD_CODES] PROGMEM_GAP = {
+    [HELP] = 1, [FLASH] = MEM_BOOT_END / 4096, [EEPROM] = MEM_EEPROM_BYTES / 4096, [RAM] = MEM_RAM_END / 4096 + 1,
     [LOAD] = MEM_BOOT_START / 4096, [UP] = MEM_BOOT_END / 4096, [EEP_UP ... CLEAR] = MEM_EEPROM_BYTES / 4096,
     [GO] = 0x10000 / 4096, [FORCE ... DUMP] = 1};
 
@@ -168,13 +170,12 @@ static void set_start(uint8_t code)
     PUT(" Mode");
 }
 
-/* Whether address and length lie in the word's memory (dumps take addresses modulo its size instead). Numbers have 20
- * bits: the sum does not overflow, and as a number of pages it fits 16. */
+/* Whether address and length lie in the word's memory. Numbers have 20 bits: the sum does not overflow, and as a number of
+ * pages it fits 16. */
 static bool is_in_range(uint8_t code, const parse_t *line)
 {
     uint16_t pages = (uint16_t)((line->arg[0] + line->arg[1] + 0xFF) >> 8);
-    return code < LOAD || (pages <= print_byte(&ends[code]) * 16u &&
-                           (code != EEP_DN || line->arg[1] <= MEMORY_WORK_BYTES));
+    return pages <= print_byte(&ends[code]) * 16u && (code != EEP_DN || line->arg[1] <= MEMORY_WORK_BYTES);
 }
 
 static void run(uint8_t code, const parse_t *line)
