@@ -100,11 +100,9 @@ void session_set_byte(uint16_t address, uint8_t byte)
     }
     if (address < CELLS_POSE_AT) {
         take_spare();
-    }
-    change_byte(address, bits);
-    if (address < CELLS_POSE_AT) {
         undo_note(&the_session.undo, address, bits);
     }
+    change_byte(address, bits);
 }
 
 void session_set_bytes(uint16_t address, const uint8_t *bytes, uint8_t count)
