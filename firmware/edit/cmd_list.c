@@ -117,12 +117,20 @@ static bool list_page_item(uint16_t item)
     return true;
 }
 
+uint8_t cmd_refuse_backwards(void)
+{
+    return dialog_refuse(TEXT_P("Say the lower number first"));
+}
+
 COMMAND(cmd_list)
 {
     the_dialog.list_first = args->count > 1 ? (uint8_t)args->number[0] : 0;
     the_dialog.list_last = args->count > 2    ? (uint8_t)args->number[1]
                         : args->count == 2 ? (uint8_t)args->number[0]
                                            : PAGE_COUNT - 1u;
+    if (the_dialog.list_last < the_dialog.list_first) {
+        return cmd_refuse_backwards();
+    }
     return dialog_list(list_page_item, list_title);
 }
 

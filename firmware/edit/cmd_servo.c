@@ -96,6 +96,10 @@ COMMAND(cmd_pairs)
         if (!page1 && !shell_word_is(args, 1, PSTR("512"))) {
             return dialog_refuse(TEXT_P("Say two IDs, 512 or page1"));
         }
+        if (page1 && !page_store_is_good(&the_pages, 1)) {
+            report_bad_page(1, page_store_look(1));
+            return SHELL_ERR_REPORTED;
+        }
         the_settings.neutral = page1 ? SETTINGS_NEUTRAL_PAGE1 : SETTINGS_NEUTRAL_512;
     } else if (args->count == 3) {
         uint16_t a, b;

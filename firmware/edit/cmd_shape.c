@@ -92,7 +92,7 @@ COMMAND(cmd_take)
     uint8_t first = (uint8_t)args->number[0];
     uint8_t last = args->count > 2 ? (uint8_t)args->number[1] : first;
     if (last < first) {
-        return dialog_refuse(TEXT_P("The first step comes first"));
+        return cmd_refuse_backwards();
     }
     the_dialog.take_page = the_session.page;
     the_dialog.take_first = first;

@@ -81,6 +81,8 @@ void cmd_play_events(bool line_is_free);
 COMMAND(cmd_mon);
 COMMAND(cmd_help);
 COMMAND(cmd_list);
+/* The refusal of a range, of pages or steps, whose end comes before its beginning. */
+uint8_t cmd_refuse_backwards(void);
 COMMAND(cmd_find);
 COMMAND(cmd_check);
 

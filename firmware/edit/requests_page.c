@@ -71,7 +71,10 @@ REQUEST(do_crc)
 REQUEST(do_save)
 {
     uint16_t crc;
-    if (!shell_parse(shell_word(args, 2), true, &crc) || crc != ram_crc()) {
+    if (!shell_parse(shell_word(args, 2), true, &crc)) {
+        return requests_refuse(REQUEST_ERR_RANGE, TEXT_P("CRC must be hexadecimal"));
+    }
+    if (crc != ram_crc()) {
         return requests_refuse(REQUEST_ERR_CRC, TEXT_P("The CRC does not fit the page in RAM"));
     }
     const page_save_status_t status = cmd_page_save((uint8_t)args->number[0]);

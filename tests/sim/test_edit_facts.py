@@ -299,13 +299,21 @@ def test_mirror_about_the_first_step_of_page_1_in_flash():
 
 @pytest.mark.parametrize("word", ["3", "pag1", "page12", "51"])
 def test_pairs_refuses_a_word_that_it_does_not_know(word):
-    with robot() as r:
+    with robot(pages={1: NEUTRAL}) as r:
         r.line("pairs page1")
         r.settle(ms=600)
         before = bytes(r.board.eeprom)
         assert r.line(f"pairs {word}").endswith("Say two IDs, 512 or page1")
         r.settle(ms=600)
         assert bytes(r.board.eeprom) == before
+
+
+def test_pairs_about_page_1_wants_a_page_1_that_can_be_read():
+    damaged = page("neutral", [(40, {})])
+    damaged.data[100] ^= 0xFF
+    with robot(pages={1: damaged}) as r:
+        assert r.line("pairs page1") == "pairs page1 Page 1 is damaged: checksum is wrong"
+        assert r.line("pairs").startswith("pairs about 512: ")
 
 
 def test_mirror_stays_inside_the_range(r):

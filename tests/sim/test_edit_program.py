@@ -31,6 +31,8 @@ def test_a_page_goes_in_and_comes_out():
             assert ask(r, f"@data {offset} {data[offset : offset + 32].hex()}") == "@data OK"
         assert ask(r, "@crc") == f"@crc {crc16(bytes(data)):04X} OK"
         assert ask(r, "@save 9 0x1").startswith("@save ERR 9 ")
+        assert ask(r, "@save 9 xyz").startswith("@save ERR 3 ")
+        assert ask(r, "@save 9 1 2").startswith("@save ERR 2 ")
         assert ask(r, f"@save 9 0x{crc16(bytes(data)):04X}", ms=250) == "@save OK"
         assert r.flash_page(9) == bytes(data)
         answer = ask(r, "@page 9", ms=400).split()
