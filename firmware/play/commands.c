@@ -119,7 +119,7 @@ TEXT_NAMED(word_free, "free  [id ...]  ends aim and swing");
 TEXT_NAMED(word_shape, "shape  [reset]  what of this is in force");
 
 static const shell_command_t shared[] PROGMEM = {
-    { word_play, commands_do_play, SHELL_ARGS(1, 6), 0 },
+    { word_play, commands_do_play, SHELL_ARGS(1, 7), 0 },
     { word_stop, commands_do_stop, SHELL_ARGS(0, 0), 0 },
     { word_break, commands_do_break, SHELL_ARGS(0, 0), 0 },
     { word_pause, commands_do_pause, SHELL_ARGS(0, 0), 0 },
@@ -143,9 +143,9 @@ TEXT_NAMED(word_list, "list  the pages that are not empty");
 TEXT_NAMED(word_status, "status  what is playing");
 TEXT_NAMED(word_servos, "servos  [find]  the servos; or searches again");
 TEXT_NAMED(word_faults, "faults  of servos, bus, serial line and ticks");
-TEXT_NAMED(word_law, "law  [exact|classic]  the law of motion");
-TEXT_NAMED(word_remote, "remote  [latch|hold|drive]  letting go: goes on, or stops; L and R steer");
-TEXT_NAMED(word_settings, "settings  [name value|defaults]");
+TEXT_NAMED(word_law, "law  [exact|classic]  the law of motion, kept");
+TEXT_NAMED(word_remote, "remote  [latch|hold|drive]  letting go: goes on, or stops; L and R steer; kept");
+TEXT_NAMED(word_settings, "settings  [name value|defaults]  what is kept");
 TEXT_NAMED(word_version, "version  of this program");
 TEXT_NAMED(word_help, "help ? [word]  this list");
 

@@ -19,8 +19,9 @@ static uint8_t count(uint32_t joints)
 
 void views_print_servos_found(void)
 {
-    text_number(count(the_play.servos.present));
-    TEXT(" servos: ");
+    const uint8_t found = count(the_play.servos.present);
+    text_number(found);
+    text_P(found == 1 ? TEXT_P(" servo: ") : TEXT_P(" servos: "));
     report_joints(the_play.servos.present);
     text_line_end();
     if (the_play.servos.slow != 0) {

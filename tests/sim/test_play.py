@@ -64,6 +64,36 @@ def test_reset_while_playing_moves_nothing_more():
     assert [packet for packet in writes(board)] == []
 
 
+# --- names ---
+
+
+@pytest.mark.parametrize(
+    "name, typed",
+    [
+        (" wave", "wave"),
+        ("wave, slow", "Wave, slow"),
+        ("a.b", "a.b"),
+        ("2nd wave", "2nd wave"),
+        ("a b c d e f g", "a b c d e f g"),
+        ("gr??n", "gr\u00fcn"),
+    ],
+)
+def test_page_plays_by_any_name_that_edit_takes(name, typed):
+    image = Image.empty()
+    image[9] = page(name, [(30, {1: 560})])
+    board = robot(pages=image.to_bytes())
+    board.send(f"play {typed}\r".encode())
+    assert f"Playing page 9 ({name})" in board.expect("Ended", ms=4000)
+
+
+def test_name_with_a_foreign_letter_is_not_the_name_without_it():
+    image = Image.empty()
+    image[9] = page("grn", [(30, {1: 560})])
+    board = robot(pages=image.to_bytes())
+    board.send("play gr\u00fcn\r".encode())
+    assert "No page is named gr??n" in board.expect("\r\n] ")
+
+
 # --- who is driven ---
 
 
@@ -338,6 +368,10 @@ def test_search_answers_when_it_is_done_and_misses_nothing_typed():
     board.servos.add(7)
     board.send("servos find\rversion\r", wait=True)
     assert "4 servos: 1-3 7" in board.expect("Motion512 Play", ms=2000)
+
+
+def test_one_servo_is_one_servo():
+    assert "1 servo: 5\n" in ask(robot(servos=[5]), "servos find")
 
 
 def test_search_in_a_pasted_script_loses_nothing_of_it():
