@@ -219,14 +219,6 @@ def test_hex_keys_and_page_number(r):
     assert "Page must be" in r.command
 
 
-@pytest.mark.parametrize("line", ["next 5 x", "new 1", "time 9", "re all", "hex 3", "before 7"])
-def test_ignored_arguments_as_in_the_original(r, line):
-    r.line(line)
-    assert "Invalid Parameter" not in r.show()
-    if line == "new 1":
-        assert "[y/N]" in r.command
-
-
 def test_run_and_monitor_words_are_no_commands(r):
     for word in ("run", "rd", "read 1", "ping", "toss"):
         assert r.line(word) == f"{word} Bad Command"
