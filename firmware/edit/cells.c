@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "cells.h"
 
+#include <string.h>
+
 enum { HEADER_SHIFT = 11, FIRST_DIRECT_WORD = 0x8000 };
 
 cell_kind_t cell_kind(uint8_t page, uint8_t x, uint8_t y)
@@ -91,7 +93,7 @@ uint16_t cell_max(cell_kind_t kind, uint8_t x, uint8_t y)
 
 uint16_t cell_word(const uint8_t bytes[CELLS_BYTES], uint16_t address)
 {
-    return (uint16_t)(bytes[address] | (uint16_t)bytes[address + 1u] << 8);
+    return page_word(&bytes[address]);
 }
 
 bool cell_is_off(uint16_t word)
@@ -117,9 +119,7 @@ void cell_digits(uint16_t number, uint8_t digits, bool hex, char *text)
 
 static void fill(char text[CELLS_TEXT_BYTES], char character)
 {
-    for (uint8_t i = 0; i < CELLS_TEXT_BYTES - 1u; i++) {
-        text[i] = character;
-    }
+    memset(text, character, CELLS_TEXT_BYTES - 1u);
     text[CELLS_TEXT_BYTES - 1u] = '\0';
 }
 

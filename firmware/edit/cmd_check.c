@@ -27,10 +27,8 @@ static void begin_line(uint8_t page)
 static void begin_step(uint8_t page, uint8_t step, uint8_t joint)
 {
     begin_line(page);
-    TEXT("step ");
-    text_number(step);
-    TEXT(" ID ");
-    text_number(joint);
+    text_P_number(TEXT_P("step "), step);
+    text_P_number(TEXT_P(" ID "), joint);
     text_put(' ');
 }
 
@@ -46,8 +44,7 @@ static void check_links(uint8_t page)
             continue;
         }
         begin_line(page);
-        text_P(is_link ? TEXT_P("leads to page ") : TEXT_P("blends with page "));
-        text_number(to);
+        text_P_number(is_link ? TEXT_P("leads to page ") : TEXT_P("blends with page "), to);
         text_P(!good        ? TEXT_P(", which is not valid")
                : steps == 0 ? TEXT_P(", which has no steps")
                             : TEXT_P(", which has another number of steps"));
@@ -92,8 +89,7 @@ static void check_speed(uint8_t page)
         uint16_t deg_s = page_facts_deg_s(&facts);
         if (deg_s > fastest_deg_s) {
             begin_step(page, step, facts.joint);
-            TEXT("too fast, ");
-            text_number(deg_s);
+            text_P_number(TEXT_P("too fast, "), deg_s);
             TEXT(" degrees/s");
             text_line_end();
         }
@@ -108,8 +104,7 @@ static void check_joint(uint8_t page, uint8_t joint)
     if (bus_call_read(joint, DXL_AT_CW_LIMIT, limits, sizeof limits, NULL) != BUS_OK) {
         return;
     }
-    uint16_t low = limits[0] | limits[1] << 8;
-    uint16_t high = limits[2] | (uint16_t)limits[3] << 8;
+    uint16_t low = page_word(limits), high = page_word(limits + 2);
     for (uint8_t step = 0; step < steps; step++) {
         uint16_t pos = page_facts_word(page, step, joint);
         uint16_t goal = servo_link_to_servo(&the_servos, joint, pos & PAGE_POS_MAX);
@@ -158,7 +153,7 @@ static bool check_item(uint16_t item)
 
 COMMAND(cmd_check)
 {
-    the_dialog.list_first = args->count > 1 ? (uint8_t)args->number[0] : 1;
+    the_dialog.list_first = (uint8_t)args->number[0];
     the_dialog.list_last = args->count > 1 ? (uint8_t)args->number[0] : PAGE_COUNT - 1u;
     return dialog_list(check_item, TEXT_P("Checked:"));
 }

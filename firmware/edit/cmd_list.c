@@ -66,7 +66,7 @@ COMMAND(cmd_help)
 
 COMMAND(cmd_mon)
 {
-    return dialog_refuse(TEXT_P("MON and TOSS are an image of their own: load Monitor"));
+    return dialog_refuse(TEXT_P("MON and TOSS are in the image Monitor: load it"));
 }
 
 /* ---- LIST, FIND ---- */
@@ -124,7 +124,7 @@ uint8_t cmd_refuse_backwards(void)
 
 COMMAND(cmd_list)
 {
-    the_dialog.list_first = args->count > 1 ? (uint8_t)args->number[0] : 0;
+    the_dialog.list_first = (uint8_t)args->number[0];
     the_dialog.list_last = args->count > 2    ? (uint8_t)args->number[1]
                         : args->count == 2 ? (uint8_t)args->number[0]
                                            : PAGE_COUNT - 1u;

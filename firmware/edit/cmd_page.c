@@ -12,39 +12,33 @@
 
 #include <string.h>
 
-#define PAGE_MAX (PAGE_COUNT - 1u)
 #define NAME_CHARS (PAGE_NAME_BYTES - 1u)
 
-static uint8_t open_asking(uint8_t page)
+static uint8_t open_asking(uint16_t page)
 {
+    if (page >= PAGE_COUNT) {
+        return dialog_refuse(TEXT_P("There is no such page"));
+    }
     if (!dialog_ask_unsaved()) {
         return DIALOG_TO_ASK;
     }
-    robot_open_page(page);
+    robot_open_page((uint8_t)page);
     return SHELL_OK;
 }
 
 COMMAND(cmd_page)
 {
-    return open_asking((uint8_t)args->number[0]);
-}
-
-static uint8_t open_beside(bool is_there, int8_t way)
-{
-    if (!is_there) {
-        return dialog_refuse(TEXT_P("There is no such page"));
-    }
-    return open_asking((uint8_t)(the_session.page + way));
+    return open_asking(args->number[0]);
 }
 
 COMMAND(cmd_next)
 {
-    return open_beside(the_session.page < PAGE_MAX, 1);
+    return open_asking(the_session.page + 1u);
 }
 
 COMMAND(cmd_before)
 {
-    return open_beside(the_session.page > 0, -1);
+    return open_asking((uint16_t)(the_session.page - 1u));
 }
 
 /* Play's `play wave` needs a name that only one page has, so this says which other page has the name of stored page
@@ -62,8 +56,7 @@ static NOINLINE void tell_namesake(uint8_t named, uint8_t own)
     }
     if (other != 0) {
         the_screen.lead = true;
-        TEXT("Page ");
-        text_number(other);
+        text_P_number(TEXT_P("Page "), other);
         TEXT(" has this name too");
     }
 }

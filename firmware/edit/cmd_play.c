@@ -149,12 +149,9 @@ static void tell_step(void)
     const player_t *player = &the_performer.player;
     the_dialog.step_due = false;
     screen_open_line();
-    TEXT("Page ");
-    text_number(player->now.page);
-    TEXT(" step ");
-    text_number((uint16_t)(player->now.step - 1u));
-    TEXT(" repetition ");
-    text_number(player->repetition);
+    text_P_number(TEXT_P("Page "), player->now.page);
+    text_P_number(TEXT_P(" step "), (uint16_t)(player->now.step - 1u));
+    text_P_number(TEXT_P(" repetition "), player->repetition);
 }
 
 void cmd_play_events(bool line_is_free)

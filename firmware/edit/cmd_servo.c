@@ -42,7 +42,7 @@ static uint16_t neutral_of(uint8_t joint)
         return PAGE_POS_MIDDLE;
     }
     page_store_read(1, (uint16_t)(PAGE_AT_STEP0 + 2u * joint), word, sizeof word);
-    uint16_t pos = word[0] | (uint16_t)word[1] << 8;
+    uint16_t pos = page_word(word);
     return cell_is_position(pos) ? pos : PAGE_POS_MIDDLE;
 }
 

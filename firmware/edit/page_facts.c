@@ -10,7 +10,7 @@ uint16_t page_facts_word(uint8_t page, uint8_t step, uint8_t joint)
 {
     uint8_t word[2];
     page_store_read(page, (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * step + 2u * joint), word, sizeof word);
-    return word[0] | word[1] << 8;
+    return page_word(word);
 }
 
 static void longest_way(uint8_t page, uint8_t step, page_facts_t *facts)

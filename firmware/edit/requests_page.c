@@ -21,7 +21,7 @@ REQUEST(do_open)
         return requests_refuse(REQUEST_ERR_ASKED, TEXT_P("Edit waits for an answer on its terminal"));
     }
     if (the_session.is_changed) {
-        return requests_refuse(REQUEST_ERR_UNSAVED, TEXT_P("The open page has edits that are not saved"));
+        return requests_refuse(REQUEST_ERR_UNSAVED, TEXT_P("The open page has unsaved edits"));
     }
     robot_open_page((uint8_t)args->number[0]);
     return REQUEST_OK;
@@ -48,7 +48,7 @@ REQUEST(do_data)
     const uint8_t count = parse_bytes(shell_word(args, 2), bytes);
     if (count == 0 || offset + count > PAGE_BYTES) {
         return requests_refuse(REQUEST_ERR_RANGE,
-                               TEXT_P("Data must be 1..32 pairs of hexadecimal digits, within the page"));
+                               TEXT_P("Data must be 1..32 hexadecimal bytes, within the page"));
     }
     memcpy(&the_session.cells[offset], bytes, count);
     session_replaced();

@@ -25,8 +25,7 @@ static bool read_pos(uint8_t joint, uint8_t at, uint16_t *pos)
         fail(joint);
         return false;
     }
-    uint16_t word = bytes[0] | bytes[1] << 8;
-    *pos = servo_link_to_page(&the_servos, joint, word);
+    *pos = servo_link_to_page(&the_servos, joint, page_word(bytes));
     return true;
 }
 
@@ -161,7 +160,7 @@ uint32_t robot_send(const uint8_t step[PAGE_STEP_BYTES])
 {
     uint32_t missing = 0, off = 0;
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        uint16_t word = step[2 * joint] | step[2 * joint + 1] << 8;
+        uint16_t word = page_word(&step[2 * joint]);
         if (!robot_has(joint)) {
             session_set_pose(joint, word);
         } else if (cell_is_position(word)) {

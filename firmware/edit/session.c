@@ -386,7 +386,7 @@ static void swap_steps(uint8_t a, uint8_t b)
 
 /* Permutes steps. UP first last: first -> first+1 -> .. -> last -> first; DOWN is its inverse. Rotations are made of swaps
  * of neighbours, which need no spare step. */
-static void turn_steps(void *context __attribute__((unused)), uint8_t turn, bool back)
+static void turn_steps(uint8_t turn, bool back)
 {
     uint8_t first = (turn >> 3) & 7u;
     uint8_t last = turn & 7u;
@@ -409,21 +409,16 @@ static void turn_steps(void *context __attribute__((unused)), uint8_t turn, bool
     }
 }
 
-static void flip_byte(void *context __attribute__((unused)), uint16_t address, uint8_t bits)
-{
-    change_byte(address, bits);
-}
-
 void session_begin_turn(uint8_t turn)
 {
     begin(turn);
     take_spare();
-    turn_steps(NULL, turn, false);
+    turn_steps(turn, false);
 }
 
 static bool travel(bool back)
 {
-    undo_target_t target = { NULL, flip_byte, turn_steps };
+    undo_target_t target = { change_byte, turn_steps };
     bool done = (back ? undo_back(&the_session.undo, &target) : undo_forth(&the_session.undo, &target)) ||
                 exchange_spare(back);
     if (!done && back && the_session.undo_reloads) {

@@ -164,7 +164,7 @@ static void flip_runs(const undo_t *undo, uint16_t record, const undo_target_t *
         uint16_t address = run[0] | (run[1] & 1u) << 8;
         uint8_t bytes = (run[1] >> 1) + 1u;
         for (run += RUN_HEADER_BYTES; bytes > 0; bytes--) {
-            target->flip(target->context, address++, *run++);
+            target->flip(address++, *run++);
         }
     }
 }
@@ -175,11 +175,11 @@ static void carry_out(const undo_t *undo, uint8_t index, const undo_target_t *ta
     uint16_t record = record_at(undo, index);
     uint8_t turn = undo->log[record + 2u];
     if (!back) {
-        target->turn(target->context, turn, false);
+        target->turn(turn, false);
     }
     flip_runs(undo, record, target);
     if (back) {
-        target->turn(target->context, turn, true);
+        target->turn(turn, true);
     }
 }
 

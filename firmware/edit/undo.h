@@ -26,9 +26,8 @@ enum { UNDO_TURN_NONE = 0, UNDO_TURN_UP = 0x40, UNDO_TURN_DOWN = 0x80, UNDO_TURN
 
 /* The functions that change the page. */
 typedef struct {
-    void *context;
-    void (*flip)(void *context, uint16_t address, uint8_t bits);      /* byte ^= bits */
-    void (*turn)(void *context, uint8_t turn, bool back);             /* permute the steps, or back */
+    void (*flip)(uint16_t address, uint8_t bits);      /* byte ^= bits */
+    void (*turn)(uint8_t turn, bool back);             /* permute the steps, or back */
 } undo_target_t;
 
 typedef struct {

@@ -8,17 +8,15 @@
 static uint8_t bytes[UNDO_SPACE_BYTES];
 static undo_t undo;
 
-static void flip(void *context, uint16_t address, uint8_t bits)
+static void flip(uint16_t address, uint8_t bits)
 {
-    (void)context;
     TEST_ASSERT_LESS_THAN_UINT16(UNDO_SPACE_BYTES, address);
     bytes[address] ^= bits;
 }
 
 /* SWAP exchanges two 64-byte steps behind the 64-byte header; the other kinds are the session's business. */
-static void turn(void *context, uint8_t turn_code, bool back)
+static void turn(uint8_t turn_code, bool back)
 {
-    (void)context;
     (void)back;
     if (turn_code == UNDO_TURN_NONE) {
         return;
@@ -31,7 +29,7 @@ static void turn(void *context, uint8_t turn_code, bool back)
     }
 }
 
-static const undo_target_t target = { NULL, flip, turn };
+static const undo_target_t target = { flip, turn };
 
 static void set(uint16_t address, uint8_t byte)
 {
@@ -123,7 +121,7 @@ static void test_undo_turn_alone_is_a_command(void)
 {
     bytes[64] = 11;
     bytes[128] = 22;
-    turn(NULL, UNDO_TURN(UNDO_TURN_SWAP, 0, 1), false);
+    turn(UNDO_TURN(UNDO_TURN_SWAP, 0, 1), false);
     undo_begin(&undo, UNDO_TURN(UNDO_TURN_SWAP, 0, 1));
     set(70, 9);
     undo_end(&undo);
