@@ -202,6 +202,19 @@ def test_cable_pulled_during_flash(m512, peer, motions, when):
 # Ours
 
 
+def test_only_a_transfer_that_broke_off_goes_on_where_it_stopped(m512, motions):
+    flash = bytearray(old_flash())
+    flash[0xE000:0x1E000] = EMPTY * 128  # nothing is lost that would be read and named before the writing
+    with BlockPeer(flash) as peer:
+        peer.cut_after = 1600
+        broken = m512("flash", motions, "-p", peer.path, "--wait", "5")
+        assert broken.exit_code == 6 and "repeat the command: it goes on where it stopped" in broken.stderr, broken.stderr
+        peer.plug()
+        peer.cut_after = peer.moved + 100
+        broken = m512("pages", peer.path, "list")
+        assert broken.exit_code == 6 and broken.stderr.strip().endswith("then repeat the command"), broken.stderr
+
+
 def test_crc16_known_answer_and_frame_of_the_description():
     assert crc16(b"123456789") == 0x29B1
     assert frame(1, 1, b"") == bytes.fromhex("a5010100c89d") and frame(3, 2, b"\xff\x01") == bytes.fromhex("a5030201ff013658")

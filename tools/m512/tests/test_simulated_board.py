@@ -212,6 +212,31 @@ def start(m512, robot):
     robot.pass_time(2.0)
 
 
+def test_a_play_whose_cable_is_pulled_goes_on_and_m512_says_so(m512, robot):
+    start(m512, robot)
+    robot.cut_after = robot.moved + 2000
+    lost = m512("play", "walk", "--wait", "-p", robot.path)
+    assert lost.exit_code == 6 and "what plays on the robot goes on" in lost.stderr, lost.stderr
+
+
+@pytest.mark.parametrize("presses", [1, 2])
+def test_a_play_that_ctrl_c_has_stopped_is_no_success(m512, robot, monkeypatch, presses):
+    """`m512 play a --wait && m512 play b` went on with b."""
+    start(m512, robot)
+    sleep, left = VirtualLink.sleep, [presses]
+
+    def pressed(link, seconds):
+        sleep(link, seconds)
+        if left[0]:
+            left[0] -= 1
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(VirtualLink, "sleep", pressed)
+    result = m512("play", "walk", "--wait", "--json", "-p", robot.path)
+    assert result.exit_code == 130 and "stopped by Ctrl-C" in result.stderr, result.stderr
+    assert json.loads(result.stdout)["state"] == "idle"
+
+
 def test_play_is_shaped(m512, robot):
     start(m512, robot)
     with VirtualLink(robot.path) as link:

@@ -10,6 +10,7 @@ from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import Callable
 
+from m512.board.block import BlockLoader
 from m512.board.factory import FactoryLoader
 from m512.board.loaders import Loader
 from m512.board.memory import FLASH_PAGE, Plan
@@ -56,7 +57,7 @@ def download(loader: Loader, plan: Plan, phase: PhaseMaker, todo: list[int] | No
             if isinstance(loader, FactoryLoader):
                 _to_factory(loader, pages, progress, plan.pages)  # reads back page by page
                 return Report(len(plan.pages), len(todo), loader.link.now() - begun, loader.retries)
-            loader.write(pages, progress)
+            _to_ours(loader, pages, progress)
         with phase("Verifying") as progress:
             wrong = loader.different(pages, progress)
         if wrong:
@@ -66,6 +67,13 @@ def download(loader: Loader, plan: Plan, phase: PhaseMaker, todo: list[int] | No
                 + ". Repeat the command; if that does not help the flash is worn out"
             )
     return Report(len(plan.pages), len(todo), loader.link.now() - begun, loader.retries)
+
+
+def _to_ours(loader: BlockLoader, pages: dict[int, bytes], progress: Callable[[int, int], None]) -> None:
+    try:
+        loader.write(pages, progress)
+    except PortError as error:
+        raise PortError(f"{error}: it goes on where it stopped") from None
 
 
 def _to_factory(loader: FactoryLoader, pages: dict[int, bytes], progress: Callable[[int, int], None], around: dict[int, bytes]) -> None:

@@ -62,7 +62,7 @@ class Link:
         time.sleep(seconds)
 
     def _lost(self, error: Exception) -> PortError:
-        return PortError(f"the line to {self.url} broke ({error}). Check the cable; then repeat the command, it goes on where it stopped")
+        return PortError(f"the line to {self.url} broke ({error}). Check the cable; then repeat the command")
 
     def set_rate(self, rate: int) -> None:
         try:

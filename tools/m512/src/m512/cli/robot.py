@@ -15,7 +15,7 @@ import click
 from m512 import ui
 from m512.cli.board import json_option, only_the_simulator, port_option, refuse_words
 from m512.cli.files import one_of_csv, page_moves, page_numbers
-from m512.errors import BoardError, NoAnswerError, RefusedError, WordError
+from m512.errors import BoardError, CancelledError, NoAnswerError, PortError, RefusedError, WordError
 
 if TYPE_CHECKING:
     from m512.board.client import Client
@@ -115,13 +115,20 @@ def play(page: str, rate: int | None, amplitude: int | None, blend: int | None, 
                 client.ask(f"{word} {value}")
         client.play(number, code)
         ui.say(f"page {number} plays" + ("; waiting for its end, Ctrl-C stops it" if wait else ""))
-        if wait or options["sim"] or is_bus(options["port"]):  # what was started for this command ends with it
-            _follow(client)
+        is_ours = options["sim"] or is_bus(options["port"])  # what was started for this command ends with it
+        stopped = False
+        if wait or is_ours:
+            try:
+                stopped = _follow(client)
+            except PortError as error:
+                raise error if is_ours else PortError(f"{error}. Without it what plays on the robot goes on") from None
         _report(client, options["as_json"])
+    if stopped:
+        raise CancelledError("stopped by Ctrl-C")
 
 
-def _follow(client: Client) -> None:
-    """Tells pages and steps until the robot is idle. The first Ctrl-C is a stop, the second a break."""
+def _follow(client: Client) -> bool:
+    """Tells pages and steps until the robot is idle. The first Ctrl-C is a stop, the second a break. Returns whether there was one."""
     before, asked = None, 0
     while True:
         try:
@@ -131,7 +138,7 @@ def _follow(client: Client) -> None:
                 ui.say(f"{state['state']}: page {state['page']}, repetition {state['repetition']}")
                 before = here
             if state["state"] == "idle":
-                return
+                return asked > 0
             client.link.sleep(0.1)
         except KeyboardInterrupt:
             asked += 1
