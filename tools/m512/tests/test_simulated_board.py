@@ -237,6 +237,22 @@ def test_a_play_that_ctrl_c_has_stopped_is_no_success(m512, robot, monkeypatch, 
     assert json.loads(result.stdout)["state"] == "idle"
 
 
+def test_joints_are_named_by_ranges_too(m512, robot):
+    start(m512, robot)
+
+    def limp():
+        pose = json.loads(m512("pose", "--json", "-p", robot.path).stdout)
+        return {int(joint) for joint, found in pose.items() if not found["torque"]}
+
+    for words, left in ((["on"], set()), (["off", "1..3", "7,9"], {1, 2, 3, 7, 9}), (["on", "1..2"], {3, 7, 9})):
+        result = m512("torque", *words, "-p", robot.path)
+        assert result.exit_code == 0 and limp() == left, result.stderr
+    assert m512("free", "1..3", "-p", robot.path).exit_code == 0
+    for command in (("torque", "on"), ("free",)):
+        refused = m512(*command, "3-5", "-p", robot.path)
+        assert refused.exit_code == 2 and "'3-5'" in refused.stderr and "1..6" in refused.stderr, refused.stderr
+
+
 def test_play_is_shaped(m512, robot):
     start(m512, robot)
     with VirtualLink(robot.path) as link:

@@ -12,7 +12,7 @@ import click
 
 from m512 import ui
 from m512.cli.files import id_list
-from m512.cli.robot import ID_MAX, positions_of, robot, robot_options
+from m512.cli.robot import ID_MAX, ids_argument, positions_of, robot, robot_options
 
 if TYPE_CHECKING:
     from m512.board.client import Client
@@ -109,9 +109,9 @@ Examples:
   m512 free              all joints that aim and swing move
   m512 free 19 20"""
 )
-@click.argument("ids", nargs=-1, type=click.IntRange(0, ID_MAX))
+@ids_argument
 @robot_options
-def free(ids: Sequence[str], **options: Any) -> None:
+def free(ids: list[int], **options: Any) -> None:
     """End `aim` and `swing`: joints go back to the motion that plays, or stay where they are."""
     with robot(options) as client:
         client.ask(" ".join(map(str, ["free", *ids])))

@@ -32,6 +32,18 @@ def _servos(_context: click.Context, _parameter: click.Parameter, text: str) -> 
     return text
 
 
+def _ids(_context: click.Context, _parameter: click.Parameter, words: Sequence[str]) -> list[int]:
+    from m512.files.text.words import joints_of
+
+    try:
+        return [joint for word in words for joint in joints_of(word, {})]
+    except WordError as error:
+        raise click.BadParameter(f"{error}; say IDs as 3, 1..6 or 1,3,5") from None
+
+
+ids_argument = click.argument("ids", nargs=-1, callback=_ids)
+
+
 def robot_options(function: Any) -> Any:
     for option in (
         click.option("--servos", default="1-18", callback=_servos, help="With --sim: the servos that are plugged in.", show_default=True),
@@ -224,15 +236,16 @@ def positions_of(words: Sequence[str]) -> Any:
     epilog="""\b
 Examples:
   m512 torque off          all joints go limp: hold the robot first
-  m512 torque on 3 4 5"""
+  m512 torque on 3 4 5
+  m512 torque off 1..6"""
 )
 @click.argument("state", type=click.Choice(["on", "off"]))
-@click.argument("ids", nargs=-1, type=click.IntRange(0, ID_MAX))
+@ids_argument
 @robot_options
-def torque(state: str, ids: Sequence[int], **options: Any) -> None:
+def torque(state: str, ids: list[int], **options: Any) -> None:
     """Switch the torque of all joints, or of some IDs. On holds the pose that the joints are in."""
     with robot(options) as client:
-        client.torque(state == "on", list(ids))
+        client.torque(state == "on", ids)
         _report(client, options["as_json"])
 
 
