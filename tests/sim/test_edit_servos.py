@@ -196,5 +196,5 @@ def test_exit_restarts_the_controller():
 
 def test_mon_says_where_it_is():
     with start() as r:
-        assert r.line("mon") == r.line("monitor").replace("monitor MON", "mon MON") and "load Monitor" in r.message
+        assert r.line("mon") == r.line("monitor").replace("monitor MON", "mon MON") and "the image Monitor" in r.message
         assert not r.unsaved
