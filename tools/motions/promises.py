@@ -70,7 +70,7 @@ def a_minute(page, code, bodies):
 
 
 STANDS = [
-    Stands("walk", 60, round_trip(UP, (RIGHT, LEFT), 60), bodies=1000),
+    Stands("walk", 60, round_trip(UP, (RIGHT, LEFT), 60), bodies=300),
     a_minute("back", DOWN, 200),
     a_minute("right", RIGHT, 100),
     a_minute("left", LEFT, 100),
@@ -99,7 +99,7 @@ GOES = [
     Goes("back", 12, ((0, DOWN),), forward_mm_s=(None, -60)),
     Goes("right", 12, ((0, RIGHT),), turn_deg_s=(None, -30), drift_mm_a_turn=50),
     Goes("left", 12, ((0, LEFT),), turn_deg_s=(30, None), drift_mm_a_turn=50),
-    # A cycle to the side takes 72 ticks: 30 mm a step and less than 10 forward. A curve's takes 56: 20 degrees a cycle.
+    # A cycle to the side takes 64 ticks: 26 mm a step and less than 9 forward. A curve's takes 56: 20 degrees a cycle.
     Goes("side_r", 12, ((0, RIGHT + 16),), sideways_mm_s=(None, -53), forward_mm_s=(-17, 17)),
     Goes("side_l", 12, ((0, LEFT + 16),), sideways_mm_s=(53, None), forward_mm_s=(-17, 17)),
     Goes("turn_r", 12, turn_deg_s=(None, -46)),

@@ -37,9 +37,12 @@ def promise_of(page):
         ("get_up", 1095),  # rolled onto its back as an arm came out from below
         ("get_up", 1070),  # a hand caught below the belly, until its servo was overloaded
         ("get_up_back", 31),
-        ("get_up_back", 1081),
+        ("get_up_back", 1081),  # rolled onto its face
+        ("back", 394),  # leaned back by its soles and its trunk, and was pushed: hips too high, steps too long
+        ("back", 758),
+        ("side_l", 394),
     ],
-)  # rolled onto its face
+)
 def test_stands_on_a_body_on_which_it_fell(page, seed):
     kept, said = promises.stands(IMAGE, promises.number_of(LIBRARY, page), promise_of(page), seed)
     assert kept, said
