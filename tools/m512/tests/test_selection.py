@@ -7,6 +7,8 @@ import pytest
 
 from m512.errors import FileError, WordError
 from m512.files import selection
+from m512.files.image import Image
+from m512.files.page import Page
 from m512.files.text import read_text
 
 TEXT = """motion512 1
@@ -175,3 +177,11 @@ def test_an_empty_page_of_a_board_is_refused_by_its_number(m512, started, lib):
 def test_targets_of_single_pages_are_plain_numbers(m512, lib, action, number):
     result = m512("pages", lib, action, "wave", number, "-o", lib.with_name("new.bin"))
     assert result.exit_code == 2 and "no page number" in result.stderr and not lib.with_name("new.bin").exists()
+
+
+def test_a_damaged_page_without_steps_is_one_of_all_as_it_is_one_by_its_number():
+    image = Image.empty(128)
+    torn = bytearray(image[5].data)
+    torn[100] ^= 1
+    image[5] = Page(torn)
+    assert selection.numbers(["5"], image) == [5] == selection.numbers(["1..9"], image) == selection.numbers(["all"], image)

@@ -147,9 +147,6 @@ class Client:
         """Pages that hold something, damaged ones too."""
         return sorted(self._list())
 
-    def holds_nothing(self, number: int) -> bool:
-        return number not in self._list()
-
     def _names(self) -> dict[int, str]:
         return {number: name for number, (steps, name) in self._list().items() if steps is not None and name}
 

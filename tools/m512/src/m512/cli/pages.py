@@ -151,14 +151,10 @@ def pages(context: click.Context, source: str, bits: str | None, board: str) -> 
 @click.pass_obj
 def list_(source: Source, everything: bool, as_json: bool) -> None:
     """Number, name, steps, play time, links and codes of all pages."""
-    from m512.files.image import is_erased
     from m512.pages.listing import describe, table
 
-    rows = [
-        describe(source.image, n, page)
-        for n, page in source.image.items()
-        if everything or not is_erased(page) and (not page.is_empty or page.fault(source.image.kind))
-    ]
+    used = set(source.image.used())
+    rows = [describe(source.image, n, page) for n, page in source.image.items() if everything or n in used]
     ui.show(json.dumps(rows, indent=2) if as_json else table(rows))
 
 

@@ -83,12 +83,8 @@ class Image:
         return word in self._words().values()
 
     def used(self) -> list[int]:
-        """Pages that hold something; page 0, the trim, among them."""
-        return [number for number, page in self.items() if not page.is_empty and not is_erased(page)]
-
-    def holds_nothing(self, number: int) -> bool:
-        page = self[number]
-        return is_erased(page) or page.is_empty and not page.fault(self.kind)
+        """Pages that hold something, damaged ones too; page 0, the trim, among them."""
+        return [number for number, page in self.items() if not is_erased(page) and (not page.is_empty or page.fault(self.kind))]
 
     def _words(self) -> dict[int, str]:
         """The names as somebody types them."""

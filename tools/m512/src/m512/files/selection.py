@@ -30,10 +30,7 @@ class Pages(Protocol):
         """Whether a page has exactly this name."""
 
     def used(self) -> list[int]:
-        """Pages that hold something."""
-
-    def holds_nothing(self, number: int) -> bool:
-        """Whether a page has neither steps nor a name, and is not damaged."""
+        """Pages that hold something: they have steps or a name, or are damaged."""
 
 
 def find(word: str, names: Mapping[int, str], error: Callable[[str], M512Error], whose: str = "") -> int:
@@ -100,7 +97,7 @@ def _meant(word: str, pages: Pages) -> list[int]:
     span = number_range(word)
     if word != "all" and not span:
         number = pages.find(word)
-        if number and pages.holds_nothing(number):
+        if number and number not in pages.used():
             raise WordError(f"{word}: this page holds nothing")
         return [number]
     low, high = span or (1, NUMBER_MOST)

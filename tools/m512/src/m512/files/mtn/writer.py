@@ -33,11 +33,12 @@ def write(image: Image, version: str = "1.01") -> tuple[bytes, list[str]]:
         lines.append("motor_type=" + " ".join(["0"] * IDS))
     if image.first == 0 and not is_erased(image[0]) and any(image[0].word(2, j) not in (POS_UNUSED, 0) for j in range(JOINTS)):
         losses.add(0, "", "the robot's trim is not in a .mtn")
+    used = set(image.used())
     blank = 0
     for number in range(1, PAGES + 1):
         page = image[number] if number < image.end and not _is_blank(image[number]) else Page()
         _page_losses(page, enabled, partial(losses.add, number, page.title))
-        blank += number < image.end and not image.holds_nothing(number) and _changes_without_effect(page)
+        blank += number in used and _changes_without_effect(page)
         lines += _page_lines(page)
     told = losses.lines()
     if blank:
