@@ -14,7 +14,7 @@ from hex_files import hex_file
 from test_flash import make_app
 
 from m512 import __version__
-from m512.board import bus
+from m512.board import block, bus, ports
 from m512.board.download import Report
 from m512.board.link import Link
 from m512.board.memory import plan
@@ -736,3 +736,26 @@ def test_one_is_no_plural(m512, tmp_path, name, data, one):
 def test_one_flash_page_is_no_plural():
     assert str(Report(128, 1, 0.1, 1)).startswith("1 of 128 flash pages written") and "1 repetition on" in str(Report(128, 1, 0.1, 1))
     assert str(Report(1, 0, 0.1, 0)) == "the flash page was there already"
+
+
+def test_one_cell_that_differs_is_no_plural(m512, board, tmp_path):
+    assert m512("backup", tmp_path / "b", "-p", board.path, "--what", "eeprom").exit_code == 0
+    board.eeprom[5] ^= 1
+    told = m512("restore", tmp_path / "b", "-p", board.path).stderr
+    assert "EEPROM: 1 cell differs\n" in told, told
+
+
+def test_a_dry_run_without_a_board_is_no_success(m512, files, monkeypatch):
+    monkeypatch.setattr(ports, "available", list)
+    result = m512("flash", files / "x.bin", "--dry-run")
+    assert result.exit_code == 6 and "254 flash pages" in result.stderr, result.stderr
+
+
+def test_ctrl_c_leaves_a_loader_that_is_read_at_its_prompt(m512, board, monkeypatch):
+    def stop(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(block.BlockLoader, "read", stop)
+    for words in (("pages", board.path, "list"), ("diff", board.path, board.path)):
+        board.left.clear()
+        assert m512(*words).exit_code == 130 and board.left == [0]

@@ -26,9 +26,11 @@ def read_motions(url: str, board: str = "") -> Image:
             from m512.board import loaders
 
             loader = loaders.enter(link, ui.say, board=board)
-            with ui.phase("Reading") as progress:
-                data = loader.read(*MOTIONS, progress)
-            loader.leave(loaders.STAY)  # the next command finds it at its prompt
+            try:
+                with ui.phase("Reading") as progress:
+                    data = loader.read(*MOTIONS, progress)
+            finally:
+                loader.leave(loaders.STAY)  # the next command finds it at its prompt
             return from_bytes(data)
         return _read_pages(client)
 

@@ -185,14 +185,7 @@ def _look(plan: Any, port: str, board: str) -> list[str]:
     from m512.board.link import Link
 
     bus.refuse(port)
-    try:
-        link = Link(ports.pick(port))
-    except PortError as error:
-        if port:
-            raise
-        ui.say(f"note: no board was looked at ({str(error).splitlines()[0]})")
-        return []
-    with link:
+    with Link(ports.pick(port)) as link:
         try:
             client = Client(link)
         except NoAnswerError as error:
@@ -360,6 +353,7 @@ def _compare(loader: Any, saved: Any, areas: list[str], pages: Any) -> Any:
     from m512.board import backup as backups
     from m512.board.memory import MOTIONS, Record
     from m512.files.image import from_bytes
+    from m512.files.wording import counted
     from m512.pages.difference import images
 
     board = backups.board_of(saved)
@@ -381,9 +375,12 @@ def _compare(loader: Any, saved: Any, areas: list[str], pages: Any) -> Any:
     in_app = len(todo) - len(in_motions)
     if in_app:
         record = Record.of(saved.data["app"])
-        ui.say(f"application: {in_app} flash pages differ" + (f"; the backup holds {record}" if record else ""))
+        ui.say(
+            f"application: {counted(in_app, 'flash page')} {'differs' if in_app == 1 else 'differ'}"
+            + (f"; the backup holds {record}" if record else "")
+        )
     if cells:
-        ui.say(f"EEPROM: {len(cells)} cells differ")
+        ui.say(f"EEPROM: {counted(len(cells), 'cell')} {'differs' if len(cells) == 1 else 'differ'}")
     return todo, cells, changes
 
 
