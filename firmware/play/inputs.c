@@ -14,7 +14,7 @@ void inputs_init(inputs_t *inputs, performer_t *performer, const page_store_t *p
     inputs->performer = performer;
     inputs->pages = pages;
     inputs->settings = settings;
-    inputs->silent_ticks = INPUTS_SILENCE_TICKS;
+    inputs->remote_held.spent = UINT8_MAX;   /* what is down now is no press */
     remote_init(&inputs->remote);
     ring_init(&inputs->typed, inputs->typed_bytes, INPUTS_TYPED_BYTES);
 }
@@ -220,10 +220,11 @@ void inputs_tick(inputs_t *inputs)
         }
     }
     if (inputs->silent_ticks < INPUTS_SILENCE_TICKS && ++inputs->silent_ticks == INPUTS_SILENCE_TICKS) {
+        const bool was_held = inputs->remote_act != REMOTE_ACT_CODE || inputs->remote_held.down != 0;
         inputs->remote_act = REMOTE_ACT_CODE;
         inputs->remote_held.down = 0;
         inputs->remote_held.spent = 0;
-        if (inputs->settings->remote_mode == LINK_HOLD) {
+        if (was_held && inputs->settings->remote_mode == LINK_HOLD) {
             inputs_code(inputs, LINK_CODE_NONE);
         }
     }

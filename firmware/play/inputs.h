@@ -32,7 +32,7 @@ typedef struct {
 /* The buttons of one source. */
 typedef struct {
     uint8_t down;           /* held now */
-    uint8_t spent;          /* down since a play or a stop: they start nothing until they were up */
+    uint8_t spent;          /* down since the start, a play or a stop: they start nothing until they were up */
 } inputs_held_t;
 
 typedef struct {
@@ -47,9 +47,9 @@ typedef struct {
     inputs_held_t panel_held;  /* the arrows */
     uint8_t panel_buttons;
     uint8_t holes;             /* bytes lost before the next typed one */
-    uint8_t silent_ticks;      /* since the last packet with buttons; INPUTS_SILENCE_TICKS: none held */
+    uint8_t silent_ticks;      /* since the start or the last packet with buttons; INPUTS_SILENCE_TICKS: none held */
     uint8_t quiet_ticks;       /* since the last byte; at most INPUTS_ESC_TICKS */
-    bool panel_was_free;   /* all buttons were up once: one held since power-on is no press */
+    bool panel_was_free;   /* all buttons were up once: one held since the start is no press */
     bool pc_waits;         /* the PC has been sent XOFF */
     bool refused;
     steer_t steer;

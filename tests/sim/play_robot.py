@@ -70,10 +70,11 @@ def motions():
 
 
 def robot(servos=JOINTS, pages=None, image=IMAGE, kind="cm5", **options):
-    """A board that has come to its first prompt and has asked each servo how it is."""
+    """A board that has come to its first prompt, has asked each servo how it is and has heard no remote for so long that none
+    is held."""
     board = Board(kind=kind, images=[image], motions=motions() if pages is None else pages, servos=servos, **options)
     board.expect("] ", ms=2000)
-    board.run(ms=300)
+    board.run(ms=510)
     return board
 
 

@@ -97,6 +97,39 @@ def test_a_silent_servo_starts_one_play_a_press(mode):
     assert text.count("Broken off") + text.count("Ended") + text.count("No servo") <= 1, text
 
 
+@pytest.mark.parametrize("mode", ["latch", "hold", "drive"])
+@pytest.mark.parametrize("start", ["power", "MODE", "reset"])
+def test_a_button_held_at_the_start_moves_nothing_until_it_was_up(start, mode):
+    board = robot()
+    ask(board, f"remote {mode}")
+    board.run(ms=1000)
+    if start == "power":
+        board.power_off()
+        board.run(ms=500)
+        board.power_on()
+    elif start == "MODE":
+        board.reset()
+    else:
+        board.send("@reset\r")
+        board.run(ms=100)
+    board.clear_trace()
+    text = hold(board, BUTTON_1, 4000)
+    assert "18 servos" in text and starts(text) == 0, text
+    assert not any(servo.torque for servo in board.servos)
+    hold(board, 0, REPEAT_MS)
+    assert starts(hold(board, BUTTON_1, 4000)) == 1
+
+
+def test_a_press_half_a_second_after_the_start_counts():
+    board = robot()
+    board.power_off()
+    board.run(ms=500)
+    board.power_on()
+    board.expect("] ", ms=2000)
+    board.run(ms=510)
+    assert starts(hold(board, BUTTON_1, 4000)) == 1
+
+
 def test_start_within_50_ms_of_the_press_is_not_undone_by_the_second_packet():
     """Without an approach the first step begins 20 ms after the packet, so START is a soft stop."""
     board = robot(servos=[11, 12])

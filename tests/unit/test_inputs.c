@@ -281,6 +281,90 @@ static void test_inputs_button_held_before_a_play_may_start_nothing_behind_it(vo
     TEST_ASSERT_EQUAL_STRING("", told);
 }
 
+/* The program begins again, by MODE or the power. */
+static void start_anew(void)
+{
+    inputs_init(&inputs, &performer, &pages, &settings);
+    memset(told, 0, sizeof told);
+}
+
+static void test_inputs_button_held_at_the_start_is_no_press(void)
+{
+    const uint8_t modes[] = {LINK_LATCH, LINK_HOLD, SETTINGS_REMOTE_DRIVE};
+    for (uint8_t i = 0; i < sizeof modes; i++) {
+        setUp();
+        settings.remote_mode = modes[i];
+        start_anew();
+        hold(1, 100);
+        TEST_ASSERT_EQUAL_STRING("", told);
+        remote(0);
+        remote(1);
+        TEST_ASSERT_EQUAL_STRING("start 2 1;", told);
+    }
+}
+
+static void test_inputs_another_code_after_the_start_is_a_press(void)
+{
+    start_anew();
+    hold(1, 3);
+    remote(16);
+    TEST_ASSERT_EQUAL_STRING("start 5 16;", told);
+}
+
+static void test_inputs_fingers_that_leave_a_chord_held_at_the_start_start_nothing(void)
+{
+    start_anew();
+    hold(1 + 4, 3);
+    hold(1, 20);
+    TEST_ASSERT_EQUAL_STRING("", told);
+}
+
+static void test_inputs_silence_is_counted_from_the_start(void)
+{
+    start_anew();
+    ticks(63);
+    remote(1);
+    TEST_ASSERT_EQUAL_STRING("", told);
+    start_anew();
+    ticks(64);
+    remote(1);
+    TEST_ASSERT_EQUAL_STRING("start 2 1;", told);
+}
+
+static void test_inputs_remote_that_says_nothing_is_held_after_the_start_is_believed(void)
+{
+    start_anew();
+    remote(0);
+    remote(1);
+    TEST_ASSERT_EQUAL_STRING("start 2 1;", told);
+}
+
+static void test_inputs_pause_and_stop_held_at_the_start_are_no_press(void)
+{
+    start_anew();
+    hold(256, 3);
+    performer.state = PERFORMER_PLAY;   /* called by its number */
+    memset(told, 0, sizeof told);
+    hold(256, 3);
+    TEST_ASSERT_EQUAL_STRING("", told);
+    start_anew();
+    performer.state = PERFORMER_IDLE;
+    hold(512, 3);
+    performer.state = PERFORMER_PLAY;
+    memset(told, 0, sizeof told);
+    hold(512, 3);
+    TEST_ASSERT_EQUAL_STRING("", told);
+}
+
+static void test_inputs_hold_mode_does_not_miss_a_remote_that_was_not_heard_since_the_start(void)
+{
+    settings.remote_mode = LINK_HOLD;
+    start_anew();
+    performer.state = PERFORMER_PLAY;   /* called by its number */
+    ticks(200);
+    TEST_ASSERT_EQUAL_STRING("", told);
+}
+
 static void test_inputs_typed_code_is_always_a_press(void)
 {
     inputs_code(&inputs, 1);
@@ -477,6 +561,13 @@ int main(void)
     RUN_TEST(test_inputs_fingers_that_leave_a_chord_do_not_call_back_a_play_that_is_stopping);
     RUN_TEST(test_inputs_steering_is_no_press);
     RUN_TEST(test_inputs_button_held_before_a_play_may_start_nothing_behind_it);
+    RUN_TEST(test_inputs_button_held_at_the_start_is_no_press);
+    RUN_TEST(test_inputs_another_code_after_the_start_is_a_press);
+    RUN_TEST(test_inputs_fingers_that_leave_a_chord_held_at_the_start_start_nothing);
+    RUN_TEST(test_inputs_silence_is_counted_from_the_start);
+    RUN_TEST(test_inputs_remote_that_says_nothing_is_held_after_the_start_is_believed);
+    RUN_TEST(test_inputs_pause_and_stop_held_at_the_start_are_no_press);
+    RUN_TEST(test_inputs_hold_mode_does_not_miss_a_remote_that_was_not_heard_since_the_start);
     RUN_TEST(test_inputs_typed_code_is_always_a_press);
     RUN_TEST(test_inputs_arrow_left_of_a_chord_starts_nothing_after_start);
     RUN_TEST(test_inputs_arrows_are_codes);
