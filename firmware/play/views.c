@@ -197,7 +197,7 @@ static const char *reset_text_P(uint8_t cause)
         return TEXT_P("brown-out");
     }
     if (cause & SYSTEM_RESET_WATCHDOG) {
-        return TEXT_P("watchdog");
+        return TEXT_P("on request or watchdog");   /* a restart on purpose is one, too */
     }
     if (cause & SYSTEM_RESET_EXTERNAL) {
         return TEXT_P("reset button");

@@ -449,3 +449,9 @@ def test_where_names_a_page_and_a_step_of_it():
     told = [(before, after) for before, after in zip(places, places[1:]) if before and after]
     assert len(told) > 200 and set(place for pair in told for place in pair) == set(order)
     assert [pair for pair in told if (order.index(pair[1]) - order.index(pair[0])) % 5 > 2] == []
+
+
+def test_a_restart_on_request_does_not_read_like_a_crash():
+    board = robot()
+    board.send("@reset\r")
+    board.expect("last reset: on request or watchdog", ms=3000)
