@@ -454,6 +454,7 @@ static void watch_computer(performer_t *performer)
     if (bus_was_lost()) {
         performer_event_put(&performer->events, PERFORMER_EV_BUS_LOST, 0, 0, 0);
         release(performer, SERVO_LINK_ALL);
+        performer->servos->torque = 0;   /* until somebody answers */
     }
     if (system_is_asked_to_end()) {
         performer_break(performer);

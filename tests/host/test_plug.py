@@ -59,6 +59,32 @@ def test_a_plug_pulled_while_nothing_plays_is_named_too(make, files):
     assert goals_since_it_is_back(robot) == []
 
 
+def test_while_the_plug_is_out_all_count_as_switched_off(make, files):
+    robot = make(motions=files).run()
+    robot.expect("] ")
+    assert " OK" in robot.ask("on")
+    assert "Torque on: 1-18" in robot.ask("status")
+    robot.pull()
+    robot.expect("The servo adapter is gone")
+    assert "Torque on: none" in robot.ask("status")
+
+
+def test_what_is_advised_after_a_search_without_the_plug_helps(make, files):
+    robot = make(motions=files).run()
+    robot.expect("] ")
+    robot.pull()
+    robot.expect("The servo adapter is gone")
+    assert "0 servos: none" in robot.ask("servos find")
+    assert "then search again" in robot.ask("on")
+    robot.plug()
+    robot.told("the servo adapter is back")
+    assert "then search again" in robot.ask("on")
+    assert "18 servos: 1-18" in robot.ask("servos find")
+    assert " OK" in robot.ask("on")
+    robot.send("play 1\r")
+    robot.expect("Ended after page 1", len(robot.console))
+
+
 def test_lost_and_false_bytes_lose_no_servo_and_make_no_leap(make, files, tmp_path):
     trace = tmp_path / "trace.csv"
     robot = make(motions=files, adapter=["--drop", "0.01", "--flip", "0.01", "--latency", "2", "--jitter", "1"], bus=["--trace", trace]).run()
