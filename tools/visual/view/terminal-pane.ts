@@ -45,13 +45,11 @@ export class TerminalPane extends HTMLElement {
             theme: { background: '#10151a', foreground: '#d8e0e6', cursor: '#6db3f8' },
         });
         this.terminal = terminal;
-        terminal.open(screen);
-        terminal.textarea?.setAttribute('aria-label', TEXTS.terminal.terminal);
         // Tab goes on to the next thing, as everywhere: no firmware wants it, and a keyboard must get out of here.
         terminal.attachCustomKeyEventHandler(event => event.key !== 'Tab');
         terminal.onData(text => this.session.type(new TextEncoder().encode(text)));
         terminal.onBinary(text => this.session.type(Uint8Array.from(text, c => c.charCodeAt(0))));
-        const observer = new ResizeObserver(() => this.fit(terminal));
+        const observer = new ResizeObserver(() => this.fit(terminal, screen));
         observer.observe(this);
         this.disposals.push(
             this.session.onText(bytes => terminal.write(bytes)),
@@ -86,10 +84,18 @@ export class TerminalPane extends HTMLElement {
         this.full.setAttribute('aria-pressed', String(this.classList.toggle('full')));
     }
 
-    private fit(terminal: Terminal): void {
+    /** xterm measures its letters on the screen and keeps no width of 0: opened while nobody sees it, it would measure every one of them
+     *  again with every line of the robot, which takes 70 ms of a slow computer. */
+    private open(terminal: Terminal, screen: HTMLElement): void {
+        terminal.open(screen);
+        terminal.textarea?.setAttribute('aria-label', TEXTS.terminal.terminal);
+    }
+
+    private fit(terminal: Terminal, screen: HTMLElement): void {
         const width = this.clientWidth - 24;
         const height = this.clientHeight - 24 - this.full.offsetHeight - BELOW_PX;
         if (width <= 0 || height <= 0) return;
+        if (!terminal.element) this.open(terminal, screen);
         const byWidth = width / (COLUMNS * LETTER.width);
         const byHeight = height / (ROWS_MOST * LETTER.height);
         const size = Math.max(FONT.least, Math.min(FONT.most, byWidth, Math.max(byHeight, FONT.least)));

@@ -118,3 +118,32 @@ test('without WebAssembly a sentence says so, and names no other browser', async
     await person.page.getByRole('alert').filter({ hasText: 'This browser runs no WebAssembly' }).waitFor();
     await person.leave();
 });
+
+/** In the browser: counts what is asked of the width of things in the terminal, each of which lays out the page again. */
+function countWidths(): void {
+    const { prototype } = HTMLElement;
+    const width = Object.getOwnPropertyDescriptor(prototype, 'offsetWidth');
+    const counts = { widths: 0 };
+    Object.assign(window, { counts });
+    Object.defineProperty(prototype, 'offsetWidth', {
+        get(this: HTMLElement): unknown {
+            if (this.closest('terminal-pane')) counts.widths++;
+            return width?.get?.call(this);
+        },
+    });
+}
+
+test('a terminal that nobody has looked at measures no letters while the robot says what it plays, and shows all of it when it is opened', async () => {
+    const person = await Visitor.come(suite.browser, suite.address, {
+        hasPicture: false,
+        hasPhysics: false,
+        before: page => page.addInitScript(countWidths),
+    });
+    await person.untilStanding();
+    await person.button('Walk').click();
+    await person.untilScreenSays(/Page 22 step 4.*Page 22 step 4/s);
+    expect(await person.page.evaluate(() => (window as unknown as { counts: { widths: number } }).counts.widths)).toBe(0);
+    await person.open('Terminal');
+    await person.page.locator('terminal-pane .xterm-rows').filter({ hasText: 'walk_' }).waitFor();
+    await person.leave();
+});
