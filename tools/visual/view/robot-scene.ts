@@ -22,6 +22,7 @@ import type { Body } from '../model/body.ts';
 import type { Place, Vector } from '../model/space.ts';
 import { chaseTurn, headingOf } from './chase.ts';
 import { glide } from './glide.ts';
+import { PictureAside } from './picture-aside.ts';
 import { PictureChange } from './picture-change.ts';
 import type { Quality } from './picture-quality.ts';
 import { RobotFigure } from './robot-figure.ts';
@@ -52,6 +53,7 @@ export class RobotScene {
     /** There is no graphics chip, or the browser may not use it. */
     readonly isSoftware: boolean;
     private readonly renderer: WebGLRenderer;
+    private readonly aside: PictureAside | null;
     private readonly scene = new Scene();
     private readonly camera = new PerspectiveCamera(32, 1, 0.02, 60);
     private readonly place = new Room(this.scene);
@@ -64,7 +66,9 @@ export class RobotScene {
     /** Throws when the browser has no WebGL. */
     constructor(canvas: HTMLCanvasElement, body: Body) {
         this.isSoftware = drawsBySoftware();
-        this.renderer = new WebGLRenderer({ canvas, antialias: !this.isSoftware });
+        this.aside = this.isSoftware ? new PictureAside(canvas) : null;
+        this.renderer = new WebGLRenderer({ canvas: this.aside?.canvas ?? canvas, antialias: !this.isSoftware });
+        this.renderer.domElement.addEventListener('webglcontextrestored', () => this.redraw());
         this.renderer.shadowMap.enabled = true;
         this.renderer.shadowMap.type = PCFShadowMap;
         this.figure = new RobotFigure(body);
@@ -135,8 +139,16 @@ export class RobotScene {
         this.controls.dampingFactor = glide(DAMPING, elapsedMs); // it glides on after a gesture
         this.controls.update();
         const isNew = this.change.take(this.scene, this.camera);
-        if (isNew) this.renderer.render(this.scene, this.camera);
+        if (isNew) {
+            this.renderer.render(this.scene, this.camera);
+            this.aside?.show(this.renderer.getContext() as WebGL2RenderingContext); // three has no other
+        }
         return isNew;
+    }
+
+    /** What was drawn last is not to be seen yet. */
+    get isBusy(): boolean {
+        return this.aside?.isBusy === true;
     }
 
     /** What is under a point of the picture (-1..1, y up). */
@@ -199,6 +211,7 @@ export class RobotScene {
         this.controls.dispose();
         this.figure.dispose();
         this.place.dispose();
+        this.aside?.dispose();
         this.renderer.dispose();
     }
 

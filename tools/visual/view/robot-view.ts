@@ -111,10 +111,13 @@ export class RobotView extends HTMLElement {
         let beforeMs = 0;
         let tookMs = 0;
         let wasNew = false;
+        let hasRobot = false;
         let isDrawn = false;
         const draw = (nowMs: number): void => {
             request = requestAnimationFrame(draw);
+            if (scene.isBusy) return;
             if (wasNew) tookMs = nowMs - beforeMs; // the browser asks again when it is through with it
+            if (hasRobot && !isDrawn) isDrawn = performance.mark(ROBOT_DRAWN) !== null;
             wasNew = false;
             const elapsedMs = nowMs - beforeMs;
             if (elapsedMs < this.quality.restMs(tookMs)) return;
@@ -124,7 +127,7 @@ export class RobotView extends HTMLElement {
             if (this.grabbed) scene.pull(this.grabbed.link, this.grabbed.point, this.grabbed.target);
             wasNew = scene.draw(elapsedMs);
             this.isStill = !wasNew;
-            if (this.state && !isDrawn) isDrawn = performance.mark(ROBOT_DRAWN) !== null;
+            hasRobot = this.state !== null;
         };
         request = requestAnimationFrame(draw);
         this.disposals.push(() => cancelAnimationFrame(request));
@@ -198,7 +201,6 @@ export class RobotView extends HTMLElement {
             this.speak();
         });
         canvas.addEventListener('blur', () => this.pose?.keyUp());
-        canvas.addEventListener('webglcontextrestored', () => this.scene?.redraw());
     }
 
     private at(event: PointerEvent, dx = 0, dy = 0): readonly [number, number] {

@@ -58,6 +58,46 @@ test.each([
     await person.leave();
 });
 
+interface TraceEvent {
+    readonly name: string;
+    readonly ts: number;
+    /** Microseconds. */
+    readonly dur: number;
+    readonly tid: number;
+    readonly pid: number;
+}
+
+/** Of the copies of a drawn picture: how many there were, and how many the thread that asked has waited for. */
+function copies(trace: readonly TraceEvent[]): { readonly all: number; readonly waited: number } {
+    const reads = trace.filter(({ name }) => name === 'GLES2::ReadPixels');
+    const waits = trace.filter(({ name }) => name === 'CommandBufferHelper::Finish');
+    const isIn = (outer: TraceEvent, { pid, tid, ts }: TraceEvent): boolean =>
+        pid === outer.pid && tid === outer.tid && ts >= outer.ts && ts <= outer.ts + outer.dur;
+    return { all: reads.length, waited: reads.filter(read => waits.some(wait => isIn(read, wait))).length };
+}
+
+/** Different colours along a row of the picture. */
+function coloursOfRow(canvas: HTMLElement | SVGElement, share: number): number {
+    const picture = canvas as HTMLCanvasElement;
+    const row = picture.getContext('2d')?.getImageData(0, Math.round(share * (picture.height - 1)), picture.width, 1);
+    return new Set(new Uint32Array(row?.data.buffer ?? new ArrayBuffer())).size;
+}
+
+test('no graphics chip: the page never waits for a picture of a robot that walks, and floor is below and sky above', async () => {
+    const person = await Visitor.come(suite.browser, suite.address, { hasPhysics: false });
+    await person.untilStanding();
+    await suite.browser.startTracing(person.page, { categories: ['gpu'] });
+    await person.button('Walk').click();
+    await person.untilScreenSays(/Page 22 step 4.*Page 22 step 4/s);
+    const { traceEvents } = JSON.parse((await suite.browser.stopTracing()).toString()) as { readonly traceEvents: readonly TraceEvent[] };
+    const { all, waited } = copies(traceEvents);
+    expect(all).toBeGreaterThan(0);
+    expect(waited).toBe(0);
+    const picture = person.page.locator('robot-view canvas');
+    expect(await picture.evaluate(coloursOfRow, 0)).toBeLessThan(await picture.evaluate(coloursOfRow, 1));
+    await person.leave();
+});
+
 test('an old machine: no picture, no serial port, no physics', async () => {
     const browser = await startBrowser('--disable-3d-apis');
     try {

@@ -210,9 +210,11 @@ export class Visitor {
         return (await drawn.jsonValue()) ?? NaN;
     }
 
-    /** Waits until the firmware answers and nothing plays; with physics, until the robot stands by itself. */
+    /** Waits until the firmware answers and nothing plays, and that is to be seen; with physics, until the robot stands by itself. */
     async untilStanding(): Promise<void> {
         await this.page.locator('status-bar .doing').filter({ hasText: STANDS }).waitFor();
+        const hasPicture = (await this.page.locator('robot-view canvas').count()) > 0;
+        if (hasPicture) await this.untilDrawn(); // by software a second later
     }
 
     /** Until what has changed is on the screen: a mouse hits what is seen there. */
