@@ -9,10 +9,11 @@ import signal
 import subprocess
 import sys
 import termios
+import time
 
 import pytest
 
-from m512.files.image import Image
+from m512.files.image import Image, from_bytes
 from tests.host.pc_robot import SYNC_WRITE, program, until
 from tests.sim.made_page import page
 
@@ -154,11 +155,11 @@ def test_a_file_that_is_not_ours_is_named_and_left_alone(make, files, tmp_path):
 class Terminal:
     """The program on a terminal of its own."""
 
-    def __init__(self, robot):
+    def __init__(self, robot, image="play"):
         self.master, self.slave = pty.openpty()
         self.before, self.shown = termios.tcgetattr(self.slave), b""
         self.process = subprocess.Popen(
-            [program("play"), "--robot", robot.folder / "robot", "--motions", robot.motions, robot.port],
+            [program(image), "--robot", robot.folder / "robot", "--motions", robot.motions, robot.port],
             stdin=self.slave,
             stdout=self.slave,
             stderr=self.slave,
@@ -227,6 +228,47 @@ def test_keys_are_buttons_of_the_panel(terminal):
     terminal.expect("Stopped after page 1")
     terminal.send(b"\x03")
     assert terminal.ended() == 0
+
+
+@pytest.fixture
+def editor(make, files):
+    one = Terminal(make(motions=files), "edit")
+    yield one
+    one.close()
+
+
+def test_the_first_ctrl_c_is_for_edit_and_the_second_ends_it(editor, tmp_path):
+    editor.expect("Ctrl-C twice ends")
+    editor.expect("HELP explains")
+    editor.send(b"page 99\r")
+    editor.send(b"name host\r")
+    editor.expect("* unsaved")
+    editor.send(b"nonsense\x03")  # on a board it leaves the line
+    editor.expect("Ctrl-C again within 2 s ends the program: unsaved edits are lost")
+    editor.send(b"save\r")
+    until(lambda: from_bytes((tmp_path / "robot" / "pages.bin").read_bytes())[99].name == b"host", lambda: f"not saved: {editor.shown!r}")
+    time.sleep(2.5)  # the next Ctrl-C is a first one again
+    editor.send(b"\x03\x03")
+    assert editor.ended() == 0
+    assert termios.tcgetattr(editor.slave) == editor.before
+
+
+def test_a_ctrl_c_after_two_seconds_is_a_first_one_again(editor):
+    editor.expect("HELP explains")
+    for _ in range(2):
+        editor.shown = b""
+        editor.send(b"\x03")
+        editor.expect("Ctrl-C again")
+        time.sleep(2.5)
+    editor.send(b"\x1d")
+    assert editor.ended() == 0
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
+def test_a_signal_ends_edit_at_once(editor, number):
+    editor.expect("HELP explains")
+    editor.process.send_signal(number)
+    assert editor.ended() == 0
 
 
 # A program that hangs

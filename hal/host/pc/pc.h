@@ -17,6 +17,7 @@ typedef struct {
     const char *pty_link;   /* console on a pty; "": without a link */
     int tcp_port;           /* console on 127.0.0.1; 0: no */
     bool off;               /* switch torque off at the end */
+    bool has_edits;         /* the end may lose what was not saved: on a terminal it takes Ctrl-C twice */
 } pc_options_t;
 
 extern pc_options_t pc_options;

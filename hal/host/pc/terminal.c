@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * terminal.c - the console: this terminal (or pipe), a pty, or a socket on 127.0.0.1. On a terminal Ctrl-T is the prefix
- * for the panel's buttons (an arrow, or s for START), and Ctrl-C or Ctrl-] ends the program; all else goes to the robot. */
+ * for the panel's buttons (an arrow, or s for START), and Ctrl-C or Ctrl-] ends the program; all else goes to the robot.
+ * Edit gets the first Ctrl-C, as on a board, where it leaves a line or breaks a play. The second ends the program. */
 #include "machine.h"
 
 #include <arpa/inet.h>
@@ -21,6 +22,8 @@
 enum { EXIT_PORT = 6, KEY_END = 0x03, KEY_LEAVE = 0x1D, KEY_PREFIX = 0x14, KEY_ESC = 0x1B };
 #define MS 2000u
 #define BUTTON_HELD (200u * MS)
+#define AGAIN (2000u * MS)         /* the second Ctrl-C comes within that */
+#define ANSWERED (100u * MS)       /* then Edit has drawn what a Ctrl-C changes */
 #define READER_GONE (1000u * MS)   /* who has read nothing for so long gets no more, as on a cable */
 
 static struct {
@@ -32,6 +35,8 @@ static struct {
     uint8_t escape;           /* characters of Ctrl-T and an arrow so far */
     uint8_t button;
     uint64_t button_until, written_at;
+    uint64_t end_until;       /* a Ctrl-C before that moment ends the program */
+    bool must_warn;
 } console = {.in = -1, .out = -1, .listener = -1, .pty_other = -1};
 
 static const char *pty_link;   /* to remove at the end */
@@ -48,7 +53,8 @@ static void open_terminal(void)
         raw = console.before;
         cfmakeraw(&raw);
         tcsetattr(STDIN_FILENO, TCSANOW, &raw);
-        machine_tell("Ctrl-C ends, Ctrl-T and an arrow or s is a button of the panel");
+        machine_tell(pc_options.has_edits ? "Ctrl-C twice ends, Ctrl-T and an arrow or s is a button of the panel"
+                                          : "Ctrl-C ends, Ctrl-T and an arrow or s is a button of the panel");
     }
 }
 
@@ -175,6 +181,28 @@ static bool take_panel_key(uint8_t byte)
     return true;
 }
 
+/* Whether this Ctrl-C ends the program. */
+static bool is_last_ctrl_c(void)
+{
+    const uint64_t now = machine_now();
+    if (!pc_options.has_edits || machine_is_asked_to_end() || now < console.end_until) {
+        return true;
+    }
+    console.end_until = now + AGAIN;
+    console.must_warn = true;
+    return false;
+}
+
+/* In the last row of the terminal, between two texts of Edit: its screen stays as it is. */
+static void warn(void)
+{
+    if (console.must_warn && machine_now() + AGAIN > console.end_until + ANSWERED) {
+        console.must_warn = false;
+        dprintf(console.out, "\0337\033[999;1H%s\033[K\0338",
+                "Ctrl-C again within 2 s ends the program: unsaved edits are lost");
+    }
+}
+
 static uint16_t take_keys(uint8_t *bytes, uint16_t count)
 {
     uint16_t kept = 0;
@@ -182,7 +210,7 @@ static uint16_t take_keys(uint8_t *bytes, uint16_t count)
         if (take_panel_key(bytes[i])) {
             continue;
         }
-        if (bytes[i] == KEY_END || bytes[i] == KEY_LEAVE) {
+        if (bytes[i] == KEY_LEAVE || (bytes[i] == KEY_END && is_last_ctrl_c())) {
             machine_ask_to_end();
         } else {
             bytes[kept++] = bytes[i];
@@ -217,6 +245,7 @@ uint16_t machine_console_write(const uint8_t *bytes, uint16_t count)
     const uint64_t now = machine_now();
     if (count == 0) {
         console.written_at = now;
+        warn();
         return 0;
     }
     struct pollfd entry = {.fd = console.out, .events = POLLOUT};
