@@ -20,7 +20,7 @@ TEXT_NAMED(first_wave,
            "name hi;"
            "play     CR stops it, space breaks it off;"
            "save;"
-           "Keys: arrows, Home End PgUp PgDn, [ ] -1 +1, { } -10 +10, space ????;"
+           "Keys: arrows, Home End PgUp PgDn, [ ] -1 +1, { } -10 +10, space torque on/off;"
            "Commands:;");
 enum { FIRST_LINES = 10 };
 

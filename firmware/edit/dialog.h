@@ -21,7 +21,7 @@
 #define DIALOG_LINE_BYTES 112u    /* a line of a program (requests.h); the screen shows 77 */
 #define DIALOG_HISTORY_BYTES 30u
 #define DIALOG_NO_PAGE 0xFFu
-enum { LATE_TICKS = 64 };         /* half a second in which a space is meant for the play or list that has just ended */
+enum { LATE_TICKS = 96 };         /* 0.75 s: a space so soon after a list, a play or a space without effect belongs to it */
 enum { WELL_TICKS = 128 };        /* a second: long enough to be read */
 
 typedef enum {
@@ -44,7 +44,7 @@ typedef struct {
     uint8_t lines;                 /* of it on the screen */
     uint8_t list_first, list_last; /* pages of LIST and CHECK */
     uint8_t take_page, take_first, take_last; /* steps noted by TAKE */
-    uint8_t late_ticks;            /* counts down from LATE_TICKS when a play or a list has ended */
+    uint8_t late_ticks;            /* counts down; until then a space changes no cell */
     uint8_t well_ticks;            /* counts down from WELL_TICKS while the row shows that all servos are well */
     bool step_due;                 /* a step has begun; the row will show it when the line has room */
     bool faults_stand;             /* the row has shown faults, and not yet that all servos are well */

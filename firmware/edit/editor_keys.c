@@ -16,6 +16,7 @@
 #include "text.h"
 #include "tick.h"
 
+enum { REPEAT_TICKS = 20 };   /* 150 ms: a held key, no second press */
 enum { PAGE_ROWS = 8, ESC_QUIET_TICKS = 7 };
 enum { SWALLOW_TICKS = 60, STREAM_TICKS = 4 };   /* a person's next letter; a stream's next byte */
 enum { MESSAGE_COLUMN_MAX = 40 };   /* after a longer line a message would be cut */
@@ -139,6 +140,16 @@ static void move_key(uint8_t key)
     }
 }
 
+/* A person pages a list with spaces, or holds the key down: those that follow another change no cell, however many. */
+static void space_key(void)
+{
+    const bool is_late = the_dialog.late_ticks != 0;
+    if (!is_late) {
+        cmd_cell_space();
+    }
+    the_dialog.late_ticks = is_late ? LATE_TICKS : REPEAT_TICKS;
+}
+
 /* true: the key changes the cell under the cursor. */
 static bool cell_key(uint8_t key)
 {
@@ -152,9 +163,7 @@ static bool cell_key(uint8_t key)
         cmd_cell_change(key == '}' ? 10 : -10);
         return true;
     case ' ':
-        if (the_dialog.late_ticks == 0) {
-            cmd_cell_space();
-        }
+        space_key();
         return true;
     default:
         return false;

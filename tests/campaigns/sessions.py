@@ -95,6 +95,7 @@ PLACES = (
     "table of Edit as flash holds it",
     "table of Edit after lines and keys",
     "line refused by Edit",
+    "space without effect in Edit",
     "page saved as Edit shows it",
     "screen drawn again",
     "play in Edit ended where its page says",

@@ -84,7 +84,7 @@ def test_keys_do_not_leave_the_range_and_bytes_wrap(r):
 
 def test_space_marks_torque_off_and_back(r):
     r.line("goto 1 1")
-    r.keys(" ")
+    r.keys(" ", ms=200)
     assert r.cell(1, 1) == "????"
     r.keys("]")
     assert r.cell(1, 1) == "????"
@@ -93,7 +93,7 @@ def test_space_marks_torque_off_and_back(r):
     r.line("goto 1 0")
     r.keys("]")
     assert r.cell(1, 0) == "----"
-    r.keys(" ")
+    r.keys(" ", ms=200)
     assert r.cell(1, 0) == "????"
     r.keys(" ")
     assert r.cell(1, 0) == "----"

@@ -266,6 +266,6 @@ def test_help_list_find_show_and_give_the_screen_back(r):
     assert r.command == "] p"
     r.keys("\x03")
     r.line("help")
-    assert "page" in r.show()
+    assert "page" in r.show() and "space torque on/off" in r.show()
     r.keys("q")
     assert r.text(2, 65, 15) == "PageNumber:0001"

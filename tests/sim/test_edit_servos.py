@@ -124,7 +124,7 @@ def test_set_and_keys_on_the_work_pose_move_the_servo():
         assert r.board.servos[4].goal == 601
         r.keys("{")
         assert r.board.servos[4].goal == 591 and r.board.servos[4].table[32] == 8
-        r.keys(" ")
+        r.keys(" ", ms=200)
         assert r.cell(0, 4) == "????" and not r.board.servos[4].torque
         r.keys(" ")
         assert r.board.servos[4].torque and r.cell(0, 4) != "????"
@@ -198,3 +198,31 @@ def test_mon_says_where_it_is():
     with start() as r:
         assert r.line("mon") == r.line("monitor").replace("monitor MON", "mon MON") and "the image Monitor" in r.message
         assert not r.unsaved
+
+
+def test_space_behind_a_list_switches_no_joint_until_there_was_none_for_a_while():
+    """A person pages with spaces, and has some left over when the table is back."""
+    with start(rows=24) as r:
+        r.line("on")
+        r.line("goto 0 1")
+        r.keys("help\r", ms=700)
+        for _ in range(9):
+            r.keys(" ", ms=600)
+            assert r.board.servos[1].torque
+        assert r.text(1, 65, 4) == "pose"
+        r.settle(900)
+        r.keys(" ")
+        assert not r.board.servos[1].torque
+
+
+def test_held_space_switches_a_joint_once():
+    with start() as r:
+        r.line("goto 0 1")
+        for _ in range(60):
+            r.board.send(" ")
+            r.board.run(ms=33)
+        r.settle()
+        assert r.board.servos[1].torque
+        r.settle(900)
+        r.keys(" ")
+        assert not r.board.servos[1].torque

@@ -245,12 +245,15 @@ static void test_space_takes_a_position_away_and_gives_it_back(void)
 {
     type("goto 1 3\r");
     type(" ");
+    run_ms(200);
     TEST_ASSERT_EQUAL_STRING("????", cell(1, 3));
     TEST_ASSERT_EQUAL_HEX16(0x2000 + 403, word_at(70));
     type(" ");
+    run_ms(200);
     TEST_ASSERT_EQUAL_STRING("0403", cell(1, 3));
     type("goto 1 31\r");
     type(" ");
+    run_ms(200);
     TEST_ASSERT_EQUAL_UINT8(0, the_session.cells[64 + 62]);
     TEST_ASSERT_FALSE(the_session.is_changed);
 }
@@ -259,10 +262,12 @@ static void test_space_on_the_work_pose_holds_and_lets_go(void)
 {
     type("goto 0 2\r");
     type(" ");
+    run_ms(200);
     TEST_ASSERT_EQUAL_UINT8(1, fake_bus_servo(2)->table[24]);
     TEST_ASSERT_EQUAL_UINT16(512, fake_bus_word(2, 30));
     TEST_ASSERT_EQUAL_STRING("0512", cell(0, 2));
     type(" ");
+    run_ms(200);
     TEST_ASSERT_EQUAL_UINT8(0, fake_bus_servo(2)->table[24]);
     TEST_ASSERT_EQUAL_STRING("????", cell(0, 2));
 }

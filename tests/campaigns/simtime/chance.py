@@ -384,7 +384,7 @@ class Editor(Person):
             if kind < 0.2:
                 x = rng.choice((0, 1, 2, 3, 8, 9, 9))
                 self.line(f"goto {x} {rng.randrange(3, 20) if x == 9 else rng.choice((1, 2, 3, 12, 31, 32)) if x < 8 else rng.randrange(31)}", 20)
-                change = rng.choice((b"]", b"[", b"}", b"{", b" ", f"set {rng.choice((0, 1, 7, 100, 255, 600, 1023, 1024))}\r"))
+                change = rng.choice((b"]", b"[", b"}", b"{", b"  ", f"set {rng.choice((0, 1, 7, 100, 255, 600, 1023, 1024))}\r"))
                 self.act(typed(change), LOOKED_AT)
                 if rng.random() < 0.5:
                     self.line("undo", LOOKED_AT)

@@ -6,6 +6,8 @@
 #include <string.h>
 #include <strings.h>
 
+#define HELD 12u                   /* ticks: less than the 150 ms of a held key; as long may a key take to be read */
+#define LEFT_OVER 88u              /* ticks: less than the 0.75 s after a list, a play, or a space without effect */
 #define LATER 16u                  /* ticks: a key so long after a question answers it */
 
 editor_t editor;
@@ -111,6 +113,13 @@ static void add(int much)
     }
 }
 
+/* A space that comes too soon behind another, behind a list or a play, changes nothing. */
+static void space(uint32_t mute, uint32_t counts)
+{
+    editor.mute_tick = session.tick + mute;
+    editor.counts_tick = session.tick + counts;
+}
+
 static void mark_off(void)
 {
     const unsigned x = editor.now.x, y = editor.now.y;
@@ -191,7 +200,14 @@ static void table_key(uint8_t key)
         add(key == ']' ? 1 : -1);
     } else if (key == '}' || key == '{') {
         add(key == '}' ? 10 : -10);
+    } else if (key == ' ' && session.tick < editor.mute_tick) {
+        space(LEFT_OVER, SECOND);
+        reached("space without effect in Edit");
+    } else if (key == ' ' && session.tick < editor.counts_tick) {
+        space(0, 2u * SECOND);
+        editor_lose();
     } else if (key == ' ') {
+        space(HELD, SECOND / 4u);
         mark_off();
     } else if (key == '\r') {
         editor.mode = LINE;
@@ -227,6 +243,9 @@ static void answer_key(uint8_t key)
 void editor_typed(uint8_t key)
 {
     editor.key = key;
+    if (editor.mode == LOST || editor.mode == UNSURE) {
+        space(0, 2u * SECOND);   /* it may leave a list */
+    }
     editor.is_repainted = editor.is_repainted && (editor.mode == TABLE || editor.mode == LINE);
     if (editor.mode == TABLE) {
         table_key(key);

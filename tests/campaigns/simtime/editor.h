@@ -31,6 +31,7 @@ typedef struct {
     bool is_key_edit;              /* the newest edit was a key's, and several may be one for UNDO */
     uint8_t key;                   /* the newest */
     uint32_t look_tick, line_tick;
+    uint32_t mute_tick, counts_tick;   /* a space before the first changes no cell, from the second on it does */
     char line[LINE_BYTES];
     unsigned count;
     char sequence[8];
