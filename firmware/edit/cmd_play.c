@@ -108,6 +108,21 @@ static void tell_faults(void)
     }
 }
 
+void cmd_play_tell_again(void)
+{
+    uint8_t any = the_performer.battery_reported;
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        any |= state_of(joint);
+    }
+    if (any == 0 || the_screen.hidden) {
+        return;
+    }
+    if (the_dialog.mode == DIALOG_LINE && the_dialog.shell.length == 0) {
+        dialog_end_line();
+    }
+    the_dialog.faults_due = the_dialog.mode == DIALOG_TABLE;
+}
+
 static void tell_end(const performer_event_t *event)
 {
     switch (event->c) {

@@ -64,6 +64,7 @@ static void write_pose(uint8_t step)
             session_set_word((uint16_t)(session_step_at(step) + 2u * joint), PAGE_POS_UNUSED);
         }
     }
+    the_robot.failed |= the_servos.silent;   /* they are written as they were known last */
     if (off != 0) {
         the_screen.lead = true;
         TEXT("Off: ");

@@ -76,6 +76,8 @@ void cmd_cell_space(void);
 COMMAND(cmd_play);
 void cmd_play_key(uint8_t key);
 void cmd_play_events(bool line_is_free);
+/* Lets the row show faults again, if there are any and nothing is being typed. */
+void cmd_play_tell_again(void);
 
 /* cmd_list.c, cmd_check.c */
 COMMAND(cmd_mon);

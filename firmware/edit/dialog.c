@@ -64,6 +64,7 @@ void dialog_end_line(void)
     shell_clear(&the_dialog.shell);
     the_dialog.mode = DIALOG_TABLE;
     the_dialog.answered = 0;
+    the_dialog.row_ticks = ROW_TICKS;
     the_screen.lead = false;
     dialog_message_end();
     screen_sync();

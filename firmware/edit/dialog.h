@@ -22,6 +22,7 @@
 #define DIALOG_HISTORY_BYTES 30u
 #define DIALOG_NO_PAGE 0xFFu
 enum { LATE_TICKS = 96 };         /* 0.75 s: a space so soon after a list, a play or a space without effect belongs to it */
+enum { ROW_TICKS = 512 };         /* 4 s: what a line has said was read */
 enum { WELL_TICKS = 128 };        /* a second: long enough to be read */
 
 typedef enum {
@@ -46,6 +47,7 @@ typedef struct {
     uint8_t take_page, take_first, take_last; /* steps noted by TAKE */
     uint8_t late_ticks;            /* counts down; until then a space changes no cell */
     uint8_t well_ticks;            /* counts down from WELL_TICKS while the row shows that all servos are well */
+    uint16_t row_ticks;            /* counts down from ROW_TICKS; then faults are told again */
     bool step_due;                 /* a step has begun; the row will show it when the line has room */
     bool faults_stand;             /* the row has shown faults, and not yet that all servos are well */
     bool faults_due;               /* a servo has a new fault; the row will show it when the line has room */

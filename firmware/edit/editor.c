@@ -125,6 +125,9 @@ static void tick_work(void)
     if (the_dialog.well_ticks != 0) {
         the_dialog.well_ticks--;
     }
+    if (the_dialog.row_ticks != 0 && --the_dialog.row_ticks == 0) {
+        cmd_play_tell_again();
+    }
     if (performer_is_idle(&the_performer)) {
         robot_follow();
     } else {

@@ -100,6 +100,7 @@ static void open_line(uint8_t key)
     shell_clear(&the_dialog.shell);
     shell_lose(&the_dialog.shell, console_lost());   /* before this key: the line may have begun there */
     the_dialog.mode = DIALOG_LINE;
+    the_dialog.row_ticks = ROW_TICKS;
     screen_open_line();
     if (starts) {
         (void)shell_byte(&the_dialog.shell, key);

@@ -146,3 +146,38 @@ def test_servo_that_fails_a_command_is_told_when_it_answers_again():
             r.pump()
             rows += [r.message.strip()] * (rows[-1:] != [r.message.strip()])
         assert rows.index("on 3 No answer: ID 3") < rows.index("All servos are well") == len(rows) - 1, rows
+
+
+def test_fault_is_told_again_when_the_row_is_free():
+    with start() as r:
+        r.line("on")
+        r.board.servos[3].fault("silent")
+        r.settle(1500)
+        for line, said in (("page 6", "page 6"), ("zzz", "zzz Bad Command")):
+            r.line(line)
+            r.settle(1000)
+            assert r.message.strip() == said
+            r.settle(5000)
+            assert r.message.strip() == "No answer: ID 3"
+        r.keys("\r", ms=1000)
+        assert r.message == ""
+        r.settle(5000)
+        assert r.message.strip() == "No answer: ID 3"
+        r.keys("pag", ms=6000)
+        assert r.message == "pag"
+        r.line("e 5", ms=5000)
+        r.board.servos[3].clear()
+        r.settle(1500)
+        assert r.message.strip() == "All servos are well"
+        r.line("page 6", ms=6000)
+        assert r.message.strip() == "page 6"
+
+
+def test_write_names_the_servos_that_do_not_answer():
+    with start() as r:
+        r.line("on")
+        r.board.servos[3].fault("silent")
+        r.settle(1500)
+        assert r.line("write") == "write No answer: ID 3"
+        r.line("off 5")
+        assert r.line("insert 0") == "insert 0 Off: 5 No answer: ID 3"
