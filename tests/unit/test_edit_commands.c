@@ -159,6 +159,17 @@ static void test_help_of_one_command_is_its_line(void)
     TEST_ASSERT_EQUAL_STRING("No such command: HELP", answer("help got"));
 }
 
+static void test_help_of_each_command_fits_into_the_row(void)
+{
+    for (uint8_t i = 0; i < commands_count; i++) {
+        char word[40], line[50];
+        (void)sscanf(commands_table_P[i].text, "%39s", word);
+        (void)snprintf(line, sizeof line, "help %s", word);
+        (void)answer(line);
+        TEST_ASSERT_LESS_OR_EQUAL_UINT8_MESSAGE(SCREEN_COLUMNS, the_screen.line_column, word);
+    }
+}
+
 /* ---- the gate ---- */
 
 /* What changes nothing that a play uses, by the page of the spec: looking, the cursor, and letting go. */
@@ -226,6 +237,7 @@ int main(void)
     RUN_TEST(test_count_is_looked_at_before_the_range);
     RUN_TEST(test_empty_line_does_nothing);
     RUN_TEST(test_help_of_one_command_is_its_line);
+    RUN_TEST(test_help_of_each_command_fits_into_the_row);
     RUN_TEST(test_while_something_moves_every_other_word_is_refused);
     RUN_TEST(test_what_is_harmless_is_allowed_while_something_moves);
     return UNITY_END();
