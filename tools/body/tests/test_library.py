@@ -41,6 +41,8 @@ def promise_of(page):
         ("back", 394),  # leaned back by its soles and its trunk, and was pushed: hips too high, steps too long
         ("back", 758),
         ("side_l", 394),
+        ("right", 773),  # sagged backwards on soft ankles, without a push
+        ("left", 773),
     ],
 )
 def test_stands_on_a_body_on_which_it_fell(page, seed):
