@@ -70,6 +70,29 @@ function placeOf(page: Page, shape: string): Promise<{ x: number; y: number }> {
         .evaluate((view, name) => (view as unknown as { placeOf(name: string): { x: number; y: number } }).placeOf(name), shape);
 }
 
+/** What stands over the picture at this place: text or something with a ground of its own. */
+function textsOver(page: Page, place: { x: number; y: number }): Promise<string[]> {
+    return page.evaluate(
+        point =>
+            [...document.querySelectorAll<HTMLElement>('.stage > :not(robot-view) *, .joint-label')]
+                .filter(element => {
+                    const { left, right, top, bottom } = element.getBoundingClientRect();
+                    return (
+                        element.checkVisibility({ visibilityProperty: true }) &&
+                        element.textContent !== '' &&
+                        ([...element.childNodes].some(node => node.nodeType === Node.TEXT_NODE) ||
+                            getComputedStyle(element).backgroundColor !== 'rgba(0, 0, 0, 0)') &&
+                        point.x >= left &&
+                        point.x <= right &&
+                        point.y >= top &&
+                        point.y <= bottom
+                    );
+                })
+                .map(element => element.textContent),
+        place,
+    );
+}
+
 test.each(Object.entries(SCREENS))(
     '%s: one row of head, no word cut, at most five sizes of type and one blue button in every area',
     async (name, screen) => {
@@ -146,9 +169,8 @@ test('on a phone the robot stands above the bar of motions, and the Tour leaves 
     const person = await Visitor.come(suite.browser, suite.address, { screen: PHONE, hasPhysics: false });
     const { page } = person;
     await person.untilStanding();
-    // It says that it stands before its first picture is drawn, by software a second before; bar and camera go on moving after that: the
-    // sentence about physics comes and goes, which makes the picture lower, and the robot's motions make the bar higher.
-    await person.untilDrawn();
+    // Bar and camera go on moving: the sentence about physics comes and goes, which makes the picture lower, and the robot's motions make the
+    // bar higher.
     for (const foot of ['right_foot_front', 'left_foot_front']) {
         const aboveBar = async (): Promise<number> => (await box(page, 'action-bar')).y - (await placeOf(page, foot)).y;
         await expect.poll(aboveBar, { message: foot }).toBeGreaterThan(FOOT_PX);
@@ -178,7 +200,6 @@ test('the robot stands as high over the bar of motions when its rows have come a
     const person = await Visitor.come(suite.browser, suite.address, { screen: TABLET, hasPhysics: false });
     const { page } = person;
     await person.untilStanding();
-    await person.untilDrawn();
     const isStill = (): Promise<boolean> => page.locator('robot-view').evaluate(view => (view as unknown as { isStill: boolean }).isStill);
     await expect.poll(isStill).toBe(true);
     const { y } = await placeOf(page, 'right_foot_front');
@@ -188,6 +209,22 @@ test('the robot stands as high over the bar of motions when its rows have come a
     await expect.poll(async () => (await placeOf(page, 'right_foot_front')).y).toBeCloseTo(y, 0);
     await person.leave();
 });
+
+test.each(Object.entries({ PHONE, LYING, TABLET }))(
+    '%s: nothing that is written over the picture covers the face of the robot',
+    async (_, screen) => {
+        const person = await Visitor.come(suite.browser, suite.address, { screen, isNew: true, hasPhysics: false });
+        const { page } = person;
+        await person.untilStanding();
+        const overFace = async (): Promise<string[]> => textsOver(page, await placeOf(page, 'face'));
+        await page.getByText('A humanoid with real firmware').waitFor();
+        await expect.poll(overFace).toEqual([]);
+        await person.open('Steps');
+        await page.getByText(/^Balance: /).waitFor();
+        await expect.poll(overFace).toEqual([]);
+        await person.leave();
+    },
+);
 
 test('the terminal has letters of 12 px or more on every screen, and the full screen', async () => {
     for (const screen of Object.values(SCREENS)) {
@@ -228,25 +265,7 @@ test('nothing over the picture covers the hand that is dragged, wherever it goes
         const at = { x: stage.x + x * stage.width, y: stage.y + y * stage.height };
         await page.mouse.move(at.x, at.y);
         await person.untilSeen();
-        covering.push(
-            ...(await page.evaluate(
-                point =>
-                    [...document.querySelectorAll<HTMLElement>('.stage > :not(robot-view) *, .joint-label')]
-                        .filter(element => {
-                            const { left, right, top, bottom } = element.getBoundingClientRect();
-                            return (
-                                element.checkVisibility({ visibilityProperty: true }) &&
-                                element.textContent !== '' &&
-                                point.x >= left &&
-                                point.x <= right &&
-                                point.y >= top &&
-                                point.y <= bottom
-                            );
-                        })
-                        .map(element => element.textContent),
-                at,
-            )),
-        );
+        covering.push(...(await textsOver(page, at)));
         await expect.poll(() => view.evaluate(element => (element as unknown as { hasGhost: boolean }).hasGhost)).toBe(false);
     }
     expect(covering).toEqual([]);
