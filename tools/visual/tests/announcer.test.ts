@@ -85,3 +85,18 @@ test('get up: one that has rolled over gets up from there, and gives up behind t
     ends('face');
     expect(played).toEqual(['back']);
 });
+
+test('one that was told to be starting, or without a cable, is told when it answers', async () => {
+    const { announcer, message } = heard();
+    const starts = { ...START, connection: 'asking', doing: { text: 'The robot is starting …', tone: 'calm' } } as SessionState;
+    announcer.look(starts, '');
+    announcer.look({ ...starts, connection: 'ready' }, ''); // what it does is asked next
+    await vi.advanceTimersByTimeAsync(5000);
+    announcer.look(at('idle', 0, 0), '');
+    expect(message.map(([, text]) => text)).toEqual(['The robot is starting …', 'Ready.']);
+    announcer.look({ ...starts, doing: { text: 'The robot is switched off.', tone: 'calm' } }, '');
+    await vi.advanceTimersByTimeAsync(5000);
+    announcer.look({ ...at('idle', 0, 0), version: { image: 'edit' } } as SessionState, '');
+    await vi.advanceTimersByTimeAsync(5000);
+    expect(message.map(([, text]) => text).slice(2)).toEqual(['The robot is switched off.', 'Edit runs: its screen is in the terminal.']);
+});

@@ -19,6 +19,7 @@ export class Announcer {
     private due: string[] = [];
     private last = '';
     private lastTrouble = '';
+    private wasReady = true;
     private lastFallen = '';
 
     constructor(parts: AnnouncerParts) {
@@ -35,6 +36,9 @@ export class Announcer {
         const trouble = state.message?.tone === 'bad' ? state.message.text : state.connection === 'ready' ? '' : state.doing.text;
         if (trouble !== this.lastTrouble && trouble !== '') this.tell(trouble);
         this.lastTrouble = trouble;
+        const isReady = state.connection === 'ready';
+        if (isReady && !this.wasReady && !moves) this.tell(startText(state));
+        this.wasReady = isReady;
     }
 
     private tell(text: string): void {
