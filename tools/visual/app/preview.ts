@@ -95,6 +95,7 @@ export class MotionPreview implements Preview {
     private beganMs: number | null = null;
     private beganTick = 0;
     private isFrameAsked = false;
+    private isRobotMoving = false;
 
     constructor(parts: PreviewParts) {
         this.parts = parts;
@@ -109,13 +110,12 @@ export class MotionPreview implements Preview {
             before = now;
             if (!isSame) this.showStep();
         });
-        let wasMoving = false;
         let tabBefore = state.get().tab;
         state.watch(({ where, tab }) => {
             const isMoving = where !== null && where.state !== 'idle' && where.state !== 'ready';
             const isAside = parts.isFollowing() || editor.state.get().gesture !== null || (this.state.get().isRunning && parts.isStoodUp());
-            if (isMoving && !wasMoving && !isAside) this.showRobot();
-            wasMoving = isMoving;
+            if (isMoving && !this.isRobotMoving && !isAside) this.showRobot();
+            this.isRobotMoving = isMoving;
             if (tab !== tabBefore && !isMoving && this.state.get().figure === 'robot') this.showStep(); // who comes to edit looks at the step
             tabBefore = tab;
         });
@@ -125,6 +125,11 @@ export class MotionPreview implements Preview {
         if (!this.take(page)) return false;
         this.run(step === 0 ? 0 : this.tickOf(page, step));
         return true;
+    }
+
+    /** A play is asked for. A robot that moves already, and will refuse it, stays what one looks at. */
+    playAsked(page: number): void {
+        if (!this.isRobotMoving || this.parts.isStoodUp()) this.start(page);
     }
 
     resume(): void {

@@ -223,7 +223,7 @@ export class RobotSession implements Session {
         const { format, state } = this.editor;
         const dirty = dirtyPages(state.get(), format);
         const isToWrite = format.reach(state.get().document, page).some(one => dirty.has(one));
-        const late = setTimeout(() => this.preview.start(page), isToWrite ? 0 : SHOWN_MS);
+        const late = setTimeout(() => this.preview.playAsked(page), isToWrite ? 0 : SHOWN_MS);
         return this.act(async () => {
             await this.plays.playEdited(page);
             clearTimeout(late);

@@ -133,3 +133,13 @@ test('a motion that is shown goes on while a hand stands the robot up, and gives
     where({ state: 'playing', page: WAVE, step: 1 });
     expect(preview.state.get().figure).toBe('robot');
 });
+
+test('a play that is asked of a robot that moves does not take the robot out of the picture; one that is stood up is asked early', async () => {
+    const { preview, where, hand } = await shown();
+    where({ state: 'playing', page: 20, step: 1 });
+    preview.playAsked(WAVE);
+    expect(preview.state.get().figure).toBe('robot');
+    hand.holds = true;
+    preview.playAsked(WAVE);
+    expect(preview.state.get().figure).toBe('shown');
+});
