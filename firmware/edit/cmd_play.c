@@ -7,6 +7,7 @@
 #include "report.h"
 #include "shape.h"
 #include "text.h"
+#include "tick.h"
 
 /* ---- PLAY ---- */
 
@@ -153,6 +154,7 @@ static void play_ended(const performer_event_t *event)
     if (the_dialog.mode != DIALOG_PLAY) {
         return;
     }
+    the_dialog.quiet_since = tick_now16();   /* keys have waited for this moment */
     the_screen.lead = true;
     tell_end(event);
     dialog_end_line();

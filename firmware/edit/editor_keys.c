@@ -23,7 +23,7 @@ enum { MESSAGE_COLUMN_MAX = 40 };   /* after a longer line a message would be cu
 enum { BACKSLASH = '\\', FIRST_WORD_KEY = '0', LAST_WORD_KEY = 'Z', FIRST_LOWER_KEY = '^', LAST_LOWER_KEY = 'z' };
 
 static keys_t keys;
-static bool swallow;    /* ignore the rest of a line whose first letter answered a question */
+static bool swallow;    /* ignore the rest of a line whose first letters answered a question, or were typed during a play */
 static bool after_cr;   /* the last byte was CR, so a LF now belongs to it */
 
 void editor_keys_init(void)
@@ -301,6 +301,7 @@ static void take_key(uint8_t key)
         break;
     case DIALOG_PLAY:
         cmd_play_key(key);
+        swallow = is_letter(key) || (swallow && key != KEY_CR && key != KEY_LF);
         break;
     default:
         first_key(key);
@@ -319,10 +320,14 @@ void editor_quiet(void)
     }
 }
 
-/* Ignores the rest of a line whose first letter answered a question, up to its end or a pause; and bytes that still stream
- * in when a question is asked, which are no answer. The bytes after an ESC belong to it: without them it would be a key. */
+/* Ignores the rest of a line whose first letters answered a question or were typed during a play (the end of `help off`
+ * is no command), up to its end or a pause; and bytes that still stream in when a question is asked, which are no answer.
+ * The bytes after an ESC belong to it: without them it would be a key. */
 static bool is_left_over(uint8_t byte, uint16_t quiet_ticks)
 {
+    if (the_dialog.mode == DIALOG_PLAY) {
+        return false;   /* each key counts: space breaks */
+    }
     if (swallow && quiet_ticks < SWALLOW_TICKS) {
         swallow = byte != KEY_CR && byte != KEY_LF;
         return true;

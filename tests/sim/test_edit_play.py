@@ -138,6 +138,19 @@ def test_what_is_typed_while_a_broken_play_slows_down_is_kept():
         assert r.text(2, 76, 4) == "0006" and not r.unsaved
 
 
+@pytest.mark.parametrize("before", ["", "\r"])
+def test_the_end_of_a_line_that_began_during_a_play_is_no_command(before):
+    """Its blank breaks the play off. `off` behind it would let the robot fall."""
+    with start() as r:
+        r.keys("play 8\r", ms=3000)
+        r.keys(before, ms=150)
+        r.keys("help off\r", ms=1500)
+        assert r.message.endswith("[BREAK] OK")
+        assert all(r.board.servos[joint].torque for joint in range(1, 19))
+        r.line("off 3")
+        assert not r.board.servos[3].torque
+
+
 def test_play_of_what_cannot_be_played_says_why():
     torn = page("torn", [(30, {})])
     torn.data[99] ^= 1
