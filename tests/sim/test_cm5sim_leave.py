@@ -3,6 +3,9 @@
 
 import os
 import re
+import signal
+import subprocess
+import sys
 import time
 
 import pexpect
@@ -109,3 +112,22 @@ def test_first_wave_of_help_opens_a_page_that_is_empty_in_our_library(tmp_path):
         seen.until(lambda: seen.shows("-- more"))
         number = re.search(r"page (\d+) +opens an empty page", "\n".join(seen.screen.display))[1]
     assert from_bytes(MOTIONS.read_bytes())[int(number)].is_empty
+
+
+SLOW_THREAD = """
+import time
+from cm5sim import board, command
+stop, close = board.Board.stop, board.Board.close
+board.Board.stop = lambda self: (time.sleep(0.5), stop(self))
+board.Board.close = lambda self: (close(self), time.sleep(1))
+command.main()
+"""
+
+
+def test_signal_waits_for_no_board_that_is_closed_under_it():
+    """The thread that takes the signal was held up while the run ended: it stopped a board that was freed."""
+    command = [sys.executable, "-c", SLOW_THREAD, str(BUILD / "firmware" / "play-cm5.hex")]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as process:
+        assert process.stdout.read(1)
+        process.send_signal(signal.SIGINT)
+        assert process.wait(60) == 0

@@ -24,16 +24,31 @@ class Stop:
 
     def __init__(self) -> None:
         self.asked = False
-        self.session: Session | None = None  # the one that runs
+        self._session: Session | None = None  # the one that runs
+        self._lock = threading.Lock()  # a session is not closed under the thread that interrupts it
         signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
         threading.Thread(target=self._wait, daemon=True).start()
 
     def _wait(self) -> None:
         signal.sigwait(SIGNALS)
         self.asked = True
-        session = self.session
-        if session:
-            session.interrupt()
+        self._interrupt()
+
+    def _interrupt(self) -> None:
+        with self._lock:
+            if self._session and self.asked:
+                self._session.interrupt()
+
+    def begin(self, session: Session) -> None:
+        """A signal ends this session, also one that has come before."""
+        with self._lock:
+            self._session = session
+        self._interrupt()
+
+    def end(self) -> None:
+        """Nothing interrupts the session any more: it may be closed."""
+        with self._lock:
+            self._session = None
 
 
 def main() -> None:
@@ -77,12 +92,10 @@ def run_board(options: Options, stop: Stop, script: Script | None) -> int:
     try:
         session.open()
         opened = True
-        stop.session = session
-        if stop.asked:
-            session.interrupt()
+        stop.begin(session)
         session.run()
     finally:
-        stop.session = None
+        stop.end()
         session.close(opened)
     if watch:
         watch.report()
