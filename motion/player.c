@@ -149,9 +149,9 @@ static void begin_step(player_t *player, link_t *link)
         sequence_read_next(player);
         exact_measure_next(player);
         exact_plan(player);
-    } else if ((player->begun_events & PLAYER_EV_LINK) != 0 && player->next_page != player->next.page) {
+    } else if ((player->begun_events & PLAYER_EV_LINK) != 0 && player->link_page != player->next.page) {
         /* The play passes over the page that the link names, or ends there. Rule 4 looks at it all the same. */
-        (void)sequence_read_positions(player, player->next_page, 1);
+        (void)sequence_read_positions(player, player->link_page, 1);
         classic_plan(player);
         sequence_read_next(player);
     } else {

@@ -16,7 +16,7 @@ enum {
     PLAYER_EV_OUTPUT = 1 << 0,  /* there are new goals: send them (in the pause after a step there are none) */
     PLAYER_EV_STEP = 1 << 1,    /* this tick is the first of a step: player.now */
     PLAYER_EV_PAGE = 1 << 2,    /* and of a page: player.repetition */
-    PLAYER_EV_LINK = 1 << 3,    /* and the step is the page's last: its link is decided, player.link_taken, .next_page */
+    PLAYER_EV_LINK = 1 << 3,    /* and the step is the page's last: its link is decided, player.link_taken, .link_page */
     PLAYER_EV_ENDED = 1 << 5,   /* the play is over; player.fault says whether a bad page ended it */
     PLAYER_EV_STOPPED = 1 << 6  /* a break or a pause has stopped all joints */
 };
@@ -73,7 +73,7 @@ typedef struct {
     uint32_t present;               /* bit per joint: joints that the play moves */
     uint32_t joints;                /* of these, the joints that a step has used since the play began: send their goals */
     uint8_t repetition;             /* of the page: 1..PLAY_COUNT */
-    uint8_t next_page, link_taken;  /* of the last PLAYER_EV_LINK: what that link names (a play may pass over it) */
+    uint8_t link_page, link_taken;  /* of the last PLAYER_EV_LINK: what that link names (a play may pass over it) */
     uint8_t fault_page, fault;      /* page that ends the play, and why: page_status_t or PAGE_EMPTY; PAGE_OK: none */
     /* Private. */
     uint8_t law;                    /* player_law_t that was asked for */

@@ -87,7 +87,7 @@ static NOINLINE uint8_t decide(player_t *player, link_t *link)
     link_taken_t taken;
     player->source->read(player->source->context, player->now.page, 0, header, HEADER_BYTES);
     const uint8_t named = follow(link, player->now.page, header, &taken);
-    player->next_page = named;
+    player->link_page = named;
     player->link_taken = (uint8_t)taken;
     const uint8_t page = resolve(player, link, named, header);
     player->next.page = 0;

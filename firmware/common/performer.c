@@ -525,7 +525,7 @@ static void tell(performer_t *performer, uint8_t events)
         performer_event_put(&performer->events, PERFORMER_EV_STEP, player->now.page, player->now.step, player->repetition);
     }
     if ((events & PLAYER_EV_LINK) != 0) {
-        performer_event_put(&performer->events, PERFORMER_EV_LINK, player->next_page, player->link_taken, 0);
+        performer_event_put(&performer->events, PERFORMER_EV_LINK, player->link_page, player->link_taken, 0);
     }
     if ((events & PLAYER_EV_ENDED) != 0 || ((events & PLAYER_EV_STOPPED) != 0 && performer->leaving)) {
         go_idle(performer, why_ended(performer));

@@ -80,7 +80,7 @@ static void report_step(uint8_t page, uint8_t step, uint8_t repetition)
     text_P_number(TEXT_P(" repetition "), repetition);
 }
 
-static void report_link(uint8_t next_page, uint8_t link_taken)
+static void report_link(uint8_t link_page, uint8_t link_taken)
 {
     TEXT_NAMED(next, "Next link to ");
     TEXT_NAMED(exit, "Exit link to ");
@@ -95,10 +95,10 @@ static void report_link(uint8_t next_page, uint8_t link_taken)
         return;
     }
     text_P(pgm_read_ptr(&names[link_taken]));
-    if (next_page == 0) {
+    if (link_page == 0) {
         TEXT("the end");
     } else {
-        report_page(next_page);
+        report_page(link_page);
     }
 }
 

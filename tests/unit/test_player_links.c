@@ -137,7 +137,7 @@ static void repetitions_then_link(player_law_t law)
         }
     } while ((seen & PLAYER_EV_LINK) == 0);
     TEST_ASSERT_EQUAL_UINT8(3, repetition);
-    TEST_ASSERT_EQUAL_UINT8(2, player.next_page);
+    TEST_ASSERT_EQUAL_UINT8(2, player.link_page);
     TEST_ASSERT_EQUAL(LINK_NEXT, player.link_taken);
     (void)run_until(PLAYER_EV_PAGE, &seen);
     TEST_ASSERT_EQUAL_UINT8(2, player.now.page);
@@ -168,7 +168,7 @@ static void test_player_stop_ends_the_repetitions_through_the_exit_page(void)
     link_stop(&l);
     TEST_ASSERT_LESS_OR_EQUAL_UINT16(20, run_until(PLAYER_EV_LINK, &seen));
     TEST_ASSERT_EQUAL(LINK_EXIT, player.link_taken);
-    TEST_ASSERT_EQUAL_UINT8(3, player.next_page);
+    TEST_ASSERT_EQUAL_UINT8(3, player.link_page);
     (void)run_to_end();
     TEST_ASSERT_EQUAL_UINT8(3, player.now.page);
 }
@@ -189,7 +189,7 @@ static void test_player_code_that_comes_during_the_step_before_the_last_counts(v
     link_code(&l, 4); /* the link is decided in the last tick but one of the step before */
     (void)run_until(PLAYER_EV_LINK, &seen);
     TEST_ASSERT_EQUAL(LINK_LINKED1, player.link_taken);
-    TEST_ASSERT_EQUAL_UINT8(2, player.next_page);
+    TEST_ASSERT_EQUAL_UINT8(2, player.link_page);
 }
 
 static void test_player_passes_pages_with_play_count_0(void)
@@ -251,7 +251,7 @@ static void link_to(player_law_t law, uint8_t named, uint8_t next_page, uint8_t 
     sparse_pages[1].next = named;
     start_law(1, law);
     (void)run_to_end();
-    TEST_ASSERT_EQUAL_UINT8(next_page, player.next_page);
+    TEST_ASSERT_EQUAL_UINT8(next_page, player.link_page);
     TEST_ASSERT_EQUAL_UINT8(fault, player.fault);
     TEST_ASSERT_EQUAL_UINT8(fault == PAGE_OK ? 0 : named, player.fault_page);
 }
