@@ -21,7 +21,8 @@
     for (player_joint_t *joint_ = (player)->joint; joint_ != &(player)->joint[PAGE_JOINTS]; joint_++)
 /* NOLINTEND(bugprone-macro-parentheses) */
 
-/* start         : all joints rest on target_pos, and no step plays
+/* What begins with exact_ moves joints while player.moving_by is the exact law, classic_ while it is the classic one:
+ * start         : all joints rest on target_pos, and no step plays
  * plan          : plans `now` for all joints, from where they are to target_pos; the coming tick is its first
  * begin_section : if the coming tick is the first of a section of the step (cruise, fall, hold), plans that section
  * is_over       : all ticks of the step and of its pause are done

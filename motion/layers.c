@@ -189,7 +189,7 @@ static void follow_code(layers_t *layers)
     }
 }
 
-/* As layers_tick, while a main play is on and joints have another source or seek theirs. */
+/* As layers_tick, with a main play, while joints have another source or seek theirs. */
 static uint8_t tick_plays(layers_t *layers, link_t *main_link, uint8_t *layer_events)
 {
     const uint32_t of_layer = player_is_moving(&layers->play) ? layers->play.present : 0;

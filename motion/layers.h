@@ -50,7 +50,7 @@ typedef struct {
 /* No layer, no code-made motion. goal_pos: the goals of all joints, which layers_tick makes. */
 void layers_init(layers_t *layers, uint16_t goal_pos[PAGE_JOINTS]);
 
-/* The speed of hand-overs, degrees/s, 1..360 (0: LAYERS_SPEED_DEFAULT_DEG_S). */
+/* The speed of hand-overs, degrees/s, 1..360 (0: LAYERS_SPEED_DEFAULT_DEG_S). On the robot it is that of the approach. */
 void layers_set_speed(layers_t *layers, uint16_t deg_s);
 
 /* Sets the main play: call it after player_init, and with NULL before the memory of the main play gets another use (an

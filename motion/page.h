@@ -58,10 +58,10 @@ enum { PAGE_STEP_AT_PAUSE = 62, PAGE_STEP_AT_SPEED = 63 };
 typedef enum {
     PAGE_OK = 0,
     PAGE_ERR_CHECKSUM,   /* sum of all bytes is not 0xFF */
-    PAGE_ERR_STEPS,      /* PAGE_STEP > 7 */
+    PAGE_ERR_STEPS,      /* more than 7 steps */
     PAGE_ERR_SCHEDULE,   /* neither 0 nor 0x0A */
     PAGE_ERR_SPEED,      /* PAGE_SPEED is 0 */
-    PAGE_ERR_LINK,       /* a place only: a link above 127 is 0 to a play (LAWS.md), and no fault */
+    PAGE_ERR_LINK,       /* never returned: a link above 127 is taken as 0 (LAWS.md). Keeps the numbers of the others */
     PAGE_ERR_POSITION,   /* a position of a used step is above 1023 and has neither flag (0x4000, 0x2000) */
     PAGE_EMPTY           /* valid, but without action: page_is_playable. Ends a play; page_check never returns it */
 } page_status_t;
@@ -69,7 +69,7 @@ typedef enum {
 /* 8-bit sum of `count` bytes, added to `sum`: pages are summed in pieces as they are read. */
 uint8_t page_sum(uint8_t sum, const uint8_t *bytes, uint16_t count);
 
-/* Checks a whole page: the sum, the header, the positions of the steps that PAGE_STEP counts. A caller that reads the page
+/* Checks a whole page: the sum, the header, the positions of the steps that its header counts. A caller that reads the page
  * in pieces gets the same result from page_sum, page_check_header and page_check_step, in this order. */
 page_status_t page_check(const uint8_t page[PAGE_BYTES]);
 page_status_t page_check_header(const uint8_t header[PAGE_STEP_BYTES]);
@@ -113,8 +113,8 @@ bool page_set_add(uint8_t set[PAGE_COUNT / 8], uint8_t page);
 /* true when the header has an action: steps and play count are not 0. */
 bool page_is_playable(const uint8_t *header);
 
-/* Where pages come from: flash on the robot, an array in a test. Both calls must be cheap: a tick of a play makes up to six
- * reads of up to 64 bytes. */
+/* Where pages come from: flash on the robot, an array in a test. Both calls must be cheap: a new step makes up to four
+ * reads of up to 64 bytes, a shaped one about fifteen, and each page that is passed over one more. */
 typedef struct {
     void *context;
     /* Copies `count` bytes at byte `offset` of page `page` (0..127). */

@@ -9,9 +9,9 @@
  *                             |     ^
  *          wish PAUSE, BREAK  |     | wish GO: what is left of the step is planned
  *                             v     |
- *                         BRAKING --+--> STOPPED --> (wish BREAK) IDLE
+ *                          BRAKING -> STOPPED --> (wish BREAK) IDLE
  *
- * break, pause and resume only set the wish; player_plan acts on it. */
+ * break, pause and resume only set the wish. BRAKING ends when all joints have stopped, whatever the wish is by then. */
 enum { STATE_IDLE, STATE_PLAYING, STATE_BRAKING, STATE_STOPPED };
 enum { WISH_GO, WISH_PAUSE, WISH_BREAK };
 
@@ -150,7 +150,7 @@ static void begin_step(player_t *player, link_t *link)
         exact_measure_next(player);
         exact_plan(player);
     } else if ((player->begun_events & PLAYER_EV_LINK) != 0 && player->link_page != player->next.page) {
-        /* The play passes over the page that the link names, or ends there. Rule 4 looks at it all the same. */
+        /* The play passes over the page that the link names, or ends there. Rule 4 of LAWS.md looks at it all the same. */
         (void)sequence_read_positions(player, player->link_page, 1);
         classic_plan(player);
         sequence_read_next(player);
@@ -284,7 +284,7 @@ uint8_t player_tick(player_t *player, link_t *link)
 
 /* --- break, pause, resume, lost joints ---------------------------------------------------------------------------- */
 
-/* What was planned for the coming tick is planned anew. */
+/* player_plan looks at the wish again before the coming tick. A step that it has begun stays begun. */
 static void set_wish(player_t *player, uint8_t wish)
 {
     player->wish = wish;

@@ -16,7 +16,7 @@ enum {
     PLAYER_EV_OUTPUT = 1 << 0,  /* there are new goals: send them (in the pause after a step there are none) */
     PLAYER_EV_STEP = 1 << 1,    /* this tick is the first of a step: player.now */
     PLAYER_EV_PAGE = 1 << 2,    /* and of a page: player.repetition */
-    PLAYER_EV_LINK = 1 << 3,    /* and the step is the page's last: its link is decided, player.link_taken, .link_page */
+    PLAYER_EV_LINK = 1 << 3,    /* and it is the last of the page's last repetition: player.link_taken, .link_page */
     PLAYER_EV_ENDED = 1 << 5,   /* the play is over; player.fault says whether a bad page ended it */
     PLAYER_EV_STOPPED = 1 << 6  /* a break or a pause has stopped all joints */
 };
@@ -74,19 +74,19 @@ typedef struct {
     uint32_t joints;                /* of these, the joints that a step has used since the play began: send their goals */
     uint8_t repetition;             /* of the page: 1..PLAY_COUNT */
     uint8_t link_page, link_taken;  /* of the last PLAYER_EV_LINK: what that link names (a play may pass over it) */
-    uint8_t fault_page, fault;      /* page that ends the play, and why: page_status_t or PAGE_EMPTY; PAGE_OK: none */
+    uint8_t fault_page, fault;      /* page that ends the play when `now` is over, and why: page_status_t; PAGE_OK: none */
     /* Private. */
     uint8_t law;                    /* player_law_t that was asked for */
     uint8_t moving_by;              /* player_law_t of the joints' fields: exact also while a classic play slows down, and
                                        for what is left of the step after a pause */
     uint8_t state, wish;            /* player.c has the diagram */
-    bool is_planned;                /* the coming tick, by player_plan */
+    bool is_planned;                /* player_plan has been called for the coming tick */
     uint8_t begun_events;           /* of `now`, until its first tick returns them */
     uint8_t ramp_ticks;             /* A: length of the ramps of `now` */
     uint8_t brake_ticks;            /* left until all joints have stopped */
     uint16_t tick;                  /* exact law: ticks done of `now` and its pause */
-    uint8_t section;                /* classic law: RISE, CRUISE, FALL or HOLD; ticks done of it, and its length */
-    uint16_t section_tick, section_ticks;
+    uint8_t section;                /* classic law: RISE, CRUISE, FALL or HOLD */
+    uint16_t section_tick, section_ticks; /* ticks done of it, and its length */
     uint16_t left_ticks;            /* of a step that was interrupted */
     uint16_t carry_q5_11;           /* fraction of a tick that the lengths so far have left over */
     player_step_t next;             /* the step after `now`; page 0: the play ends with `now` */

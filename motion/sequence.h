@@ -10,8 +10,8 @@
  * changed. */
 bool sequence_start(player_t *player, link_t *link, uint8_t named);
 
-/* `next` becomes `now`; the step after it becomes `next`. At the last step of a page this decides the link. Returns
- * PLAYER_EV_ bits. Call it only if next.page is not 0. */
+/* `next` becomes `now`; the step after it becomes `next`. At the last step of the last repetition this decides the link.
+ * Returns PLAYER_EV_ bits. Call it only if next.page is not 0. */
 uint8_t sequence_advance(player_t *player, link_t *link);
 
 /* Reads what a step contains.
