@@ -145,6 +145,36 @@ def test_pages_no_motion_takes_the_place_of_the_trim(m512, lib, words, replace):
     assert lib.read_bytes() == before
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("convert", "mine.m512", "mine.m512", "--force"),
+        ("convert", "lib.bin", "mine.m512"),  # refused without --force, as ever
+        ("convert", "link.m512", "mine.m512", "--force"),
+        ("convert", "mine.m512", "link.m512", "--force"),
+        ("pages", "mine.m512", "rename", "walk", "march", "--in-place"),
+        ("pages", "mine.m512", "rename", "walk", "march", "-o", "mine.m512", "--force"),
+    ],
+)
+def test_a_text_is_not_rewritten_in_its_own_place(m512, lib, monkeypatch, words):
+    """Comments, poses and names were lost, and --force was no more than the answer to "is there already"."""
+    monkeypatch.chdir(lib.parent)
+    mine = lib.parent / "mine.m512"
+    mine.write_text(TEXT + "# a comment\n")
+    (lib.parent / "link.m512").symlink_to(mine)
+    assert m512(*words).exit_code == 5
+    assert mine.read_text() == TEXT + "# a comment\n"
+
+
+def test_a_text_of_ours_is_written_in_its_own_place(m512, lib, tmp_path):
+    """It has nothing that would be lost."""
+    ours = tmp_path / "ours.m512"
+    assert m512("convert", lib, ours).exit_code == 0
+    assert m512("convert", ours, ours, "--force").exit_code == 0
+    assert m512("pages", ours, "rename", "walk", "march", "-o", ours, "--force").exit_code == 0
+    assert "march" in ours.read_text()
+
+
 def test_pages_mirror_wants_two_joints_for_a_pair(m512, lib):
     result = m512("pages", lib, "mirror", "walk", "--pairs", "1-1", "--in-place")
     assert result.exit_code == 2 and "1-1: pairs are 1-2 3-4 ..." in result.stderr

@@ -135,6 +135,7 @@ def convert(
     image = formats.load(source, int(bits) if bits else None, formats.load(onto) if onto else None)
     if onto and image.form != formats.MTN:
         raise click.UsageError(f"--onto is for a .mtn as SOURCE; {source} has a page 0 of its own")
+    formats.keep_text(source, target)
     notes, losses = list(image.notes), []
     moved, left = {}, []
     if only:

@@ -14,7 +14,7 @@ import click
 from m512 import ui
 from m512.cli.board import Finite, board_option
 from m512.cli.files import PAGE_NUMBER, one_of_csv, page_moves, page_numbers
-from m512.errors import EXIT_DIFFERENT, FileError, RefusedError, WordError
+from m512.errors import EXIT_DIFFERENT, FileError, WordError
 from m512.files import formats
 from m512.files.page import Page
 
@@ -50,6 +50,8 @@ class Source:
         """Writes the changed image where it was asked for: to the file or board that it is from, unless `output`. `number`: the page of a .csv."""
         for remark in remarks:
             ui.say(f"note: {remark}")
+        if not self.board:
+            formats.keep_text(Path(self.word), Path(output or self.word))
         if output:
             losses = formats.save(Path(output), self.image, number)
             for loss in losses:
@@ -57,23 +59,8 @@ class Source:
         elif self.board:
             self._to_board(yes)
         else:
-            if self._is_written_by_hand():
-                raise RefusedError(
-                    f"{self.word} is somebody's text: --in-place would make numbers of its comments, poses, names "
-                    "and includes. Change the text itself, or write the result elsewhere: -o new.m512"
-                )
             for loss in formats.save(Path(self.word), self.image, kind=self.image.form):
                 ui.say(f"loss: {loss}")
-
-    def _is_written_by_hand(self) -> bool:
-        """Whether the file is a text that this program would write otherwise."""
-        from m512.files.text import read_text, write_text
-
-        data = formats.read_bytes(Path(self.word))
-        if formats.recognise(data, Path(self.word)) != formats.TEXT:
-            return False
-        text = data.decode("utf-8-sig")
-        return write_text(read_text(text, self.word, Path(self.word).parent)) != text
 
     def _to_board(self, yes: bool) -> None:
         """Shows what changes, asks, writes."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from m512.errors import FileError
+from m512.errors import FileError, RefusedError
 from m512.files import image as raw
 from m512.files import scale12, storage
 from m512.files.image import Image
@@ -118,6 +118,23 @@ def must_be_writable(path: Path, force: bool) -> None:
     """The cheap questions, before the motions are read. RefusedError, FileError: it is there already, or its suffix names no format."""
     storage.must_be_free(path, force)
     kind_of(path)
+
+
+def keep_text(source: Path, target: Path) -> None:
+    """RefusedError: the motions of a text are to replace it, and it says more than this program would write."""
+    if not (storage.exists(source) and storage.exists(target) and target.samefile(source)):
+        return
+    data = read_bytes(source)
+    if recognise(data, source) != TEXT:
+        return
+    from m512.files.text import read_text, write_text
+
+    text = _text_of(data, source)
+    if write_text(read_text(text, str(source), source.parent)) != text:
+        raise RefusedError(
+            f"{source} is somebody's text: its comments, poses, names and includes would become numbers. "
+            "Change the text itself, or name another file for the result (of `m512 pages`: -o new.m512)"
+        )
 
 
 def encode(path: Path, image: Image, number: int | None = None, mtn_version: str = "1.01", kind: str | None = None) -> tuple[bytes, list[str]]:
