@@ -44,6 +44,11 @@ export class Driving {
         this.keys.hold(held);
     }
 
+    /** What was pressed before is not carried out any more. */
+    forget(): void {
+        this.wish = null;
+    }
+
     drive(stick: Stick | null): void {
         this.stick.set(stick);
     }

@@ -35,7 +35,9 @@ export class RobotPlays {
 
     /** A page as the robot has it. */
     async play(page: number): Promise<void> {
+        const mine = this.asked;
         await this.parts.prepare();
+        if (mine !== this.asked) throw new RobotError('cancelled');
         await play(this.requests, page);
     }
 
@@ -49,7 +51,7 @@ export class RobotPlays {
         await play(this.requests, page);
     }
 
-    /** What has been asked to play, and is still being written, does not play any more. */
+    /** What has been asked to play, and still waits, does not play any more. */
     cancel(): void {
         this.asked++;
     }

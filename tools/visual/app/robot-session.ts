@@ -80,6 +80,7 @@ export class RobotSession implements Session {
     readonly version = new PageVersion(this.state);
     private readonly frames = new Listeners<RobotState>();
     private readonly texts = new Listeners<Uint8Array>();
+    private readonly stops = new Listeners<void>();
     private lastFrame: RobotState | null = null;
     private readonly messages = new StatusMessages(this.state);
     private readonly sources: RobotSources;
@@ -206,6 +207,10 @@ export class RobotSession implements Session {
         return this.texts.add(listener);
     }
 
+    onStop(listener: () => void): () => void {
+        return this.stops.add(listener);
+    }
+
     show(tab: Tab): void {
         this.state.set({ tab });
         this.status.look();
@@ -259,10 +264,7 @@ export class RobotSession implements Session {
     }
 
     command(what: Command): Promise<void> {
-        if (what === 'stop' || what === 'break') {
-            this.preview.pause();
-            this.plays.cancel();
-        }
+        if (what === 'stop' || what === 'break') this.dropWaiting();
         return this.act(() => command(this.connection.requests, what));
     }
 
@@ -279,8 +281,12 @@ export class RobotSession implements Session {
         else this.messages.say(message);
     }
 
+    /** Edit hears no remote, but it is to be stopped, too. */
     remote(held: ReadonlySet<RemoteButton>): void {
-        this.driving.remote(held);
+        const stops = held.has('b6');
+        if (stops) this.dropWaiting();
+        if (stops && this.state.get().version?.image === 'edit') void this.command('stop');
+        else this.driving.remote(held);
     }
 
     drive(stick: Stick | null): void {
@@ -313,6 +319,13 @@ export class RobotSession implements Session {
 
     forget(): Promise<void> {
         return this.images.forget();
+    }
+
+    private dropWaiting(): void {
+        this.preview.pause();
+        this.plays.cancel();
+        this.driving.forget();
+        this.stops.tell();
     }
 
     private get isSimulated(): boolean {

@@ -47,6 +47,7 @@ export class ActionBar extends HTMLElement {
         this.disposals.push(
             this.session.state.watch(state => this.render(state)),
             this.session.onFrame(frame => this.look(frame)),
+            this.session.onStop(() => this.gettingUp.stop()),
         );
     }
 
@@ -66,7 +67,7 @@ export class ActionBar extends HTMLElement {
         };
         keepFocus(this, () =>
             this.replaceChildren(
-                this.button(TEXTS.page.stop, isReady, () => this.stop(), 'stop'),
+                this.button(TEXTS.page.stop, isReady, () => this.session.command('stop'), 'stop'),
                 ...(state.source === 'simulated' ? [this.letGo] : []),
                 ...BUTTONS.flatMap(([name, kind]) => plays(name, TEXTS.actions[name], kind)),
                 ...(state.source === 'simulated'
@@ -81,11 +82,6 @@ export class ActionBar extends HTMLElement {
     /** The robot in the page tells how it lies; yours has no sensor for it, so that a person must say it. */
     private oneGetUp(pages: ReadonlyMap<string, PageEntry>): HTMLButtonElement[] {
         return pages.has(GET_UP.face) && pages.has(GET_UP.back) ? [this.getUp] : [];
-    }
-
-    private stop(): Promise<void> {
-        this.gettingUp.stop();
-        return this.session.command('stop');
     }
 
     private look(frame: RobotState | null): void {

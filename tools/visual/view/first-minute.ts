@@ -77,11 +77,16 @@ export class FirstMinute extends HTMLElement {
 
     /** A robot that a hand still holds is pushed when the hand has let go. */
     private push(): void {
-        const stop = this.session.onFrame(state => {
+        const end = (): void => {
+            unwatch();
+            unlisten();
+        };
+        const unwatch = this.session.onFrame(state => {
             if (!this.mayBePushed(state)) return;
-            stop();
+            end();
             pushRobot(this.session, 1);
         });
+        const unlisten = this.session.onStop(end);
         this.session.say({ text: TEXTS.first.pushes, tone: 'calm' });
     }
 

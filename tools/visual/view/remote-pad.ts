@@ -107,6 +107,7 @@ export class RemotePad extends HTMLElement {
         for (const end of ['pointerup', 'pointercancel'] as const) button.addEventListener(end, () => this.change('screen', name, false));
         button.addEventListener('keydown', event => event.key === 'Enter' && this.change('screen', name, true));
         button.addEventListener('keyup', event => event.key === 'Enter' && this.change('screen', name, false));
+        button.addEventListener('blur', () => this.change('screen', name, false));
         this.buttons.set(name, button);
         return button;
     }
@@ -150,6 +151,7 @@ export class RemotePad extends HTMLElement {
             target?.closest('input, select, textarea, summary, terminal-pane, [role="tablist"]') !== null && target !== null;
         if (!name || event.ctrlKey || event.altKey || event.metaKey || (event.type === 'keydown' && event.shiftKey)) return; // Shift and the arrows turn the picture
         if (event.type === 'keydown' && this.session.state.get().tab !== 'remote') return; // elsewhere the arrows edit
+        if (event.type === 'keydown' && name !== 'b6' && document.querySelector('dialog[open]')) return; // there they scroll
         if (event.type === 'keydown' && (isElsewhere || (event.code === 'Space' && target?.closest('button') && !this.isPlaying))) return; // a robot that moves is stopped
         event.preventDefault();
         this.change('keys', name, event.type === 'keydown');

@@ -117,6 +117,8 @@ export interface Session {
     onFrame(listener: (state: RobotState) => void): () => void;
     /** What the board says to a terminal. */
     onText(listener: (bytes: Uint8Array) => void): () => void;
+    /** Somebody wants the robot to stop: what waits for it is dropped. */
+    onStop(listener: () => void): () => void;
 
     show(tab: Tab): void;
     /** The terminal shows so many letters. */

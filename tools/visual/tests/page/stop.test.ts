@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Stop goes before everything that waits, and no key moves the robot by surprise: not from a dialog, and not one that was let go elsewhere.
+import { expect, test } from 'vitest';
+import { Visitor } from './page-bench.ts';
+import { pageSuite } from './page-suite.ts';
+
+const suite = pageSuite();
+
+/** Everything that is said from now on of what the robot does. */
+async function listen(person: Visitor): Promise<() => Promise<string[]>> {
+    await person.doing.evaluate(doing => {
+        const heard: string[] = [];
+        Object.assign(window, { heard });
+        new MutationObserver(() => heard.push(doing.textContent)).observe(doing, { characterData: true, childList: true, subtree: true });
+    });
+    return () => person.page.evaluate(() => (window as unknown as { heard: string[] }).heard);
+}
+
+test('Stop takes back what waits until the robot stands: "Walk it", "Push it", a motion', async () => {
+    const person = await Visitor.come(suite.browser, suite.address, { isNew: true, hasPicture: false });
+    await person.button('Walk it').click();
+    const heard = await listen(person);
+    await person.doing.filter({ hasText: 'A hand holds the robot.' }).waitFor();
+    await person.button('Bow').click();
+    await person.button('Stop').click();
+    await person.untilStanding();
+    await person.button('Wave').click();
+    await person.doing.filter({ hasText: /^Playing motion 3 \(wave\)/ }).waitFor();
+    expect((await heard()).filter(text => /walk|bow/.test(text))).toEqual([]);
+    await person.leave();
+    const other = await Visitor.come(suite.browser, suite.address, { isNew: true, hasPicture: false });
+    await other.button('Push it').click();
+    await other.button('Stop').click();
+    await other.untilStanding();
+    await other.button('Wave').click();
+    await other.doing.filter({ hasText: /^Playing motion 3 \(wave\), step 2/ }).waitFor(); // one that was pushed lies
+    expect(await other.doing.textContent()).not.toContain('lies');
+    await other.leave();
+});
+
+test('the space bar stops Edit, and Edit goes on; no key drives the robot from a dialog; one that is let go elsewhere is let go', async () => {
+    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
+    const { page } = person;
+    const ahead = person.button('U: ahead');
+    const isPressed = (): Promise<string | null> => ahead.getAttribute('aria-pressed');
+    await person.untilStanding();
+    await ahead.focus();
+    await page.keyboard.down('Enter');
+    expect(await isPressed()).toBe('true');
+    await page.keyboard.press('Tab');
+    await page.keyboard.up('Enter');
+    expect(await isPressed()).toBe('false');
+    await person.button('Stop').click();
+    await page.keyboard.press('?');
+    await page.keyboard.down('ArrowUp');
+    expect(await isPressed()).toBe('false');
+    await page.keyboard.up('ArrowUp');
+    await page.keyboard.press('Escape');
+    await person.untilStanding();
+
+    await person.open('Robot');
+    await person.button('Run Edit').click();
+    await person.doing.filter({ hasText: /^Edit runs/ }).waitFor();
+    await person.open('Remote');
+    await person.button('Dance').click();
+    await person.doing.filter({ hasText: /^Playing motion \d+ \(dance/ }).waitFor();
+    const heard = await listen(person);
+    await page.keyboard.press('Space');
+    await person.doing.filter({ hasText: /^Edit runs/ }).waitFor();
+    expect((await heard()).filter(text => text.includes('starting'))).toEqual([]);
+    await person.leave();
+});
