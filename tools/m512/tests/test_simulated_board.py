@@ -3,6 +3,7 @@
 
 import json
 import re
+import signal
 from types import SimpleNamespace
 
 import pytest
@@ -235,6 +236,23 @@ def test_a_play_that_ctrl_c_has_stopped_is_no_success(m512, robot, monkeypatch, 
     result = m512("play", "walk", "--wait", "--json", "-p", robot.path)
     assert result.exit_code == 130 and "stopped by Ctrl-C" in result.stderr, result.stderr
     assert json.loads(result.stdout)["state"] == "idle"
+
+
+def test_a_play_whose_follower_is_ended_is_stopped(m512, robot, monkeypatch):
+    """A terminal's window that is closed (SIGHUP) and `kill` are as Ctrl-C: the robot walked on, and nobody was there to stop it."""
+    start(m512, robot)
+    sleep, left = VirtualLink.sleep, [1]
+
+    def ended(link, seconds):
+        sleep(link, seconds)
+        if left[0]:
+            left[0] -= 1
+            signal.raise_signal(signal.SIGHUP)
+
+    monkeypatch.setattr(VirtualLink, "sleep", ended)
+    assert m512("play", "walk", "--wait", "-p", robot.path).exit_code == 128 + signal.SIGHUP
+    robot.pass_time(5.0)
+    assert json.loads(m512("stop", "--json", "-p", robot.path).stdout)["state"] == "idle"
 
 
 def test_joints_are_named_by_ranges_too(m512, robot):

@@ -140,7 +140,8 @@ def play(page: str, rate: int | None, amplitude: int | None, blend: int | None, 
 
 
 def _follow(client: Client) -> bool:
-    """Tells pages and steps until the robot is idle. The first Ctrl-C is a stop, the second a break. Returns whether there was one."""
+    """Tells pages and steps until the robot is idle. The first Ctrl-C is a stop, the second a break. Returns whether there was one.
+    What else ends this program (the terminal's window is closed) is a stop, too: nobody is there any more to press Ctrl-C."""
     before, asked = None, 0
     while True:
         try:
@@ -152,6 +153,9 @@ def _follow(client: Client) -> bool:
             if state["state"] == "idle":
                 return asked > 0
             client.link.sleep(0.1)
+        except SystemExit:
+            client.ask("stop")
+            raise
         except KeyboardInterrupt:
             asked += 1
             if asked > 2:
