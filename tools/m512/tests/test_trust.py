@@ -419,6 +419,17 @@ def test_process_substitution(files):
 # No tracebacks
 
 
+@pytest.mark.parametrize("source, code", [("x.bin", 0), ("missing.bin", 4)])
+def test_remarks_that_find_no_room_change_no_outcome(files, source, code):
+    """`2> log` on a full disk ended a transfer in its middle, with 1."""
+    image = Image.empty(256)
+    image[200] = read_text("motion512 1\nbits 12\npage 1 a\n  step 1s | 1:2048\n")[1]
+    (files / "x.bin").write_bytes(image.to_bytes())
+    command = [sys.executable, "-m", "m512", "convert", str(files / source), str(files / "new.m512")]
+    with open("/dev/full", "w") as full:
+        assert subprocess.run(command, stderr=full).returncode == code
+
+
 def test_page_number_of_superscript_digits(m512, files):
     result = m512("pages", files / "x.bin", "show", "\u00b3")
     assert result.exit_code == 4 and "no page is called" in result.stderr

@@ -30,10 +30,10 @@ def show(text: str) -> None:
 
 
 def say(text: str) -> None:
-    """Remarks go to stderr: stdout is for results. The work goes on when nobody reads them any more (`2>&1 | head`)."""
+    """Remarks go to stderr: stdout is for results. The work goes on when nobody can read them (`2>&1 | head`, a full disk)."""
     try:
         click.echo(plain(text), err=True)
-    except BrokenPipeError:
+    except OSError:
         drop(sys.stderr)
 
 
