@@ -180,6 +180,13 @@ def test_pages_mirror_wants_two_joints_for_a_pair(m512, lib):
     assert result.exit_code == 2 and "1-1: pairs are 1-2 3-4 ..." in result.stderr
 
 
+def test_diff_calls_no_page_damaged_for_having_12_bits(m512, lib, tmp_path):
+    high = tmp_path / "high.bin"
+    high.write_bytes(read_text("motion512 1\nbits 12\npage 20 a\n  step 1s | 1..4:2048\n").to_bytes())
+    assert 'page 20 "a": empty -> 1 step' in m512("diff", lib, high).stdout
+    assert 'page 20 "a": 1 step -> empty' in m512("diff", high, lib).stdout
+
+
 def test_diff_says_that_two_files_have_different_bits(m512, lib, tmp_path):
     high = tmp_path / "high.bin"
     high.write_bytes(read_text("motion512 1\nbits 12\npage 1 stand\n  step 1s | 1..4:2048\n").to_bytes())

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from m512.files.image import Image, is_erased
-from m512.files.page import EMPTY, JOINTS, SCHEDULE_SPEED, SCHEDULE_TIME, STEPS, Fault, Page
+from m512.files.page import EMPTY, JOINTS, SCHEDULE_SPEED, SCHEDULE_TIME, STEPS, Fault, Kind, Page
 from m512.files.text.words import code_text, position_text
 from m512.files.wording import pages_text
 
@@ -52,6 +52,7 @@ FIELDS = {
     "byte63": "byte 63",
 }
 CODES = {"code": "code", "link1_code": "code of linked page 1", "link2_code": "code of linked page 2"}
+BOARD = Kind()  # what is not said is of a board
 SCHEDULES = {SCHEDULE_TIME: "time base", SCHEDULE_SPEED: "speed base"}
 
 
@@ -74,7 +75,7 @@ def images(first: Image, second: Image) -> list[Change]:
             if here is not None and not here.is_empty and not is_erased(here):
                 out.append(Change(number, here.title, f"only in the {'second' if a is None else 'first'}", "", ""))
         elif a != b and not _both_nothing(a, b):
-            out += pages(number, a, b, first)
+            out += pages(number, a, b, first.kind, second.kind)
     return out
 
 
@@ -83,10 +84,9 @@ def _both_nothing(a: Page, b: Page) -> bool:
     return is_erased(a) and bytes(b) == EMPTY or is_erased(b) and bytes(a) == EMPTY
 
 
-def pages(number: int, a: Page, b: Page, image: Image | None = None) -> list[Change]:
+def pages(number: int, a: Page, b: Page, kind: Kind = BOARD, other: Kind = BOARD) -> list[Change]:
     """All changes between two versions of a page; never empty when their bytes differ."""
-    pos_max = image.kind.pos_max if image else 1023
-    whole = _whole(number, a, b)
+    whole = _whole(number, a, b, kind, other)
     if whole:
         return whole
     name, out = b.title or a.title, []  # type: str, list[Change]
@@ -112,7 +112,7 @@ def pages(number: int, a: Page, b: Page, image: Image | None = None) -> list[Cha
         add("pause", a.pause(step), b.pause(step), step)
         add("time" if b.schedule == SCHEDULE_TIME else "speed", a.time(step), b.time(step), step)
         for joint in range(JOINTS):
-            add("", position_text(a.word(step, joint), pos_max), position_text(b.word(step, joint), pos_max), step, joint)
+            add("", position_text(a.word(step, joint), kind.pos_max), position_text(b.word(step, joint), other.pos_max), step, joint)
     unused = [step for step in range(used, STEPS) if a.step_bytes(step) != b.step_bytes(step)]
     if unused:
         out.append(Change(number, name, f"contents of unused steps differ ({', '.join(str(step + 1) for step in unused)})", "", ""))
@@ -129,26 +129,25 @@ def _softness(page: Page, joint: int) -> str:
     return f"{page.compliance(joint) >> 4}/{page.compliance(joint) & 15}"
 
 
-def _whole(number: int, a: Page, b: Page) -> list[Change]:
+def _whole(number: int, a: Page, b: Page, kind: Kind, other: Kind) -> list[Change]:
     """Pages that came, went or have nothing in common."""
     if number == 0 and all(is_erased(page) or page.is_empty and not page.fault() for page in (a, b)):
         trims = [Change(0, "", "trim", str(x), str(y), joint=joint) for joint, (x, y) in enumerate(zip(a.trims(), b.trims())) if x != y]
         if trims:
             return trims
     if is_erased(a) or is_erased(b):
-        other = b if is_erased(a) else a
-        before, after = (("erased flash" if is_erased(p) else _summary(p)) for p in (a, b))
-        return [Change(number, other.title, "", before, after)]
+        before, after = (("erased flash" if is_erased(p) else _summary(p, its)) for p, its in ((a, kind), (b, other)))
+        return [Change(number, (b if is_erased(a) else a).title, "", before, after)]
     if a.is_empty and not b.is_empty:
-        return [Change(number, b.title, "", "empty", _summary(b))]
+        return [Change(number, b.title, "", "empty", _summary(b, other))]
     if b.is_empty and not a.is_empty:
-        return [Change(number, a.title, "", _summary(a), "empty")]
+        return [Change(number, a.title, "", _summary(a, kind), "empty")]
     if a.is_empty and b.is_empty and a != b and not a.fault() and not b.fault():
         return [Change(number, "", BOTH_EMPTY, "", "")]
     return []
 
 
-def _summary(page: Page) -> str:
-    if page.fault() is not Fault.OK:
+def _summary(page: Page, kind: Kind) -> str:
+    if page.fault(kind) is not Fault.OK:
         return "damaged page"
     return f"{page.steps} step{'s' if page.steps != 1 else ''}" if not page.is_empty else "empty"
