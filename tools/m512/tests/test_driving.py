@@ -126,7 +126,7 @@ def test_drive_without_a_terminal_says_so(m512, monkeypatch):
     @contextmanager
     def robot(_):
         class Client:
-            find, shape = staticmethod(lambda page: 1), staticmethod(dict)
+            motion, shape = staticmethod(lambda page: 1), staticmethod(dict)
 
         yield Client()
 

@@ -180,6 +180,38 @@ def test_pages_mirror_wants_two_joints_for_a_pair(m512, lib):
     assert result.exit_code == 2 and "1-1: pairs are 1-2 3-4 ..." in result.stderr
 
 
+def test_pairs_stand_as_in_a_text_too(m512, lib, tmp_path):
+    for pairs, name in (("1-3,2-4", "a.bin"), ("1-3 2-4", "b.bin")):
+        assert m512("pages", lib, "mirror", "walk", "20", "--pairs", pairs, "-o", tmp_path / name).exit_code == 0
+    assert (tmp_path / "a.bin").read_bytes() == (tmp_path / "b.bin").read_bytes()
+
+
+@pytest.mark.parametrize("word", ["1..5", "all"])
+def test_several_pages_for_one_are_refused_as_what_they_are(m512, lib, word):
+    for action in (("time", word), ("copy", word, "20", "-o", lib.parent / "new.bin")):
+        result = m512("pages", lib, *action)
+        assert result.exit_code == 4 and f"{word} means several pages, and one is asked for" in result.stderr
+
+
+def test_no_name_at_all_is_no_folder(m512, lib):
+    for words in (
+        ("convert", "", "x.bin"),
+        ("convert", lib, ""),
+        ("pages", "", "list"),
+        ("diff", "", lib),
+        ("pages", lib, "merge", "", "1", "--in-place"),
+    ):
+        result = m512(*words)
+        assert result.exit_code == 2 and "an empty name" in result.stderr and "folder" not in result.stderr, (words, result.stderr)
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "cp949"])
+def test_a_text_in_another_encoding_is_told_how_to_be_saved(m512, tmp_path, encoding):
+    (tmp_path / "a.m512").write_bytes((TEXT + "# \ud30c\ub3c4\n").encode(encoding))
+    result = m512("convert", tmp_path / "a.m512")
+    assert result.exit_code == 4 and "save it as UTF-8" in result.stderr
+
+
 def test_diff_calls_no_page_damaged_for_having_12_bits(m512, lib, tmp_path):
     high = tmp_path / "high.bin"
     high.write_bytes(read_text("motion512 1\nbits 12\npage 20 a\n  step 1s | 1..4:2048\n").to_bytes())

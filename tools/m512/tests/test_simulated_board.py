@@ -255,6 +255,22 @@ def test_a_play_whose_follower_is_ended_is_stopped(m512, robot, monkeypatch):
     assert json.loads(m512("stop", "--json", "-p", robot.path).stdout)["state"] == "idle"
 
 
+@pytest.mark.parametrize("word", ["0", "128", "300"])
+@pytest.mark.parametrize("command", ["play", "layer"])
+def test_a_number_of_no_page_is_told_with_what_there_is(m512, robot, command, word):
+    start(m512, robot)
+    result = m512(command, word, "-p", robot.path)
+    assert result.exit_code == 8 and f"page {word}" in result.stderr and "1 stand, 3 walk" in result.stderr, result.stderr
+
+
+def test_a_pose_of_no_servo_is_no_success(m512, started):
+    robot = started("boot-cm5.hex", "play-cm5.hex", servos=())
+    start(m512, robot)
+    for words in ((), ("--json",), ("--text",)):
+        result = m512("pose", *words, "-p", robot.path)
+        assert result.exit_code == 8 and "no servo answers" in result.stderr and not result.stdout
+
+
 def test_joints_are_named_by_ranges_too(m512, robot):
     start(m512, robot)
 

@@ -136,9 +136,17 @@ class Client:
         number = selection.page_number(word)
         if number is not None:
             return number
-        names = self._names()
-        has = ", ".join(f"{n} {name}" for n, name in names.items()) or "none"
-        return selection.find(word, names, lambda text: BoardError(f"{text}; it has {has}"), " of the board")
+        return selection.find(word, self._names(), lambda text: BoardError(f"{text}; it has {self._what_it_has()}"), " of the board")
+
+    def motion(self, word: str) -> int:
+        """A page that can be played, by number or name."""
+        number = self.find(word)
+        if not 0 < number < self.pages:
+            raise BoardError(f"page {number} is no motion: those are pages 1..{self.pages - 1}; the board has {self._what_it_has()}")
+        return number
+
+    def _what_it_has(self) -> str:
+        return ", ".join(f"{n} {name}" for n, name in self._names().items()) or "none"
 
     def is_named(self, word: str) -> bool:
         return word in self._names().values()

@@ -27,6 +27,18 @@ class Finite(click.FloatRange):
         return number
 
 
+class FilePath(click.Path):
+    """A file's or folder's name; what is wrong with the file is said by who opens it. Path("") would be the folder that we are in."""
+
+    def __init__(self, kind: type = Path):
+        super().__init__(readable=False, path_type=kind)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        if value == "":
+            self.fail("an empty name is no file", param, ctx)
+        return super().convert(value, param, ctx)
+
+
 port_option = click.option(
     "-p",
     "--port",
@@ -206,7 +218,7 @@ Examples:
   m512 flash library.m512                 motions, from the text; also .bin .hex .mtn
   m512 flash walk.bin -p socket://host:4000 --json"""
 )
-@click.argument("image", type=click.Path(path_type=Path))
+@click.argument("image", type=FilePath())
 @flash_options
 def flash(image: Any, **options: Any) -> None:
     """Write code or motions into the board and read them back.
@@ -223,7 +235,7 @@ Examples:
   m512 run play-cm5.hex     flash, then start
   m512 run                  start what is there"""
 )
-@click.argument("image", type=click.Path(path_type=Path), required=False)
+@click.argument("image", type=FilePath(), required=False)
 @flash_options
 def run(image: Any, **options: Any) -> None:
     """Write IMAGE as `m512 flash` does and start the application."""
@@ -257,7 +269,7 @@ Examples:
   m512 backup                         all, into backup-DATE-TIME/
   m512 backup robot1 --what motions   the motions only"""
 )
-@click.argument("folder", type=click.Path(path_type=Path), required=False)
+@click.argument("folder", type=FilePath(), required=False)
 @click.option("--what", default="motions,eeprom,app", show_default=True, help="Areas to read.")
 @port_option
 @board_option
@@ -291,7 +303,7 @@ Examples:
   m512 restore backup-20260101-120000
   m512 restore robot1 --what motions --yes"""
 )
-@click.argument("folder", type=click.Path(path_type=Path))
+@click.argument("folder", type=FilePath())
 @click.option("--what", help="Areas to write (default: all of the backup).")
 @click.option("--yes", is_flag=True, help="Do not ask.")
 @port_option

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Callable
 import click
 
 from m512 import ui
-from m512.cli.board import board_option
+from m512.cli.board import FilePath, board_option
 from m512.errors import EXIT_DIFFERENT, FileError, WordError
 from m512.files import conversion, formats, selection
 from m512.files.wording import pages_text
@@ -81,15 +81,15 @@ Examples:
   m512 convert large.mtn small.bin --only walk --only 20..25
                                             these pages and all that they lead to, renumbered to fit"""
 )
-@click.argument("source", type=click.Path(path_type=Path))
-@click.argument("target", type=click.Path(path_type=Path), default="-")
+@click.argument("source", type=FilePath())
+@click.argument("target", type=FilePath(), default="-")
 @click.option("--bits", type=click.Choice(["10", "12"]), help="Resolution of SOURCE (default: what its positions look like).")
 @click.option("--scale", type=click.Choice(["10", "12"]), help="Scale positions to this resolution.")
 @click.option("--joints", help="Keep these IDs (1..20 or 1,3,5) and set all others unused.")
 @click.option("--pages", "count", type=click.Choice(["128", "256"]), help="Pages of the result (default: as SOURCE; 128 for a .mtn).")
 @click.option("--only", multiple=True, metavar="NAME|RANGE", help="Take this page, or these, and all that they lead to; again for more.")
 @click.option("--page", "number", help="The page (number or name) of a CSV.")
-@click.option("--onto", type=click.Path(path_type=Path), help="Motion file whose page 0 (trim) a .mtn takes over.")
+@click.option("--onto", type=FilePath(), help="Motion file whose page 0 (trim) a .mtn takes over.")
 @click.option(
     "--damaged",
     type=click.Choice(["ask", "keep", "drop"]),
@@ -208,8 +208,8 @@ Examples:
   m512 diff walk.m512 backup-20260101-120000     a backup's folder
   m512 diff /dev/ttyUSB0 walk.m512 --json        the board, with Play or Edit or a loader"""
 )
-@click.argument("first")
-@click.argument("second")
+@click.argument("first", type=FilePath(str))
+@click.argument("second", type=FilePath(str))
 @click.option("--bits", type=click.Choice(["10", "12"]), help="Resolution of images (default: what the positions look like).")
 @board_option
 @click.option("--json", "as_json", is_flag=True, help="Result on stdout as JSON.")

@@ -55,7 +55,7 @@ def layer(page: str, joints: Any, **options: Any) -> None:
         raise click.UsageError("--joints belongs to a page; `layer off` ends the whole layer")
     must_last("a layer", options)
     with robot(options) as client:
-        number = "off" if page == "off" else client.find(page)
+        number = "off" if page == "off" else client.motion(page)
         client.ask(" ".join(map(str, ["layer", number, *chosen])))
         show_shape(client, options["as_json"])
 

@@ -12,7 +12,7 @@ from typing import Any
 import click
 
 from m512 import ui
-from m512.cli.board import Finite, board_option
+from m512.cli.board import FilePath, Finite, board_option
 from m512.cli.files import PAGE_NUMBER, one_of_csv, page_moves, page_numbers
 from m512.errors import EXIT_DIFFERENT, FileError, WordError
 from m512.files import formats
@@ -93,7 +93,7 @@ def changes(function: Any) -> Any:
         except WordError as error:
             raise click.UsageError(str(error)) from None
 
-    changing = click.option("-o", "--output", type=click.Path(), help="Write the result here.")(action)
+    changing = click.option("-o", "--output", type=FilePath(), help="Write the result here.")(action)
     changing = click.option("--in-place", is_flag=True, help="Write the result back to the file.")(changing)
     changing = click.option("--force", is_flag=True, help="Overwrite the file of -o.")(changing)
     changing = click.option("--yes", is_flag=True, help="Write to a board without asking.")(changing)
@@ -120,7 +120,7 @@ Examples:
   m512 pages lib.bin merge other.mtn 3 5:20 -o new.bin
   m512 pages /dev/ttyUSB0 list --json""",
 )
-@click.argument("source", metavar="FILE|PORT")
+@click.argument("source", metavar="FILE|PORT", type=FilePath(str))
 @click.option("--bits", type=click.Choice(["10", "12"]), help="Resolution of an image file (default: what its positions look like).")
 @board_option
 @click.pass_context
@@ -257,7 +257,7 @@ Examples:
   m512 pages lib.bin merge other.mtn all -o new.bin
   m512 pages lib.bin merge other.bin 3 wave:20 -o new.bin"""
 )
-@click.argument("other", type=click.Path(path_type=Path))
+@click.argument("other", type=FilePath())
 @click.argument("page", nargs=-1, required=True)
 @replacing
 @changes
@@ -288,7 +288,7 @@ def mirror(source: Source, page: str, target: Any, pairs: Any, replace: bool, **
     from m512.files.text.words import joint_pairs
     from m512.pages import operations
 
-    table = joint_pairs(pairs.split(","), {})
+    table = joint_pairs(pairs.replace(" ", ",").split(","), {})
     source.store(operations.mirror(source.image, source.image.find(page), table, target, replace), **where)
 
 

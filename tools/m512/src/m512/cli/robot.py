@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from m512 import ui
-from m512.cli.board import json_option, only_the_simulator, port_option, refuse_words
+from m512.cli.board import FilePath, json_option, only_the_simulator, port_option, refuse_words
 from m512.cli.files import one_of_csv, page_moves, page_numbers
 from m512.errors import BoardError, CancelledError, NoAnswerError, PortError, RefusedError, WordError
 
@@ -48,7 +48,7 @@ def robot_options(function: Any) -> Any:
     for option in (
         click.option("--servos", default="1-18", callback=_servos, help="With --sim: the servos that are plugged in.", show_default=True),
         click.option("--image", default="play-cm5.hex", help="With --sim: the firmware.", show_default=True),
-        click.option("--motions", type=click.Path(path_type=Path), help="With --sim: motion file of any kind."),
+        click.option("--motions", type=FilePath(), help="With --sim: motion file of any kind."),
         click.option("--sim", is_flag=True, help="Start the simulator instead of using a port."),
         json_option,
         port_option,
@@ -121,7 +121,7 @@ def play(page: str, rate: int | None, amplitude: int | None, blend: int | None, 
     except WordError as error:
         raise click.UsageError(str(error)) from None
     with robot(options) as client:
-        number = client.find(page)
+        number = client.motion(page)
         for word, value in (("rate", rate), ("amplitude", amplitude), ("blend", blend)):
             if value is not None:
                 client.ask(f"{word} {value}")
@@ -202,6 +202,8 @@ def pose(positions: Sequence[str], speed: int, as_text: bool, **options: Any) ->
             ui.say("moving; waiting for the end")
             _follow(client)
         found = client.pose()
+    if not found:
+        raise BoardError("no servo answers; is their power on? m512 doctor looks")
     if options["as_json"]:
         ui.show(json.dumps({joint: {"position": at, "torque": on} for joint, (at, on) in found.items()}, indent=2))
     elif as_text:
@@ -260,7 +262,7 @@ Examples:
   m512 get all -o robot.bin"""
 )
 @click.argument("pages", nargs=-1, required=True)
-@click.option("-o", "--output", required=True, type=click.Path(path_type=Path), help="Motion file of any kind.")
+@click.option("-o", "--output", required=True, type=FilePath(), help="Motion file of any kind.")
 @click.option("--force", is_flag=True, help="Overwrite the file.")
 @robot_options
 def get(pages: Sequence[str], output: Any, force: bool, **options: Any) -> None:
@@ -291,7 +293,7 @@ Examples:
   m512 put library.m512 wave:40 3         wave to number 40, page 3 to 3
   m512 put library.m512 1..9:60           pages 1 to 9 to 60 and on"""
 )
-@click.argument("source", type=click.Path(path_type=Path))
+@click.argument("source", type=FilePath())
 @click.argument("pages", nargs=-1, required=True)
 @click.option("--yes", is_flag=True, help="Do not ask before a page of another name, or of none, is lost.")
 @click.option("--sim", is_flag=True, hidden=True)

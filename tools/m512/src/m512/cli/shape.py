@@ -79,7 +79,7 @@ def drive(page: str, pad: bool, laid: Any, **options: Any) -> None:
 
     with robot(options) as client:
         client.shape()  # Edit refuses here; it would play the page, and could not be driven
-        number, second = client.find(page), client.find(laid) if laid else 0
+        number, second = client.motion(page), client.motion(laid) if laid else 0
         with _pad() if pad else _keys() as source:
             client.play(number)
             ui.say(f"page {number} plays. " + ("Any of the first four buttons stops it" if pad else driving.Keys.HELP))

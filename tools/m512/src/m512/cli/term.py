@@ -9,7 +9,7 @@ from typing import Any
 import click
 
 from m512 import ui
-from m512.cli.board import only_the_simulator, port_option, refuse_words
+from m512.cli.board import FilePath, only_the_simulator, port_option, refuse_words
 from m512.errors import MissingError
 
 
@@ -21,12 +21,12 @@ Examples:
   m512 term --list"""
 )
 @port_option
-@click.option("--log", type=click.Path(path_type=Path), help="Write all that the board sends to this file.")
+@click.option("--log", type=FilePath(), help="Write all that the board sends to this file.")
 @click.option("--force", is_flag=True, help="Overwrite the file of --log.")
-@click.option("--send", type=click.Path(path_type=Path), help="Send this file first (as typed; a line at a time).")
+@click.option("--send", type=FilePath(), help="Send this file first (as typed; a line at a time).")
 @click.option("--list", "listing", is_flag=True, help="List the ports and end.")
 @click.option("--sim", is_flag=True, help="Start the simulator with Edit instead of using a port.")
-@click.option("--motions", type=click.Path(path_type=Path), help="With --sim: motion file of any kind.")
+@click.option("--motions", type=FilePath(), help="With --sim: motion file of any kind.")
 @click.option("--image", default="edit-cm5.hex", show_default=True, help="With --sim or -p bus:...: the firmware.")
 def term(port: str, log: Path | None, force: bool, send: Path | None, listing: bool, sim: bool, motions: Path | None, image: Any) -> None:
     """A terminal at 57,600 baud, good for Edit's full screen.

@@ -54,7 +54,7 @@ def _text_of(data: bytes, path: Path) -> str:
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise FileError(f"{path}: not text (byte 0x{data[error.start]:02X} at {error.start})") from None
+        raise FileError(f"{path}: not UTF-8 text (byte 0x{data[error.start]:02X} at {error.start}): in an editor, save it as UTF-8") from None
 
 
 def load(path: Path, bits: int | None = None, base: Image | None = None) -> Image:

@@ -41,6 +41,8 @@ def find(word: str, names: Mapping[int, str], error: Callable[[str], M512Error],
             return hits[0]
         if hits:
             raise error(f"page name {word!r} is not unique: pages " + ", ".join(map(str, hits)))
+    if word == "all" or number_range(word):
+        raise error(f"{word} means several pages, and one is asked for")
     raise error(f"no page{whose} is called {word!r}")
 
 
