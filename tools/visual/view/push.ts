@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A push at the chest of the robot in the page: what a drag of the mouse at it does, by a key or a button.
 
+import { headingOf } from './chase.ts';
 import type { Session } from './session/session.ts';
 import { TEXTS } from './texts/texts.ts';
 
@@ -8,7 +9,7 @@ const PUSH_TICKS = 38; // 0.3 s
 const REACH_M = 0.2;
 const CHEST_M = 0.03; // above the middle of the trunk
 
-/** direction: 1 ahead, -1 back. Your robot is not pushed; without physics a sentence says why nothing moves. */
+/** direction: 1 ahead of the robot, -1 back. Your robot is not pushed; without physics a sentence says why nothing moves. */
 export function pushRobot(session: Session, direction: 1 | -1): void {
     const { source, physics } = session.state.get();
     if (source !== 'simulated') return;
@@ -17,6 +18,9 @@ export function pushRobot(session: Session, direction: 1 | -1): void {
     const stop = session.onFrame(state => {
         stop();
         const [x, y, z] = state.trunk.pos;
-        session.sim.pull({ link: trunk, point: [0, 0, CHEST_M], target: [x + direction * REACH_M, y, z + CHEST_M] }, PUSH_TICKS);
+        const heading = headingOf(state.trunk) ?? 0;
+        const reach = direction * REACH_M;
+        const target = [x + reach * Math.cos(heading), y + reach * Math.sin(heading), z + CHEST_M] as const;
+        session.sim.pull({ link: trunk, point: [0, 0, CHEST_M], target }, PUSH_TICKS);
     });
 }
