@@ -15,10 +15,13 @@ export class PictureAside {
     /** Where WebGL puts a picture while nobody waits. Always the same one: of a new one the browser would ask, and wait for the answer. */
     private buffer: WebGLBuffer | null = null;
     private pixels = new Uint8Array();
+    private upright = new ImageData(1, 1);
 
     constructor(page: HTMLCanvasElement) {
         this.page = page;
         this.context = page.getContext('2d', { alpha: false });
+        if (this.context) this.context.fillStyle = getComputedStyle(page).getPropertyValue('--room'); // until the first picture; else it is black
+        this.context?.fillRect(0, 0, page.width, page.height);
         this.canvas.addEventListener('webglcontextlost', () => (this.buffer = null));
     }
 
@@ -30,7 +33,7 @@ export class PictureAside {
     /** Puts on the page what has just been drawn, when it is done. Not while it is busy. */
     show(gl: WebGL2RenderingContext): void {
         const { drawingBufferWidth: width, drawingBufferHeight: height } = gl;
-        this.makeBuffer(gl, BYTES_A_PIXEL * width * height);
+        this.makeBuffer(gl, width, height);
         gl.bindBuffer(gl.PIXEL_PACK_BUFFER, this.buffer);
         gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, 0);
         gl.bindBuffer(gl.PIXEL_PACK_BUFFER, null);
@@ -44,7 +47,7 @@ export class PictureAside {
             gl.bindBuffer(gl.PIXEL_PACK_BUFFER, this.buffer);
             gl.getBufferSubData(gl.PIXEL_PACK_BUFFER, 0, this.pixels);
             gl.bindBuffer(gl.PIXEL_PACK_BUFFER, null);
-            if (!gl.isContextLost()) this.put(width, height);
+            if (!gl.isContextLost()) this.put();
         };
         this.timer = setTimeout(look, LOOK_MS);
     }
@@ -54,21 +57,22 @@ export class PictureAside {
         this.timer = null;
     }
 
-    private makeBuffer(gl: WebGL2RenderingContext, bytes: number): void {
-        if (this.buffer && this.pixels.length === bytes) return;
+    private makeBuffer(gl: WebGL2RenderingContext, width: number, height: number): void {
+        if (this.buffer && this.upright.width === width && this.upright.height === height) return;
         gl.deleteBuffer(this.buffer);
         this.buffer = gl.createBuffer();
-        this.pixels = new Uint8Array(bytes);
+        this.upright = new ImageData(width, height);
+        this.pixels = new Uint8Array(this.upright.data.length);
         gl.bindBuffer(gl.PIXEL_PACK_BUFFER, this.buffer);
-        gl.bufferData(gl.PIXEL_PACK_BUFFER, bytes, gl.STREAM_READ);
+        gl.bufferData(gl.PIXEL_PACK_BUFFER, this.pixels.length, gl.STREAM_READ);
     }
 
     /** WebGL begins at the lower edge. */
-    private put(width: number, height: number): void {
-        const upright = new ImageData(width, height);
+    private put(): void {
+        const { width, height, data } = this.upright;
         const row = BYTES_A_PIXEL * width;
-        for (let y = 0; y < height; y++) upright.data.set(this.pixels.subarray(row * y, row * (y + 1)), row * (height - 1 - y));
+        for (let y = 0; y < height; y++) data.set(this.pixels.subarray(row * y, row * (y + 1)), row * (height - 1 - y));
         if (this.page.width !== width || this.page.height !== height) Object.assign(this.page, { width, height });
-        this.context?.putImageData(upright, 0, 0);
+        this.context?.putImageData(this.upright, 0, 0);
     }
 }

@@ -83,7 +83,9 @@ export class RobotScene {
         );
         this.string.visible = false;
         this.string.frustumCulled = false;
+        this.figure.root.visible = false;
         this.room.add(this.figure.root, this.string);
+        this.place.goWith(this.followed);
     }
 
     /** Colours of the room, from the page's theme. */
@@ -123,8 +125,9 @@ export class RobotScene {
         object.position.setFromSpherical(from).applyQuaternion(TO_Y_UP.clone().invert()).add(target);
     }
 
-    /** The camera goes with the trunk, and behind it if it chases; elapsedMs: since the last look. null: it stays. */
+    /** The robot is known. The camera goes with the trunk, and behind it if it chases; elapsedMs: since the last look. null: it stays. */
     look(trunk: Place, elapsedMs: number | null, chases: boolean): void {
+        this.figure.root.visible = true;
         if (elapsedMs !== null) this.follow(trunk, glide(FOLLOW, elapsedMs), chases);
         this.place.goWith(this.followed);
     }

@@ -69,3 +69,44 @@ test('the start page has ten motions with moving pictures, and each of its links
     await person.doing.filter({ hasText: /^Playing motion 2 \(bow\)/ }).waitFor();
     await person.leave();
 });
+
+/** Of the picture that is drawn by software: how bright its darkest quarter of lines is (0 to 255), and how many pixels are as blue as the robot. */
+function lookAt(person: Visitor): Promise<{ width: number; darkest: number; blue: number }> {
+    return person.page.locator('robot-view canvas').evaluate(canvas => {
+        const { width, height } = canvas as HTMLCanvasElement;
+        const data = (canvas as HTMLCanvasElement).getContext('2d')?.getImageData(0, 0, width, height).data ?? [];
+        const quarters = [0, 0, 0, 0];
+        let blue = 0;
+        for (let i = 0; i + 3 < data.length; i += 4) {
+            const [r = 0, g = 0, b = 0] = [data[i], data[i + 1], data[i + 2]];
+            const quarter = Math.floor((4 * i) / data.length);
+            quarters[quarter] = (quarters[quarter] ?? 0) + (16 * (r + g + b)) / (3 * data.length);
+            if (b > r + 60) blue++;
+        }
+        return { width, darkest: Math.min(...quarters), blue };
+    });
+}
+
+test('before the robot is there the picture is an empty room in the light: not black, and nothing sunk into the floor', async () => {
+    let go = (): void => undefined;
+    const person = await Visitor.come(suite.browser, suite.address, {
+        isNew: true,
+        hasPhysics: false,
+        before: page =>
+            page.route(/board-[^/]*\.wasm/, async route => {
+                await new Promise<void>(resolve => (go = resolve));
+                await route.continue();
+            }),
+    });
+    await person.page.locator('robot-view canvas').waitFor();
+    const { width: unborn, darkest } = await lookAt(person);
+    expect(darkest).toBeGreaterThan(150);
+    await expect.poll(async () => (await lookAt(person)).width).not.toBe(unborn);
+    const room = await lookAt(person);
+    expect(room.darkest).toBeGreaterThan(150);
+    expect(room.blue).toBe(0);
+    go();
+    await person.untilStanding();
+    expect((await lookAt(person)).blue).toBeGreaterThan(100);
+    await person.leave();
+});
