@@ -222,9 +222,44 @@ test.each(Object.entries({ PHONE, LYING, TABLET }))(
         await person.open('Steps');
         await page.getByText(/^Balance: /).waitFor();
         await expect.poll(overFace).toEqual([]);
+        await person.open('Curves');
+        await person.button('Right arm').click(); // nothing covers it, either
+        await page.getByRole('spinbutton', { name: /right elbow/ }).waitFor();
+        await expect.poll(overFace).toEqual([]);
         await person.leave();
     },
 );
+
+test.each(Object.entries({ PHONE, LYING, DESKTOP_AT_200 }))(
+    '%s: the card of a motion that was sent leaves the robot in sight',
+    async (_, screen) => {
+        const bow = await suite.browser.newPage();
+        await bow.goto(`${suite.address}motions.html`);
+        const hash = new URL((await bow.getByRole('link', { name: /^Bow/ }).getAttribute('href')) ?? '', suite.address).hash;
+        await bow.close();
+        const person = await Visitor.come(suite.browser, `${suite.address}${hash}`, { screen, isNew: true, hasPhysics: false });
+        await person.page.getByRole('region', { name: 'A motion for you' }).waitFor();
+        await person.doing.filter({ hasText: /^Playing motion 2 \(bow\)/ }).waitFor();
+        await person.untilStanding();
+        for (const shape of ['face', 'chest', 'right_knee', 'left_foot_front'])
+            expect.soft(await textsOver(person.page, await placeOf(person.page, shape)), shape).toEqual([]);
+        await person.leave();
+    },
+);
+
+test.each(['en', 'de', 'ja'])('on a phone Stop stands beside Play in Steps (%s)', async language => {
+    const person = await Visitor.come(suite.browser, `${suite.address}?lang=${language}`, {
+        screen: PHONE,
+        hasPicture: false,
+        hasPhysics: false,
+    });
+    await person.page.locator('#tab-steps').click();
+    const tops = await person.page
+        .locator('#area-steps page-head button')
+        .evaluateAll(all => all.slice(1, 3).map(one => one.getBoundingClientRect().top));
+    expect(tops[0]).toBe(tops[1]);
+    await person.leave();
+});
 
 test('the terminal has letters of 12 px or more on every screen, and the full screen', async () => {
     for (const screen of Object.values(SCREENS)) {

@@ -34,8 +34,12 @@ export class PageHead extends HTMLElement {
             this.name,
             make('button', { title: TEXTS.steps.createHint, onclick: () => this.newPage() }, TEXTS.steps.create),
             make('span', { class: 'space' }),
-            this.play,
-            make('button', { class: 'stop', onclick: () => void this.session.command('stop') }, TEXTS.page.stop),
+            make(
+                'span',
+                { class: 'plays' },
+                this.play,
+                make('button', { class: 'stop', onclick: () => void this.session.command('stop') }, TEXTS.page.stop),
+            ),
             this.library,
         );
         this.library.append(
@@ -108,7 +112,8 @@ export class PageHead extends HTMLElement {
     private rename(): void {
         const { editor } = this.session;
         const { page, document } = editor.state.get();
-        if (!editor.dispatch(editor.edits.rename(document, page, this.name.value.trim()))) this.name.value = editor.page(page).name;
+        editor.dispatch(editor.edits.rename(document, page, this.name.value.trim()));
+        this.name.value = editor.page(page).name; // what there is now, refused or without the blanks around it
     }
 
     private newPage(): void {
