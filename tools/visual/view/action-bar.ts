@@ -6,7 +6,7 @@ import type { PageEntry } from '../robot/protocol.ts';
 import type { RobotState } from '../robot/robot-state.ts';
 import type { Session, SessionState } from './session/session.ts';
 import { onChoice } from './choice.ts';
-import { define, keepFocus, make } from './element.ts';
+import { define, handOver, keepFocus, make } from './element.ts';
 import { GetUp } from './get-up.ts';
 import { TEXTS } from './texts/texts.ts';
 import './action-bar.css';
@@ -89,9 +89,13 @@ export class ActionBar extends HTMLElement {
         const { where } = this.session.state.get();
         if (frame) this.gettingUp.look(where !== null && where.state !== 'idle', frame.trunk, frame.hasFallen);
         const lies = frame?.hasFallen === true && frame.isPowered;
-        this.letGo.disabled = frame?.isHeld !== true;
-        this.getUp.disabled = !lies || this.session.state.get().connection !== 'ready' || !frame?.isPowered;
+        this.allow(this.letGo, frame?.isHeld === true);
+        this.allow(this.getUp, lies && this.session.state.get().connection === 'ready');
         this.getUp.classList.toggle('wanted', lies);
+    }
+
+    private allow(button: HTMLButtonElement, may: boolean): void {
+        if (button.disabled === may) handOver(button, this.querySelector('.stop'), () => (button.disabled = !may));
     }
 
     private standUp(): void {

@@ -40,6 +40,18 @@ export function keepFocus(root: Element, render: () => void): void {
     [...all].find(element => nameOf(element) === name)?.focus({ preventScroll: true });
 }
 
+/** Takes away something, or its use. Whoever was there with the keyboard is at the other one. */
+export function handOver(from: Element, to: HTMLElement | null, take: () => void): void {
+    const hadFocus = from.contains(document.activeElement);
+    take();
+    if (hadFocus) to?.focus({ preventScroll: true });
+}
+
+/** Where somebody is who has put away what stood over the picture. */
+export function pictureCanvas(): HTMLElement | null {
+    return document.querySelector<HTMLElement>('robot-view canvas');
+}
+
 /** Writes a text, unless it stands there already: written again it would be laid out again. */
 export function setText(element: Element, text: string): void {
     if (element.textContent !== text) element.textContent = text;

@@ -4,7 +4,7 @@
 
 import type { RobotState } from '../robot/robot-state.ts';
 import type { Session } from './session/session.ts';
-import { define, make } from './element.ts';
+import { define, handOver, make, pictureCanvas } from './element.ts';
 import { pushRobot } from './push.ts';
 import { isRemembered, remember } from './remembered.ts';
 import { startPageAddress } from './texts/languages.ts';
@@ -58,7 +58,7 @@ export class FirstMinute extends HTMLElement {
 
     /** Out of the way; it is offered again at the next visit unless somebody has begun. */
     close(hasBegun = true): void {
-        this.hidden = true;
+        handOver(this, pictureCanvas(), () => (this.hidden = true));
         if (hasBegun) remember('begun');
         for (const dispose of this.disposals.splice(0)) dispose();
     }

@@ -79,9 +79,10 @@ export class TerminalPane extends HTMLElement {
 
     /** A browser that gives no element the screen (iPhone) gives it the whole page. */
     private async fillScreen(): Promise<void> {
-        if (document.fullscreenElement === this) return document.exitFullscreen();
-        if (document.fullscreenEnabled) return this.requestFullscreen();
-        this.full.setAttribute('aria-pressed', String(this.classList.toggle('full')));
+        if (document.fullscreenElement === this) await document.exitFullscreen();
+        else if (document.fullscreenEnabled) await this.requestFullscreen();
+        else this.full.setAttribute('aria-pressed', String(this.classList.toggle('full')));
+        this.focus(); // what is typed now is for the robot, and not for the button
     }
 
     /** xterm measures its letters on the screen and keeps no width of 0: opened while nobody sees it, it would measure every one of them

@@ -19,12 +19,13 @@ const place = (person: Visitor): Promise<string> =>
     });
 
 test('a pupil: walks, looks round, pushes it over, gets up; teaches a page, names it, plays it; sends it as a teacher does', async () => {
-    const pupil = await Visitor.come(suite.browser, suite.address, { screen: WIDE });
+    const pupil = await Visitor.come(suite.browser, suite.address, { screen: WIDE, isNew: true });
     const keys = new Keyboard(pupil);
     const { page } = pupil;
     await page.context().grantPermissions(['clipboard-write']);
     await pupil.untilStanding();
-    await keys.to('The robot');
+    await keys.enter('Walk it'); // that button goes
+    await keys.at('The robot');
     await page.keyboard.down('ArrowUp');
     await pupil.doing.filter({ hasText: /Playing motion 2[12] \(walk_/ }).waitFor();
     await page.keyboard.up('ArrowUp');
@@ -41,6 +42,7 @@ test('a pupil: walks, looks round, pushes it over, gets up; teaches a page, name
     await pupil.doing.filter({ hasText: 'The robot lies on the floor. Press Get up.' }).waitFor();
     await keys.enter('Get up');
     await pupil.untilStanding();
+    await keys.at('Stop'); // nobody can get up who stands
 
     await keys.open('Steps');
     await keys.enter('New motion');
@@ -184,3 +186,25 @@ test('a hobbyist: opens a file, goes where it is faulty, renames, copies and cle
     await keys.at('Draw servo 13');
     await person.leave();
 }, 900_000);
+
+test('in an empty motion: a joint begins where the robot has it; from the chart of links to the first motion; trying motions and stopping it', async () => {
+    const person = await Visitor.come(suite.browser, suite.address, { screen: WIDE });
+    const keys = new Keyboard(person);
+    await person.untilStanding();
+    await keys.open('Steps');
+    await keys.press('F6', 'ArrowRight');
+    const position = Number(await chosen(person).inputValue());
+    await keys.press('ArrowUp');
+    await expect.poll(async () => Number(await chosen(person).inputValue())).toBe(position + 1);
+    await keys.press('Control+z', 'F6');
+    await keys.open('Links');
+    await keys.to(/^motion \d+ /);
+    await keys.press('ArrowDown');
+    await person.page.getByRole('heading', { name: /^Links of motion \d+ \(/ }).waitFor(); // one that has a name
+    await keys.open('Checks');
+    await keys.enter('Try all motions');
+    await keys.at('Stop trying');
+    await keys.press('Enter');
+    await keys.at('Try all motions');
+    await person.leave();
+});

@@ -55,7 +55,10 @@ test('menus, Ctrl+A, F6, a joint spoken, double clicks on "Add step" and Play, a
 
     const last = await page.getByRole('combobox', { name: 'Motion', exact: true }).inputValue();
     const name = page.getByRole('textbox', { name: 'Name of the motion' });
-    await name.click();
+    await name.fill('  nod  ');
+    await name.press('Enter');
+    expect(await name.inputValue()).toBe('nod'); // as it is saved
+    await name.fill('');
     await page.keyboard.type('unfinished'); // no Enter, and the field is not left
     await page.reload();
     await person.untilStanding();
@@ -145,5 +148,11 @@ test('a terminal that nobody has looked at measures no letters while the robot s
     expect(await person.page.evaluate(() => (window as unknown as { counts: { widths: number } }).counts.widths)).toBe(0);
     await person.open('Terminal');
     await person.page.locator('terminal-pane .xterm-rows').filter({ hasText: 'walk_' }).waitFor();
+    await person.button('Stop').click();
+    await person.untilStanding();
+    await person.button('Full screen').click();
+    await person.page.keyboard.type('play 2'); // and not to the button
+    await person.page.keyboard.press('Enter');
+    await person.doing.filter({ hasText: /^Playing motion 2 \(bow\)/ }).waitFor();
     await person.leave();
 });

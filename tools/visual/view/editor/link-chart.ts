@@ -204,11 +204,13 @@ function box(page: number, laid: Laid, node: PageNode | null, links: readonly Pa
 
 /** What is chosen and what plays, on a chart that stands. */
 export function markChart(chart: Element, { selected, playing }: ChartMarks): void {
-    for (const node of chart.querySelectorAll<SVGElement>('.node')) {
+    const nodes = [...chart.querySelectorAll<SVGElement>('.node')];
+    const entry = nodes.find(node => Number(node.dataset.page) === selected) ?? nodes[0]; // Tab comes to it
+    for (const node of nodes) {
         const page = Number(node.dataset.page);
         node.classList.toggle('selected', page === selected);
         node.classList.toggle('playing', page === playing);
-        node.setAttribute('tabindex', page === selected ? '0' : '-1');
+        node.setAttribute('tabindex', node === entry ? '0' : '-1');
     }
     for (const line of chart.querySelectorAll<SVGElement>('.edge')) {
         line.classList.toggle('selected', Number(line.dataset.source) === selected || Number(line.dataset.target) === selected);

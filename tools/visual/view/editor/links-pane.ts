@@ -127,9 +127,13 @@ export class LinksPane extends HTMLElement {
 
     /** Arrows go to the nearest page that way; Enter opens its steps. */
     private key(event: KeyboardEvent): void {
-        if (event.key === 'Enter') return void this.dispatchEvent(new CustomEvent('open-steps', { bubbles: true }));
+        const at = event.target instanceof Element ? event.target.closest<SVGElement>('.node') : null;
+        if (event.key === 'Enter') {
+            if (at) this.choose(Number(at.dataset.page));
+            return void this.dispatchEvent(new CustomEvent('open-steps', { bubbles: true }));
+        }
         const way = ({ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] } as const)[event.key];
-        const here = this.chart.querySelector('.node.selected')?.getBoundingClientRect();
+        const here = (at ?? this.chart.querySelector('.node.selected'))?.getBoundingClientRect();
         if (!way || !here) return;
         event.preventDefault();
         const [dx, dy] = way;

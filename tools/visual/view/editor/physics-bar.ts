@@ -3,7 +3,7 @@
 
 import { pageOf } from '../../model/document.ts';
 import type { Session } from '../session/session.ts';
-import { define, make } from '../element.ts';
+import { define, handOver, make } from '../element.ts';
 import type { TrialsState } from '../session/trials.ts';
 import { TEXTS } from '../texts/texts.ts';
 import { countedText } from '../texts/trials.ts';
@@ -18,15 +18,12 @@ export class PhysicsBar extends HTMLElement {
     );
     private readonly stop = make('button', { onclick: () => this.session.trials.cancel() }, TEXTS.trials.stop);
     private readonly progress = make('progress', { 'aria-label': TEXTS.trials.tried });
+    private readonly row = make('div', { class: 'row' }, this.one, this.all, this.stop, this.progress);
     private readonly status = make('p', { class: 'result', role: 'status', 'aria-label': TEXTS.trials.state });
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
-        this.replaceChildren(
-            make('p', { class: 'purpose' }, TEXTS.trials.purpose),
-            make('div', { class: 'row' }, this.one, this.all, this.stop, this.progress),
-            this.status,
-        );
+        this.replaceChildren(make('p', { class: 'purpose' }, TEXTS.trials.purpose), this.row, this.status);
         const { trials, editor, state } = this.session;
         this.disposals.push(
             trials.state.watch(() => this.render()),
@@ -53,13 +50,20 @@ export class PhysicsBar extends HTMLElement {
         const isBusy = trial.phase === 'loading' || trial.phase === 'trying';
         const playable = this.playable();
         this.one.textContent = TEXTS.trials.tryOne(this.titleOf(page));
-        this.one.hidden = this.all.hidden = isBusy;
         this.one.disabled = !playable.includes(page) || trials.isFresh(page);
         this.all.disabled = playable.every(one => trials.isFresh(one));
-        this.stop.hidden = this.progress.hidden = !isBusy;
+        if (this.stop.hidden === isBusy) this.turn(isBusy);
         this.progress.max = Math.max(1, trial.total);
         this.progress.value = trial.done;
         this.say(this.textOf(trial, playable));
+    }
+
+    private turn(isBusy: boolean): void {
+        const wanted = isBusy ? this.stop : this.all.disabled ? this.one : this.all;
+        handOver(this.row, wanted, () => {
+            this.one.hidden = this.all.hidden = isBusy;
+            this.stop.hidden = this.progress.hidden = !isBusy;
+        });
     }
 
     private textOf(trial: TrialsState, playable: readonly number[]): string {

@@ -8,7 +8,7 @@ import type { RobotState } from '../../robot/robot-state.ts';
 import type { Session } from '../session/session.ts';
 import { closesByItself, define, make } from '../element.ts';
 import type { Store } from '../store.ts';
-import { isEditing } from './editing.ts';
+import { isEditing, robotPositions } from './editing.ts';
 import type { Editing, PictureMode } from './editing.ts';
 import { changeStep } from './joint-edits.ts';
 import { jointTitle } from '../texts/robot.ts';
@@ -108,7 +108,8 @@ export class PoseBar extends HTMLElement {
         }
         const { editor } = this.session;
         const { page, step } = editor.state.get();
-        const pose = editor.poseAfter(page, step);
+        const isEmpty = editor.page(page).steps.length === 0;
+        const pose = isEmpty && this.robot ? robotPositions(this.robot) : editor.poseAfter(page, step); // with what an edit begins
         for (const joint of joints) {
             const field = this.fields.get(joint.servo);
             const position = pose[joint.servo] ?? joint.zero;

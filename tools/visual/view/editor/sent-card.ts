@@ -2,7 +2,7 @@
 // A motion that came in the address of the page: it is taken into the document and runs. The card says what it is, and what next.
 
 import type { Session } from '../session/session.ts';
-import { define, make } from '../element.ts';
+import { define, handOver, make, pictureCanvas } from '../element.ts';
 import type { SentMotion } from '../session/files.ts';
 import { TEXTS } from '../texts/texts.ts';
 import './sent-card.css';
@@ -39,7 +39,7 @@ export class SentCard extends HTMLElement {
         const button = (title: string, action: () => void, kind = ''): HTMLButtonElement =>
             make('button', { class: kind, onclick: action }, title);
         const leave = (action: () => void): void => {
-            this.hidden = true;
+            handOver(this, pictureCanvas(), () => (this.hidden = true));
             action();
         };
         this.replaceChildren(

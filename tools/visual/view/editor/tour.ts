@@ -4,7 +4,7 @@
 
 import type { RobotState } from '../../robot/robot-state.ts';
 import type { Session } from '../session/session.ts';
-import { define, make } from '../element.ts';
+import { define, handOver, make, pictureCanvas } from '../element.ts';
 import type { Store } from '../store.ts';
 import type { Editing } from './editing.ts';
 import { TEXTS } from '../texts/texts.ts';
@@ -86,7 +86,7 @@ export class TourCard extends HTMLElement {
     }
 
     private end(): void {
-        this.hidden = this.ring.hidden = true;
+        handOver(this, pictureCanvas(), () => (this.hidden = this.ring.hidden = true));
         this.at = -1;
     }
 
