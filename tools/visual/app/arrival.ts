@@ -3,6 +3,7 @@
 
 import type { ConnectionState } from '../robot/connection-table.ts';
 import { askList, askPose } from '../robot/protocol.ts';
+import { RobotError } from '../robot/robot-error.ts';
 import type { SessionState } from '../view/session/session.ts';
 import type { Store } from '../view/store.ts';
 import { TEXTS } from '../view/texts/texts.ts';
@@ -36,7 +37,7 @@ export class Arrival {
         status.look();
         if (connection === 'other-board') messages.fail(error);
         if (connection !== 'ready') return;
-        void askList(sources.connection.requests).then(pages => state.set({ pages }), messages.fail);
+        void askList(sources.connection.requests).then(pages => state.set({ pages }), this.fail);
         this.standUp();
         void status.ask();
         if (!sources.isSimulated && editor.state.get().robot.length === 0) void this.learnYours();
@@ -44,11 +45,15 @@ export class Arrival {
 
     /** The robot in the page stands up by itself as soon as it answers and has a body, whichever comes last. */
     standUp(): void {
-        const { state, messages, sources } = this.parts;
+        const { state, sources } = this.parts;
         const { connection, version } = state.get();
-        if (sources.isSimulated && connection === 'ready' && version?.image === 'play')
-            void sources.simulated.prepare().catch(messages.fail);
+        if (sources.isSimulated && connection === 'ready' && version?.image === 'play') void sources.simulated.prepare().catch(this.fail);
     }
+
+    /** One that has gone, or starts anew, is told of by its state, and asked again when it answers. */
+    private readonly fail = (error: unknown): void => {
+        if (!(error instanceof RobotError && error.code === 'not-connected')) this.parts.messages.fail(error);
+    };
 
     /** Reads what your robot has and keeps it, as soon as it is known; no question is asked for it. */
     private async learnYours(): Promise<void> {

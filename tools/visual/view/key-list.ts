@@ -45,7 +45,7 @@ export class KeyList extends HTMLElement {
         const { format } = this.session.editor;
         const targets = !hears ? [] : page > 0 ? targetsFrom(format, robot, page) : targetsFromRest(format, robot);
         const name = this.session.state.get().pages.find(entry => entry.page === page)?.name ?? '';
-        this.heading.textContent = page > 0 ? TEXTS.remote.leadsOn(page, name) : targets.length > 0 ? TEXTS.remote.keysStart : '';
+        this.heading.textContent = targets.length === 0 ? '' : page > 0 ? TEXTS.remote.leadsOn(page, name) : TEXTS.remote.keysStart;
         this.classList.toggle('playing', page > 0);
         this.list.replaceChildren(...targets.map(target => this.item(target)));
     }

@@ -64,6 +64,7 @@ test('the space bar stops Edit, and Edit goes on; no key drives the robot from a
     await person.open('Remote');
     await person.button('Dance').click();
     await person.doing.filter({ hasText: /^Playing motion \d+ \(dance/ }).waitFor();
+    expect(await page.getByText('at its end the keys lead on to').isVisible()).toBe(false); // they lead nowhere
     const heard = await listen(person);
     await page.keyboard.press('Space');
     await person.doing.filter({ hasText: /^Edit runs/ }).waitFor();

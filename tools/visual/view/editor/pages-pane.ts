@@ -36,7 +36,7 @@ export class PagesPane extends HTMLElement {
     private readonly nothing = make('p', { class: 'nothing', hidden: true }, TEXTS.motions.nothingFound);
     private actions!: PageActions; // made with the session
     private dragged = 0;
-    private playing = 0;
+    private playing = -1;
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
@@ -48,7 +48,7 @@ export class PagesPane extends HTMLElement {
             this.watchSight(),
             this.session.editor.state.watch(state => this.render(state)),
             this.session.state.watch(({ where }) => {
-                const playing = where?.state === 'playing' ? where.page : 0;
+                const playing = where?.state === 'playing' ? where.page : -1;
                 if (playing === this.playing) return;
                 this.playing = playing;
                 this.render(this.session.editor.state.get());
