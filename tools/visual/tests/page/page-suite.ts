@@ -20,13 +20,18 @@ const TELL_MS = 20_000;
 /** What a page shows and knows, for the report of a test that failed: a wait alone says nothing of why. */
 async function told(page: Page): Promise<string> {
     const shows = page.evaluate(() => {
-        const shell = document.querySelector('app-shell') as unknown as { session: { state: { get(): Record<string, unknown> } } } | null;
+        type Known = {
+            state: { get(): Record<string, unknown> };
+            lastFrame: { trunk: unknown; isHeld: boolean; hasFallen: boolean } | null;
+        };
+        const shell = document.querySelector('app-shell') as unknown as { session: Known } | null;
         const { connection, image, physics, speed, stopped, tab, version, where } = shell?.session.state.get() ?? {};
+        const { trunk, isHeld, hasFallen } = shell?.session.lastFrame ?? {};
         const text = (name: string): string => document.querySelector<HTMLElement>(name)?.innerText ?? '';
         const terminal = document.querySelector('terminal-pane') as unknown as { screenText?: string } | null;
         const messages = [text('.start-failed'), text('status-bar')].filter(Boolean).join('\n');
-        const shown = ['[role="tabpanel"]:not([hidden])', 'dialog[open]'].map(name => text(name).slice(0, 2000)).join('\n');
-        return `${messages}\n${shown}\n${JSON.stringify({ connection, image, physics, speed, stopped, tab, version, where })}\n${terminal?.screenText ?? ''}`;
+        const shown = ['tour-card', '[role="tabpanel"]:not([hidden])', 'dialog[open]'].map(name => text(name).slice(0, 2000)).join('\n');
+        return `${messages}\n${shown}\n${JSON.stringify({ connection, image, physics, speed, stopped, tab, version, where, trunk, isHeld, hasFallen })}\n${terminal?.screenText ?? ''}`;
     });
     const silent = new Promise<string>(resolve => setTimeout(() => resolve('nothing: it has hung'), TELL_MS));
     return Promise.race([shows, silent]).catch((error: unknown) => `nothing: ${String(error)}`);
