@@ -111,7 +111,11 @@ PLACES = (
     "list of servos",
     "pages listed by a request",
     "goals and positions by @watch",
-    "setting shown as it was set",
+    "setting shown as it is kept",
+    "setting kept as it was set",
+    "settings saved",
+    "slopes on their way",
+    "slopes of a layer",
     "whole answer of Play",
     "words in capitals",
     "goals by ACTION",
@@ -225,10 +229,10 @@ def figures(options, outcomes):
     made = [
         proof.Figure(
             "The rules hold at every tick",
-            "steps, links, goals and approaches by a second model of the exact law; aims arrive; pauses and breaks come to rest; nothing moves unasked or after "
-            "it was let go or lost; one packet at a time is on the bus; a silent servo is named and a well one is not; requests and whole answers of Play "
+            "steps, links, goals and approaches by a second model of the exact law; aims arrive; pauses and breaks come to rest; no play begins without a call or a press; "
+            "joints are as soft as their page says; nothing moves unasked or after it was let go or lost; one packet at a time is on the bus; a silent servo is named and a well one is not; requests and whole answers of Play "
             "are as their pages say, lists show what is so; typed text stands; Edit's table, cursor, work pose and answers by a second model of its lines "
-            "and keys; pages and settings are old or new, and a page of a program as it was sent",
+            "and keys; pages and settings are old or new, settings those that were set, and a page of a program as it was sent",
             f"{ticks:,} ticks in {len(outcomes):,} sessions, {ticks / 128 / max(cpu_s, 0.001):,.0f} x real time on one core; "
             f"{len(broken)} sessions broken",
             not broken,

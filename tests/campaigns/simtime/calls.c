@@ -1,22 +1,25 @@
 /* SPDX-License-Identifier: MIT
- * calls.c - which page a play begins with, from firmware/common/REMOTE.md: the one that was named, or the lowest with the
- * code. */
+ * calls.c - what a play begins with, from firmware/common/REMOTE.md: the page that was named, or, by a press, the lowest one
+ * with the code that is good and has an action (PAGE_FORMAT.md). No play begins without such a call. */
 #include "session.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define CODES_END 256u
 #define ANSWER (8u * SECOND)       /* a search for servos, and lines that wait behind it */
-#define CODE_STOP 255u
+#define LINE_BEHIND 32u            /* ticks: a play may be over, or a line answered, and not yet have said so */
 enum { STEPS_AT = 20, CODE_AT = 21, COUNT_AT = 15, SCHEDULE_AT = 16, SPEED_AT = 22, NEXT_AT = 25 };
 
 static struct {
     int asked;                     /* by the newest line, until it is answered */
-    int named;                     /* the play that comes begins with it; UNKNOWN: nobody knows */
-    bool is_possible[PAGES];       /* pages that a code may have called since the last play */
-    bool has_codes, is_begun;
+    int named;                     /* the play that comes begins with it; UNKNOWN: nobody has named one */
+    uint32_t named_tick;
+    uint32_t called_tick[PAGES];   /* the last time that a code has called it */
+    bool is_open;                  /* a line may have called any page */
+    bool is_begun, is_quiet;
+    uint32_t over_tick;            /* the last play has said that it is over */
+    uint32_t going_tick;           /* the one that begins has said that it does; NEVER_TICK: it has not */
     uint32_t open_tick;            /* the newest line was typed, and no OK has come since */
 } calls;
 
@@ -63,82 +66,130 @@ static int page_by_name(const char *name)
     return found;
 }
 
-static void forget(void)
+/* The page that a code calls. 0: none. */
+static unsigned page_of_code(unsigned code)
 {
-    memset(calls.is_possible, 0, sizeof calls.is_possible);
-    calls.named = calls.asked = UNKNOWN;
-    calls.has_codes = false;
+    for (unsigned page = 1; page < PAGES; page++) {
+        const uint8_t *at = page_at(page);
+        if (at[CODE_AT] == code && at[STEPS_AT] != 0 && at[COUNT_AT] != 0 && page_is_good(page)) {
+            return page;
+        }
+    }
+    return 0;
+}
+
+/* Called since the play before was over, and before this one has said that it begins. */
+static bool is_called(unsigned page)
+{
+    const uint32_t tick = calls.called_tick[page];
+    return tick != NEVER_TICK && tick + LINE_BEHIND >= calls.over_tick &&
+           (calls.going_tick == NEVER_TICK || tick <= calls.going_tick);
+}
+
+/* By a code: a press of the remote or the panel, or typed. The first one counts. */
+void calls_pressed(unsigned code)
+{
+    const unsigned page = page_of_code(code);
+    if (!is_called(page)) {
+        calls.called_tick[page] = session.tick;
+    }
+}
+
+/* A line that may begin a play. */
+static void call_typed(const char *line)
+{
+    char name[32], more;
+    unsigned page, code;
+    if (sscanf(line, "play %u%c", &page, &more) == 1 || sscanf(line, "p %u%c", &page, &more) == 1 ||
+        sscanf(line, "play %u %u%c", &page, &code, &more) == 2) {
+        calls.asked = page > 0 && page < PAGES ? begun_with(page) : UNKNOWN;
+    } else if (sscanf(line, "code %u%c", &code, &more) == 1 && code < PAGES) {
+        calls_pressed(code);
+    } else if (sscanf(line, "play %31[a-z ]%c", name, &more) == 1) {
+        calls.asked = page_by_name(name);
+        calls.is_open = calls.is_open || calls.asked == UNKNOWN;
+    } else {
+        calls.is_open = true;
+    }
 }
 
 void calls_typed(const char *line)
 {
-    char name[32], more;
-    unsigned page, code;
-    line += *line == '@' ? 1 : 0;
-    if (!long_ago(calls.open_tick, ANSWER) || strncmp(line, "settings talk", 13) == 0) {
-        forget();   /* one line was typed before the other was answered; or plays begin unsaid */
-        calls.is_begun = true;
-    }
+    const bool is_request = *line == '@';   /* it has another answer */
+    line += is_request ? 1 : 0;
+    const bool is_call = strncmp(line, "play", 4) == 0 || strncmp(line, "p ", 2) == 0 || strncmp(line, "code", 4) == 0;
+    /* Whose OK comes next? */
+    const bool is_mixed = (is_call || calls.asked != UNKNOWN) && !long_ago(calls.open_tick, ANSWER);
+    calls.is_open = calls.is_open || !session.typed_is_known || (is_call && is_request) || is_mixed;
+    calls.is_quiet = calls.is_quiet || strncmp(line, "settings talk", 13) == 0;
     calls.open_tick = session.tick;
-    if (!session.typed_is_known || strncmp(line, "code", 4) == 0) {
-        forget();
-        calls.is_begun = true;
-    } else if (sscanf(line, "play %u%c", &page, &more) == 1 || sscanf(line, "p %u%c", &page, &more) == 1 ||
-               sscanf(line, "play %u %u%c", &page, &code, &more) == 2) {
-        calls.asked = page > 0 && page < PAGES ? begun_with(page) : UNKNOWN;
-    } else if (sscanf(line, "play %31[a-z ]%c", name, &more) == 1) {
-        calls.asked = page_by_name(name);
-    } else {
-        calls.asked = UNKNOWN;
+    calls.asked = UNKNOWN;
+    if (is_call && session.typed_is_known) {
+        call_typed(line);
     }
+    presses_typed();
 }
 
-void calls_code(unsigned buttons)
+bool calls_are_said(void)
 {
-    const unsigned code = buttons;
-    if (calls.is_begun || code == 0) {
-        return;
+    return !calls.is_quiet;
+}
+
+static void play_begins(unsigned page)
+{
+    const bool is_named = calls.named != UNKNOWN && (int)page == calls.named;
+    if (!is_named && !is_called(page) && !calls.is_open) {
+        session_fail("a play begins with the page that is called", "page %u, named was %d", page, calls.named);
     }
-    calls.has_codes = true;
-    if (code >= CODES_END || code == CODE_STOP) {
-        return;
+    reached(is_named ? "play of the page that was named" : "play of the page with the code");
+    calls.named = UNKNOWN;
+    calls.is_begun = true;
+}
+
+static void play_ends(void)
+{
+    if (calls.named != UNKNOWN && session.tick - calls.named_tick > LINE_BEHIND) {
+        calls.named = UNKNOWN;
     }
-    for (unsigned page = 1; page < PAGES; page++) {
-        if (page_is_good(page) && page_at(page)[CODE_AT] == code) {
-            calls.is_possible[(unsigned)begun_with(page) % PAGES] = true;
-            return;
-        }
-    }
+    calls.is_open = calls.is_begun = false;
+    calls.over_tick = session.tick;
+    calls.going_tick = NEVER_TICK;
 }
 
 void calls_printed(const char *line)
 {
-    unsigned page;
+    static const char *const over[] = {"Ended", "Stopped", "Broken", "The pose", NULL};
+    unsigned number;
+    for (unsigned i = 0; over[i] != NULL; i++) {
+        if (strncmp(line, over[i], strlen(over[i])) == 0) {
+            play_ends();
+        }
+    }
     if (strcmp(line, " OK") == 0) {
+        calls.named_tick = calls.asked != UNKNOWN ? session.tick : calls.named_tick;
         calls.named = calls.asked != UNKNOWN ? calls.asked : calls.named;
         calls.asked = UNKNOWN;
         calls.open_tick = NEVER_TICK;
+    } else if (strncmp(line, "Going to", 8) == 0) {
+        calls.going_tick = session.tick;
     } else if (strncmp(line, "Moving, ", 8) == 0) {
-        forget();
         calls.is_begun = true;
-    } else if (sscanf(line, "Playing page %u", &page) == 1 && !calls.is_begun) {
-        const bool is_named = calls.named != UNKNOWN && (int)page == calls.named;
-        if ((calls.named != UNKNOWN || calls.has_codes) && !is_named && !calls.is_possible[page % PAGES]) {
-            session_fail("a play begins with the page that is called", "page %u, called was %d", page, calls.named);
+    } else if (strstr(line, "dropped") != NULL) {
+        calls.is_open = true;
+    } else if (sscanf(line, "Playing page %u", &number) == 1 && number < PAGES && !calls.is_begun) {
+        play_begins(number);
+    } else if (sscanf(line, "No page has code %u", &number) == 1) {
+        if (number < PAGES && page_of_code(number) != 0) {
+            session_fail("a play begins with the page that is called", "\"%s\", and page %u has it", line,
+                         page_of_code(number));
         }
-        reached(is_named ? "play of the page that was named" : "play of the page with the code");
-        forget();
-        calls.is_begun = true;
-    } else if (strncmp(line, "Ended", 5) == 0 || strncmp(line, "Stopped", 7) == 0 || strncmp(line, "Broken", 6) == 0 ||
-               strncmp(line, "The pose", 8) == 0) {
-        forget();
-        calls.is_begun = false;
     }
 }
 
 void calls_boot(void)
 {
-    forget();
-    calls.is_begun = false;
-    calls.open_tick = NEVER_TICK;
+    const bool is_quiet = calls.is_quiet;   /* kept without power */
+    memset(&calls, 0, sizeof calls);
+    calls.is_quiet = is_quiet;
+    calls.asked = calls.named = UNKNOWN;
 }

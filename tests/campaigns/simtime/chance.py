@@ -16,6 +16,18 @@ LOOKED_AT = 220  # ticks: all is painted, and the rules have looked at it
 CAPITALS, DEAF = 0.06, 0.1  # of lines; of sessions: some servos take no notice of SYNC WRITE
 LONG, MANY = 180 * SECOND, 100_000
 LAW_PAGES = range(20, 30)
+SOFT_PAGES = (1, 2, 3, 4, 5, 6, 7, 8, 9, 12, 13, 14, 21, 22, *LAW_PAGES)
+SOFTNESS = (0x55, 0x55, 0x33, 0x66, 0x42)
+CODE_PAGES = (  # number, code, steps, times played, whole: of pages with the same code only some can be called
+    (70, 2, 0, 1, True),
+    (71, 2, 1, 1, False),
+    (72, 2, 1, 0, True),
+    (73, 2, 1, 1, True),
+    (74, 8, 0, 1, True),
+    (75, 8, 1, 2, True),
+    (76, 8, 1, 1, True),
+    (77, 64, 0, 1, True),
+)
 PLAYED = (1, 2, 3, 4, 8, 9, 12, 13, 14, 15, 21, 22)
 SETTINGS = (
     ("law", (0, 1)),
@@ -49,7 +61,8 @@ BUTTONS = (1, 1, 2, 4, 8, 16, 16, 32, 64, 256, 512, 512)
 
 def motions():
     """The pages that all sessions begin with: those of Play's tests, and pages by chance for the law, with both schedules, pauses, odd
-    speeds, unused joints and joints that go through a step, no joint faster than a servo is."""
+    speeds, unused joints and joints that go through a step, no joint faster than a servo is. Then pages that a code may not choose,
+    below others that it must. Joints are not equally soft in all of them."""
     image, rng = bytearray(play_pages()), random.Random("pages of the law")
     for number in LAW_PAGES:
         page = image[512 * number : 512 * (number + 1)]
@@ -74,9 +87,20 @@ def motions():
                 page[64 + 64 * step + 2 * joint : 66 + 64 * step + 2 * joint] = word.to_bytes(2, "little")
             page[64 + 64 * step + 62] = rng.choice((0, 0, 0, rng.randrange(8, 60)))
             page[64 + 64 * step + 63] = ticks if time_base else rng.randrange(20, 40)
-        page[31] = 0
-        page[31] = 255 - sum(page) % 256
         image[512 * number : 512 * (number + 1)] = page
+    for number, code, steps, count, _ in CODE_PAGES:
+        page = bytearray(image[512 : 2 * 512])
+        page[:14] = f"code {number}".encode().ljust(14, b"\0")
+        page[15], page[20], page[21] = count, steps, code
+        image[512 * number : 512 * (number + 1)] = page
+    for number in (*SOFT_PAGES, *(page[0] for page in CODE_PAGES)):
+        at = 512 * number
+        if number in SOFT_PAGES:
+            image[at + 32 : at + 63] = rng.choices(SOFTNESS, k=31) if rng.random() < 0.7 else bytes([rng.choice(SOFTNESS)]) * 31
+        image[at + 31] = 0
+        image[at + 31] = 255 - sum(image[at : at + 512]) % 256
+    for number, *_, is_whole in CODE_PAGES:
+        image[512 * number + 100] ^= 0 if is_whole else 0xFF
     return bytes(image)
 
 
@@ -272,6 +296,83 @@ class Player(Person):
             )
         )
 
+    def fingers(self):
+        """Several buttons, that come and go one after the other or at once, in a play, a stop, a pause or at rest."""
+        rng, down = self.rng, 0
+        if rng.random() < 0.25:
+            self.fingers_at_the_panel()
+            return
+        if rng.random() < 0.6:
+            self.line(f"play {rng.choice((1, 8, 9, 13, 21, 75))}", rng.randrange(5 * SECOND))
+        for _ in range(rng.randrange(2, 7)):
+            for button in rng.sample((1, 2, 4, 8, 16, 32, 256, 512, 512), rng.choice((1, 1, 2, 3))):
+                down ^= button
+            for _ in range(rng.choice((1, 1, 4, 12, 30))):
+                self.act(f"remote {down}", rng.choice((6, 7)))
+            if rng.random() < 0.1:
+                self.at += rng.randrange(40, 2 * SECOND)
+        if rng.random() < 0.8:
+            self.act("remote 0", rng.randrange(3 * SECOND))
+
+    def fingers_at_the_panel(self):
+        rng, down = self.rng, 0
+        self.line(rng.choice(("break", f"play {rng.choice((1, 8, 13))}")), rng.randrange(SECOND, 5 * SECOND))
+        for _ in range(rng.randrange(2, 7)):
+            for button in rng.sample((1, 2, 4, 8, 16, 16), rng.choice((1, 1, 2))):
+                down ^= button
+            self.act(f"press {down}", rng.randrange(8, 60))
+        self.act("press 0", rng.randrange(8, 3 * SECOND))
+
+    def calls(self):
+        """Codes at rest, of pages that can be called and of others."""
+        self.line("break", 6 * SECOND)
+        for _ in range(self.rng.randrange(1, 4)):
+            button = self.rng.choice((1, 2, 2, 8, 8, 16, 32, 64, 4))
+            if self.rng.random() < 0.3:
+                self.line(f"code {button}", 3 * SECOND)
+            else:
+                self.act(f"remote {button}", 8)
+                self.act("remote 0", self.rng.randrange(SECOND, 4 * SECOND))
+
+    def rests(self):
+        """A pause, in which much is asked, and nothing moves."""
+        rng = self.rng
+        self.line(f"play {rng.choice((3, 4, 8, 9, 14, 21))}", rng.randrange(2, 5) * SECOND)
+        self.shapes_rest(rng.randrange(3))
+        self.line("pause", rng.randrange(8, 2 * SECOND))
+        self.shapes_rest(rng.randrange(4))
+        self.at += rng.randrange(2, 5) * SECOND
+        self.line(rng.choice(("resume", "resume", "stop", "break")))
+
+    def shapes_rest(self, count):
+        rng = self.rng
+        for _ in range(count):
+            words = (
+                f"aim {self.servo()} {rng.randrange(300, 724)}",
+                f"swing {self.servo()} 512 {rng.randrange(20, 80)} {rng.choice((1000, 2000))}",
+                f"layer {rng.choice((8, 9, 13, 14, 21, 22))} {self.joints()}",
+                f"layer {rng.choice((8, 9, 13, 21, 22))}",
+                f"free {self.servo()}",
+                "layer off",
+                "@drive 20 120 80",
+                "rate 150",
+                "play 1",
+            )
+            self.line(rng.choice(words), rng.randrange(20, 2 * SECOND))
+
+    def loses_power(self):
+        """A servo's cable comes out and is put in again: what was written to it is forgotten."""
+        rng, servo = self.rng, self.servo()
+        page = rng.choice((3, 8, 13, 14, 21))
+        if not self.servos:
+            return
+        self.line(f"play {page}", rng.randrange(1, 5) * SECOND)
+        self.act(f"fault {servo} dead 0", rng.choice((20, SECOND, 2 * SECOND, 3 * SECOND)))
+        self.act(f"clear {servo}", rng.randrange(1, 3) * SECOND)
+        for word in rng.choice((("break", "on"), ("break", "on"), ("break", "servos find", "on"), ())):
+            self.line(word, 2 * SECOND)
+        self.line(f"play {rng.choice((page, page, 9))}", rng.randrange(3, 6) * SECOND)
+
     def requests(self):
         """Right and wrong ones: words, how many, ranges."""
         rng = self.rng
@@ -328,6 +429,10 @@ class Player(Person):
         ("types_noise", 0.3),
         ("types_too_much", 0.3),
         ("remote", 8),
+        ("fingers", 4),
+        ("calls", 2),
+        ("rests", 4),
+        ("loses_power", 2),
         ("panel", 2),
         ("servo_fails", 5),
         ("line_fails", 1.5),

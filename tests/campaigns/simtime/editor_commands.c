@@ -344,7 +344,7 @@ static void run_int(void)
     const int a = editor.number[1], b = editor.number[2], percent = editor.words > 3 ? editor.number[3] : 50;
     editor.message = ANY;
     if (b != a + 1 || b >= *steps_used() || *steps_used() >= STEPS_MOST || editor.now.is_time != 1 || percent == 0 ||
-        percent == 100) {
+        percent >= 100) {
         forget_page();
         return;
     }

@@ -23,7 +23,7 @@
 #define DEGREES (1023.0 / 300.0)
 #define NEAR_TICKS 64u             /* a code that comes so near to the beginning of a step may count or not */
 #define ANY_CODE 0xFFFFu
-#define SLOWED 300u                /* ticks: a pause has slowed down within a ramp, 255 at most */
+#define SILENT 60u                 /* ticks without a packet: the buttons may count as let go */
 #define SLOWEST 30u                /* degrees/s, of the settings that chance makes */
 
 enum { COUNT_AT = 15, SCHEDULE_AT = 16, STEPS_AT = 20, SPEED_AT = 22, ACCEL_AT = 24, NEXT_AT = 25,
@@ -64,12 +64,12 @@ static struct {
     bool was_classic, was_quiet;   /* ever: after a power cut a setting may be the one before */
     bool is_aimed;
     uint32_t approach_tick;        /* the first frame of an approach; NEVER_TICK: there is none */
-    unsigned buttons;              /* of the newest packet */
+    unsigned buttons;              /* of the newest packet, or at the panel */
+    uint32_t buttons_tick;
     unsigned code, code_before;    /* in force now, and before it changed; ANY_CODE: not known */
     uint32_t code_tick, code_before_tick;   /* when they came into force */
     uint32_t step_tick, step_before_tick;   /* when the newest step was named, and the one before */
     bool is_under_way;             /* from the approach to the end */
-    uint32_t paused_tick;          /* NEVER_TICK: it goes on */
     bool was_paused;               /* since it began: then joints that code moves rest as well */
     double approach;               /* degrees/s, the fastest that was ever set */
     struct {
@@ -369,10 +369,6 @@ void law_frame(const uint8_t *ids_and_goals, unsigned count, unsigned bytes_each
         if (law.is_judged && goes_on && (law.present >> id & 1u) != 0 && fabs((double)goal - law.now[id]) > most) {
             session_fail("an approach keeps to its speed", "servo %u from %u to %u in a tick", id, law.now[id], goal);
         }
-        const bool is_at_rest = law.paused_tick != NEVER_TICK && session.tick - law.paused_tick > SLOWED;
-        if (is_at_rest && (law.present >> id & 1u) != 0 && goal != law.now[id]) {
-            session_fail("a pause is at rest", "servo %u from %u to %u", id, law.now[id], goal);
-        }
         if (law.now_tick[id] == session.tick) {
             law.twice[id] = law.now[id];
         }
@@ -383,7 +379,6 @@ void law_frame(const uint8_t *ids_and_goals, unsigned count, unsigned bytes_each
     if (present != law.present && law.knows_place) {
         judge_no_more();
     }
-    law.paused_tick = present == law.present ? law.paused_tick : NEVER_TICK;
     law.present = present;
     law.approach_tick = law.approach_tick == UINT32_MAX ? session.tick : law.approach_tick;
 }
@@ -427,10 +422,6 @@ void law_printed(const char *line)
         law.is_under_way = law.was_paused = false;
     }
     law.was_paused = law.was_paused || strncmp(line, "Paused", 6) == 0;
-    law.paused_tick = strncmp(line, "Paused", 6) == 0 && !law.is_shaped ? session.tick : NEVER_TICK;
-    if (law.paused_tick != NEVER_TICK) {
-        reached("pause that comes to rest");
-    }
     if (strncmp(line, "Going to", 8) == 0 || strncmp(line, "Moving, ", 8) == 0) {
         law.is_under_way = true;
         law.step_tick = law.step_before_tick = session.tick;
@@ -484,7 +475,6 @@ void law_typed(const char *line)
     }
     law.asked_tick = session.tick;
     snprintf(law.asked, sizeof law.asked, "%s", line);
-    law.paused_tick = NEVER_TICK;
     if (line[0] == '\0' || (session.typed_is_known && is_one_of(line, asks))) {
         return;
     }
@@ -530,13 +520,13 @@ void law_typed(const char *line)
 /* Buttons of the remote or the panel: 256 pauses, 512 stops, the others are codes. */
 void law_remote(unsigned buttons)
 {
-    const bool is_stop = buttons >= 512 && law.buttons < 512;
+    const bool is_stop = buttons >= 512 && (law.buttons < 512 || session.tick - law.buttons_tick > SILENT);
     law.buttons = buttons;
+    law.buttons_tick = session.tick;
     if (buttons == 0) {
         law.is_stopped = law.is_stopped || (law.has_modes && law.is_under_way);   /* with the setting `remote hold` */
         return;
     }
-    law.paused_tick = NEVER_TICK;
     put_code(buttons < 255 ? buttons : ANY_CODE);
     forget_aims();
     if (law.has_modes || buttons == 256 || (is_stop && law.is_stopped)) {
@@ -556,7 +546,6 @@ void law_boot(void)
     law.approach_tick = NEVER_TICK;
     law.present = 0;
     law.is_under_way = law.was_paused = false;
-    law.paused_tick = NEVER_TICK;
     law.code = ANY_CODE;
     law.code_tick = law.code_before_tick = session.tick;
     law.asked[0] = '\0';

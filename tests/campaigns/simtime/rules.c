@@ -22,8 +22,6 @@
 #define LAST_FRAME 2u              /* ticks */
 #define SETTLED 64u                /* ticks without a write: a save is over */
 #define STEPS_AT 20u
-#define SLOWED 300u                /* ticks: a break slows down within a ramp, 255 at most */
-#define COPY_BYTES 64u             /* of the settings in EEPROM */
 
 static struct {
     uint8_t page[0x20000];         /* the pages as they were when the last save was over */
@@ -32,8 +30,6 @@ static struct {
     uint32_t off_tick[IDS];
     uint32_t ended_tick;           /* a play has said that it is over, and its last frame may come after that; NEVER_TICK */
     unsigned ended_page;
-    int sequence;                  /* of the settings that are sure; -1: none */
-    uint32_t break_tick;           /* the last break of a play */
     uint32_t over_tick;            /* the last time that a play has said that it is over */
     bool is_slow;                  /* a rate may be in force, since the last start: pauses are longer as well (SHAPING.md) */
     bool is_shaped;                /* something but the pages may decide where joints go, since the last start */
@@ -103,15 +99,15 @@ static void line_typed(void)
     if (session.is_edit && (!session.typed_is_known || strstr(line, "sav") != NULL)) {
         session.save_asked_tick = session.tick;
     }
-    if (!session.is_edit && (strcmp(line, "break") == 0 || strcmp(line, "@break") == 0)) {
-        rules.break_tick = session.tick;
-    }
     rules.is_searching = rules.is_searching || (!session.is_edit && session.typed_is_known && strstr(line, "find") != NULL);
     marks_typed(line);
     answers_typed(line);
     if (!session.is_edit) {
+        rest_typed(line);
         law_typed(line);
         calls_typed(line);
+        slopes_typed(line);
+        kept_typed(line);
         views_typed(line);
         replies_typed(session.typed, line);
     } else {
@@ -126,12 +122,12 @@ static void line_typed(void)
 void rules_typed(uint8_t byte)
 {
     session.typed_tick = session.tick;
-    rules.break_tick = NEVER_TICK;
     if (session.is_edit) {
+        rest_may_end();
         editor_typed(byte);
         editor_play_key(byte);
         if ((byte == ' ' || byte == 0x03) && session.tick - session.frame_tick <= LAST_FRAME) {
-            rules.break_tick = session.tick;
+            rest_break();
             reached("play in Edit broken off");
         }
         session.asked_tick = session.tick;   /* a key may move a joint */
@@ -156,7 +152,8 @@ void rules_remote(unsigned buttons)
         session.asked_tick = session.tick;
     }
     law_remote(buttons);
-    calls_code(buttons);
+    rest_remote(buttons);
+    presses_remote(buttons);
 }
 
 /* ---- goals and torque ---- */
@@ -235,18 +232,6 @@ static void must_not_leap(uint8_t id, uint16_t goal)
     }
 }
 
-/* Nothing has been asked since a break: everything rests. */
-static void must_rest(uint8_t id, uint16_t goal)
-{
-    if (rules.break_tick == NEVER_TICK || session.asked_tick > rules.break_tick) {
-        rules.break_tick = NEVER_TICK;
-    } else if (session.tick - rules.break_tick > SLOWED && goal != session.joint[id].goal &&
-               long_ago(session.late_tick, SLOWED)) {
-        session_fail("a break comes to rest", "servo %u from %u to %u, %u ticks after it", id, session.joint[id].goal, goal,
-                     session.tick - rules.break_tick);
-    }
-}
-
 static void take_goal(uint8_t id, uint16_t goal)
 {
     if (id >= IDS || session.joint[id].servo == NULL) {
@@ -257,7 +242,7 @@ static void take_goal(uint8_t id, uint16_t goal)
     }
     must_be_asked(id, "a goal");
     must_not_be_out(id);
-    must_rest(id, goal);
+    rest_goal(id, goal);
     if (!session.is_edit) {
         must_not_leap(id, goal);   /* Edit moves joints at a speed of their own, and plays pages that chance has made */
     }
@@ -411,7 +396,6 @@ void rules_printed(const char *line)
         rules.is_playing = (rules.is_playing && strncmp(line, over[i], strlen(over[i])) != 0) ||
                            strncmp(line, begun[i], strlen(begun[i])) == 0;
     }
-    /* A first save that is cut off leaves the defaults, which were in force, and the program says so in these words. */
     if (sscanf(line, "Ended after page %u", &id) == 1) {
         rules.ended_page = id;
         rules.ended_tick = session.tick;
@@ -419,16 +403,20 @@ void rules_printed(const char *line)
     answers_printed(line);
     if (!session.is_edit) {
         law_printed(line);
+        rest_printed(line);
+        presses_printed(line);
         calls_printed(line);
+        slopes_printed(line);
+        kept_printed(line);
         views_printed(line);
         replies_printed(line);
     }
     if (strstr(line, " servos: ") != NULL) {
         servos_are_listed(rules.is_searching);
+        if (rules.is_searching) {
+            slopes_searched();
+        }
         rules.is_searching = false;
-    }
-    if (strstr(line, "settings were damaged") != NULL && rules.sequence >= 0) {
-        session_fail("settings are old or new", "\"%s\"", line);
     }
     if (strncmp(line, "No answer from servos ", 22) == 0) {
         silent_ones_named(line + 22);
@@ -464,7 +452,7 @@ static void text_must_stand(void)
     }
 }
 
-/* ---- pages and settings ---- */
+/* ---- pages ---- */
 
 /* A page is as it was, or whole. */
 static void pages_must_be_whole(void)
@@ -481,38 +469,12 @@ static void pages_must_be_whole(void)
     }
 }
 
-/* Sequence number of the newest good copy of the settings, or -1. */
-static int newest_settings(void)
-{
-    int newest = -1;
-    for (unsigned copy = 0; copy < 2; copy++) {
-        const uint8_t *at = simtime_memory(MACHINE_EEPROM) + MEM_EE_SETTINGS + copy * COPY_BYTES;
-        const unsigned body = at[3];
-        if (at[0] != 'S' || body > COPY_BYTES - 6) {
-            continue;
-        }
-        const uint16_t crc = crc_of(at, 4 + body);
-        if (at[4 + body] == (uint8_t)crc && at[5 + body] == crc >> 8 && (newest < 0 || (int8_t)(at[2] - newest) > 0)) {
-            newest = at[2];
-        }
-    }
-    return newest;
-}
-
-static void settings_must_stand(void)
-{
-    const int newest = newest_settings();
-    if (rules.sequence >= 0 && (newest < 0 || (int8_t)(newest - rules.sequence) < 0)) {
-        session_fail("settings are old or new", "save %d was sure, and save %d is there", rules.sequence, newest);
-    }
-    rules.sequence = newest;
-}
-
 void rules_kept(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uint32_t count)
 {
     (void)bytes;
     rules.write_tick = session.tick;
     if (memory == MACHINE_EEPROM) {
+        kept_write();
         return;
     }
     if (!rules.is_starting && (!session.is_edit || session.save_asked_tick == NEVER_TICK)) {
@@ -542,11 +504,15 @@ void rules_boot(void)
     calls_boot();
     views_boot();
     replies_boot();
+    rest_boot();
+    presses_boot();
+    slopes_boot();
+    kept_boot();
     editor_play_boot();
     rules.is_starting = true;
     rules.is_searching = true;
     rules.is_playing = rules.is_shaped = rules.is_slow = false;
-    rules.ended_tick = rules.break_tick = NEVER_TICK;
+    rules.ended_tick = NEVER_TICK;
     memset(rules.silent_tick, 0, sizeof rules.silent_tick);
     memset(rules.off_tick, 0, sizeof rules.off_tick);
     memset(session.line, 0, sizeof session.line);
@@ -561,7 +527,6 @@ void rules_boot(void)
     }
     if (session.boots == 0) {
         memcpy(rules.page, simtime_memory(MACHINE_PAGES), sizeof rules.page);
-        rules.sequence = -1;
     }
 }
 
@@ -571,7 +536,7 @@ void rules_started(void)
     if (rules.is_starting) {
         rules.is_starting = false;
         pages_must_be_whole();
-        settings_must_stand();
+        kept_started();
         servos_are_listed(true);
     }
 }
@@ -616,14 +581,14 @@ void rules_tick(void)
     }
     answers_tick();
     views_tick();
+    presses_tick();
+    slopes_tick();
+    kept_tick();
     if (session.tick % 32 == 0) {
         servos_must_be_named();
         if (rules.checks_pages && long_ago(rules.write_tick, SETTLED) && !rules.is_starting) {
             rules.checks_pages = false;
             pages_must_be_whole();
-        }
-        if (long_ago(rules.write_tick, SETTLED) && long_ago(session.goals_tick, SETTLED) && !rules.is_starting) {
-            rules.sequence = newest_settings();   /* the program has had time to make them sure */
         }
     }
 }

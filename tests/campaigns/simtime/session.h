@@ -5,7 +5,11 @@
  *   world.c     the servos and the line; carries actions out
  *   rules.c     what must be so at every tick
  *   law.c       the exact law: every goal of a play that nothing shapes
- *   calls.c     which page a play begins with
+ *   rest.c      what must rest: after a break, in a pause
+ *   presses.c   which buttons are a press
+ *   calls.c     what a play begins with
+ *   slopes.c    how soft joints are that a play moves
+ *   kept.c      settings in EEPROM
  *   answers.c   what requests are answered
  *   views.c     what lists show
  *   replies.c   the whole of what Play answers
@@ -149,11 +153,45 @@ bool law_place(unsigned *page, unsigned *step, unsigned *repetition);
 
 bool law_was_goal(unsigned id, unsigned goal, unsigned ticks);   /* within the last ticks */
 
+/* rest.c */
+void rest_boot(void);
+void rest_typed(const char *line);
+void rest_remote(unsigned buttons);   /* Start is a stop */
+void rest_printed(const char *line);
+void rest_break(void);
+void rest_may_end(void);
+void rest_goal(unsigned id, unsigned goal);
+
+/* presses.c */
+void presses_boot(void);
+void presses_remote(unsigned buttons);
+void presses_panel(unsigned buttons);
+void presses_typed(void);
+void presses_printed(const char *line);
+void presses_tick(void);
+bool presses_are_at_rest(void);    /* nothing plays: the console has said so */
+
+/* slopes.c */
+void slopes_boot(void);
+void slopes_typed(const char *line);
+void slopes_printed(const char *line);
+void slopes_searched(void);
+void slopes_tick(void);
+
+/* kept.c */
+void kept_boot(void);
+void kept_started(void);
+void kept_write(void);
+void kept_typed(const char *line);
+void kept_printed(const char *line);
+void kept_tick(void);
+
 /* calls.c */
 bool page_is_good(unsigned page);
+bool calls_are_said(void);         /* plays say that they begin: the setting `talk` */
 void calls_boot(void);
 void calls_typed(const char *line);
-void calls_code(unsigned buttons);
+void calls_pressed(unsigned code); /* a press, or `code` */
 void calls_printed(const char *line);
 
 /* views.c */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * views.c - what Play lists: pages as flash holds them, servos, settings as they were set; and the `@list` and `@now` of
+ * views.c - what Play lists: pages as flash holds them, servos; and the `@list` and `@now` of
  * firmware/common/PROTOCOL.md. */
 #include "session.h"
 
@@ -8,24 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SETTINGS_MOST 16u
-#define SETTLED 64u                /* ticks at rest: settings are sure */
 #define STILL SECOND
 #define NOW_LATER 4u               /* ticks: the goals of this moment have been sent */
 #define NOW_AGE 32u                /* since they were, the line has taken its time */
 enum { STEPS_AT = 20, COUNT_AT = 15, CODE_AT = 21, NEXT_AT = 25, LINK1_AT = 27, LINK2_AT = 29 };
 
 static struct {
-    struct {
-        char name[12];
-        int value, sure;           /* now, after a power cut; UNKNOWN */
-    } setting[SETTINGS_MOST];
-    unsigned settings;
-    char asked[12];                /* a setting that is being set */
-    int value;
-    bool is_list, is_servos, is_settings;   /* the view that was asked for, until it is answered */
+    bool is_list, is_servos;       /* the view that was asked for, until it is answered */
     unsigned listed;               /* pages of the list so far */
-    uint32_t set_tick;
     int goal_now[JOINTS];          /* by the newest @now */
     uint32_t now_tick;
 } views;
@@ -199,71 +189,13 @@ static void look_at_goals(void)
     views.now_tick = NEVER_TICK;
 }
 
-/* ---- settings ---- */
-
-static int find(const char *name)
-{
-    for (unsigned i = 0; i < views.settings; i++) {
-        if (strcmp(views.setting[i].name, name) == 0) {
-            return (int)i;
-        }
-    }
-    return -1;
-}
-
-static void forget_settings(void)
-{
-    views.settings = 0;
-}
-
-static void set(const char *name, int value)
-{
-    int at = find(name);
-    if (at < 0 && views.settings == SETTINGS_MOST) {
-        return;
-    }
-    if (at < 0) {
-        at = (int)views.settings++;
-        snprintf(views.setting[at].name, sizeof views.setting[at].name, "%s", name);
-    }
-    views.setting[at].value = value;
-    views.setting[at].sure = UNKNOWN;
-    views.set_tick = session.tick;
-}
-
-static void look_at_setting(const char *line)
-{
-    char name[12];
-    int value;
-    const int at = sscanf(line, "%11[a-z] %d  (", name, &value) == 2 ? find(name) : -1;
-    if (at >= 0 && views.setting[at].value != UNKNOWN) {
-        if (views.setting[at].value != value) {
-            session_fail("settings are as they were set", "\"%s\", set was %d", line, views.setting[at].value);
-        }
-        reached("setting shown as it was set");
-    }
-}
-
 /* ---- what happens ---- */
 
 void views_typed(const char *line)
 {
-    char more;
     views.is_list = strcmp(line, "list") == 0;
     views.is_servos = strcmp(line, "servos") == 0;
-    views.is_settings = strcmp(line, "settings") == 0;
     views.listed = 0;
-    views.asked[0] = '\0';
-    if (!session.typed_is_known) {
-        forget_settings();
-    } else if (sscanf(line, "settings %11[a-z] %d%c", views.asked, &views.value, &more) == 2) {
-        set(views.asked, UNKNOWN);   /* until it is answered */
-    } else if (strncmp(line, "settings d", 10) == 0 || strncmp(line, "law ", 4) == 0 || strncmp(line, "remote ", 7) == 0) {
-        forget_settings();
-        views.asked[0] = '\0';
-    } else {
-        views.asked[0] = '\0';
-    }
 }
 
 void views_printed(const char *line)
@@ -272,18 +204,12 @@ void views_printed(const char *line)
     if (strncmp(line, "@now ", 5) == 0) {
         look_at_now(line);
     } else if (strcmp(line, " OK") == 0) {
-        if (views.asked[0] != '\0') {
-            set(views.asked, views.value);
-        }
-        views.asked[0] = '\0';
-        views.is_list = views.is_servos = views.is_settings = false;
+        views.is_list = views.is_servos = false;
     } else if (views.is_list && sscanf(line, "%3u ", &page) == 1 && line[3] == ' ' && page < PAGES &&
                (strstr(line, " steps ") != NULL || strstr(line, " damaged: ") != NULL)) {
         look_at_page(line, page);
     } else if (views.is_servos) {
         look_at_servo(line);
-    } else if (views.is_settings) {
-        look_at_setting(line);
     }
 }
 
@@ -292,18 +218,10 @@ void views_tick(void)
     if (views.now_tick != NEVER_TICK && session.tick - views.now_tick > NOW_LATER) {
         look_at_goals();
     }
-    const bool is_sure = session.tick - session.goals_tick > SETTLED && session.tick - views.set_tick > SETTLED;
-    for (unsigned i = 0; i < views.settings && is_sure; i++) {
-        views.setting[i].sure = views.setting[i].value;
-    }
 }
 
 void views_boot(void)
 {
-    views.is_list = views.is_servos = views.is_settings = false;
-    views.asked[0] = '\0';
+    views.is_list = views.is_servos = false;
     views.now_tick = NEVER_TICK;
-    for (unsigned i = 0; i < views.settings; i++) {
-        views.setting[i].value = views.setting[i].sure;
-    }
 }

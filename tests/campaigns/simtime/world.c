@@ -249,11 +249,13 @@ static void send_remote(unsigned buttons)
 static void press(unsigned buttons)
 {
     simtime_press((uint8_t)buttons);
+    presses_panel(buttons);
     if (buttons != 0) {
         session.asked_tick = session.tick;
+        law_remote(0);
         law_remote(buttons >= 16 ? 512 : buttons);   /* Start stops */
         law_remote(0);
-        calls_code(buttons);
+        rest_remote(buttons >= 16 ? 512 : buttons);
     }
 }
 

@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: MIT
+ * kept.c - the settings that are kept, from firmware/common/settings.h and firmware/play/README.md: two copies in EEPROM,
+ * each with a sequence number and a CRC, written in turn. A save is the other copy, one number later. After a power cut
+ * the settings are old or new. What Play shows is what the newest copy holds, and that is what was set. */
+#include "session.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "linker/memory_map.h"
+
+#define COPY_BYTES 64u
+#define HEAD_BYTES 4u              /* S, layout, sequence number, bytes of the settings */
+#define CRC_BYTES 2u
+#define SURE (2u * SECOND)         /* half a second behind the OK */
+#define SETTLED 64u                /* ticks without a write, or at rest: a save is over, and sure */
+#define BEGUN (4u * SECOND)        /* a play that was asked for has said so */
+#define LONG_PAUSE (20u * SECOND)  /* of a page; no goals go out in it */
+
+/* In the order of their bytes. Behind `talk` stand the partners of 31 joints. */
+static const struct {
+    const char *name;
+    unsigned at, first;            /* its byte; what it is in the beginning */
+} items[] = {
+    {"law", 0, 0},     {"remote", 1, 0},  {"approach", 2, 60},    {"fault", 3, 0},
+    {"low", 4, 90},    {"hot", 5, 70},    {"neutral", 6, 0},      {"flow", 7, 1},
+    {"fast", 8, 0},    {"talk", 9, 1},    {"centre", 10 + 31, 1}, {"drive", 11 + 31, 10},
+};
+#define ITEMS (sizeof items / sizeof items[0])
+
+static struct {
+    uint8_t copy[2][COPY_BYTES];   /* as they were when they were whole last */
+    bool was_whole[2];
+    int newest;                    /* of those; -1: none */
+    uint8_t sure[COPY_BYTES];      /* the newest that a power cut cannot take back */
+    bool is_sure;                  /* there is one */
+    bool is_started;
+    uint32_t write_tick;
+    bool has_changed;
+    int item, value;               /* was set by the newest line; -1: nothing */
+    bool is_set;                   /* and answered */
+    uint32_t line_tick;            /* the last line that may set something */
+    bool is_view;                  /* `settings`, until it is answered */
+} kept;
+
+static const uint8_t *copy_at(unsigned copy)
+{
+    return simtime_memory(MACHINE_EEPROM) + MEM_EE_SETTINGS + copy * COPY_BYTES;
+}
+
+static bool is_whole(const uint8_t *at)
+{
+    const unsigned end = HEAD_BYTES + at[3];
+    if (at[0] != 'S' || end + CRC_BYTES > COPY_BYTES) {
+        return false;
+    }
+    const uint16_t crc = crc_of(at, end);
+    return at[end] == (uint8_t)crc && at[end + 1] == crc >> 8;
+}
+
+/* Numbers wrap at 256. */
+static int newest_copy(void)
+{
+    const bool first = is_whole(copy_at(0)), second = is_whole(copy_at(1));
+    if (first && second) {
+        return (int8_t)(copy_at(1)[2] - copy_at(0)[2]) > 0 ? 1 : 0;
+    }
+    return first ? 0 : second ? 1 : -1;
+}
+
+static int value_of(unsigned item)
+{
+    const int newest = newest_copy();
+    const bool has_it = newest >= 0 && copy_at((unsigned)newest)[3] > items[item].at;
+    return (int)(has_it ? copy_at((unsigned)newest)[HEAD_BYTES + items[item].at] : items[item].first);
+}
+
+/* ---- copies ---- */
+
+static void note_copies(void)
+{
+    for (unsigned copy = 0; copy < 2; copy++) {
+        kept.was_whole[copy] = is_whole(copy_at(copy));
+        memcpy(kept.copy[copy], copy_at(copy), COPY_BYTES);
+    }
+    kept.newest = newest_copy();
+}
+
+/* A copy has become whole: a save is done. */
+static void look_at_save(unsigned copy)
+{
+    const uint8_t *at = copy_at(copy);
+    reached("settings saved");
+    if (kept.newest < 0) {
+        return;
+    }
+    const uint8_t last = kept.copy[kept.newest][2];
+    if ((int)copy == kept.newest || at[2] != (uint8_t)(last + 1)) {
+        session_fail("settings are saved in turn", "copy %u as number %u behind copy %d with number %u", copy, at[2],
+                     kept.newest, last);
+    }
+}
+
+static void look_at_copies(void)
+{
+    for (unsigned copy = 0; copy < 2; copy++) {
+        const bool is_other = memcmp(copy_at(copy), kept.copy[copy], COPY_BYTES) != 0;
+        if (is_whole(copy_at(copy)) && is_other) {
+            look_at_save(copy);
+            note_copies();
+        }
+    }
+}
+
+void kept_write(void)
+{
+    kept.has_changed = true;
+    kept.write_tick = session.tick;
+}
+
+/* The program prints for the first time behind a start: the settings are the ones that were sure, or those of a save
+ * that was under way. */
+void kept_started(void)
+{
+    const int newest = newest_copy();
+    if (kept.is_sure) {
+        const uint8_t *at = newest < 0 ? NULL : copy_at((unsigned)newest);
+        const int later = at == NULL ? -1 : (int8_t)(at[2] - kept.sure[2]);
+        if (at == NULL || later < 0 || (later == 0 && memcmp(at, kept.sure, HEAD_BYTES + at[3] + CRC_BYTES) != 0)) {
+            session_fail("settings are old or new", "number %u was sure, the newest of now is %d", kept.sure[2],
+                         at == NULL ? -1 : at[2]);
+        }
+    }
+    note_copies();
+    kept.is_started = true;
+}
+
+/* ---- what is set and shown ---- */
+
+static int item_of(const char *name)
+{
+    for (unsigned i = 0; i < ITEMS; i++) {
+        if (strcmp(items[i].name, name) == 0) {
+            return (int)i;
+        }
+    }
+    return -1;
+}
+
+void kept_typed(const char *line)
+{
+    char name[12] = "", more;
+    kept.is_view = strcmp(line, "settings") == 0;
+    if (!session.typed_is_known || strncmp(line, "settings ", 9) == 0 || strncmp(line, "law ", 4) == 0 ||
+        strncmp(line, "remote ", 7) == 0) {
+        const bool is_one = sscanf(line, "settings %11[a-z] %d%c", name, &kept.value, &more) == 2;
+        kept.item = session.typed_is_known && is_one && long_ago(kept.line_tick, SECOND) ? item_of(name) : -1;
+        kept.is_set = false;
+        kept.line_tick = session.tick;
+    }
+}
+
+void kept_printed(const char *line)
+{
+    char name[12];
+    int value;
+    if (strcmp(line, " OK") == 0) {
+        kept.is_set = kept.item >= 0;
+        kept.is_view = false;
+    } else if (strstr(line, "settings were damaged") != NULL && kept.is_sure) {
+        /* A first save that is cut off leaves the defaults, which were in force, and the program says so in these words. */
+        session_fail("settings are old or new", "\"%s\"", line);
+    } else if (kept.is_view && sscanf(line, "%11[a-z] %d  (", name, &value) == 2) {
+        const int item = item_of(name);
+        if (item >= 0 && long_ago(kept.line_tick, SURE) && long_ago(session.late_tick, SURE)) {
+            reached("setting shown as it is kept");
+            if (value != value_of((unsigned)item)) {
+                session_fail("settings are those that are kept", "\"%s\", kept is %d", line, value_of((unsigned)item));
+            }
+        }
+    } else if (kept.item >= 0 && !kept.is_set && line[0] != ']') {
+        kept.item = -1;   /* refused, or something else was said meanwhile */
+    }
+}
+
+void kept_tick(void)
+{
+    if (kept.has_changed) {
+        kept.has_changed = false;
+        look_at_copies();
+    }
+    if (kept.item >= 0 && kept.is_set && session.tick - kept.line_tick > SURE) {
+        reached("setting kept as it was set");
+        if (long_ago(session.late_tick, SURE) && value_of((unsigned)kept.item) != kept.value) {
+            session_fail("settings are kept as they were set", "%s is %d, set was %d", items[kept.item].name,
+                         value_of((unsigned)kept.item), kept.value);
+        }
+        kept.item = -1;
+    }
+    /* The program has had time to make them sure. */
+    const uint32_t stands = presses_are_at_rest() && long_ago(session.asked_tick, BEGUN) ? SETTLED : LONG_PAUSE;
+    if (kept.is_started && long_ago(kept.write_tick, SETTLED) && long_ago(session.goals_tick, stands) && kept.newest >= 0) {
+        kept.is_sure = true;
+        memcpy(kept.sure, kept.copy[kept.newest], COPY_BYTES);
+    }
+}
+
+void kept_boot(void)
+{
+    if (session.boots == 0) {
+        memset(&kept, 0, sizeof kept);
+        kept.newest = -1;
+    }
+    kept.item = -1;
+    kept.is_view = kept.has_changed = kept.is_started = false;
+    kept.line_tick = session.tick;
+}

@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: MIT
+ * presses.c - what a press is, from firmware/common/REMOTE.md: another code than before, or one behind 500 ms of silence,
+ * with a button that was not down during a play or a stop. calls.c hears of each, and asks at every start of a play.
+ * A button is called spent when that is sure. So what is no press here is none. */
+#include "session.h"
+
+#include <string.h>
+
+#define SILENT 60u                 /* ticks without a packet: 500 ms are 64 */
+#define LINE_BEHIND 32u            /* ticks: a play may be over and not yet have said so */
+#define SURELY_SILENT SECOND
+#define BUTTONS 0xFFu              /* that make codes */
+#define ANSWERED (4u * SECOND)     /* what a press begins, or why it begins nothing, is said by then */
+#define QUICK 8000u                /* half microseconds: an adapter with which that is so */
+enum { BUTTON_PAUSE = 256, BUTTON_STOP = 512, CODE_STOP = 255, NO_CODE = 256, ARROWS = 15, START = 16 };
+
+typedef struct {
+    unsigned down, code;           /* by the newest packet */
+    unsigned spent;                /* buttons that are down and were so during a play or a stop */
+    uint32_t tick;
+    uint32_t press_tick;           /* the last press, if nothing was playing then */
+} hand_t;
+
+static struct {
+    hand_t remote, panel;
+    bool has_start;                /* Start is down */
+    bool is_playing;               /* the console says so */
+    uint32_t over_tick, line_tick;
+    uint32_t press_tick;           /* one that must have an answer; NEVER_TICK: none */
+} presses;
+
+static bool must_be_answered(const hand_t *hand, uint32_t silence)
+{
+    const bool was_free = hand->code == 0 && (hand->tick > session.boot_tick || silence > SURELY_SILENT);
+    return was_free && !presses.is_playing && rules_is_well() && long_ago(session.boot_tick, TROUBLE) &&
+           long_ago(presses.over_tick, SECOND) && long_ago(presses.line_tick, ANSWERED) &&
+           long_ago(session.late_tick, TROUBLE) && session.latency <= QUICK && calls_are_said();
+}
+
+/* A play is over. What came down a moment ago may have come down behind its end. */
+static void forgive(hand_t *hand)
+{
+    if (session.tick - hand->press_tick <= LINE_BEHIND) {
+        hand->spent = 0;
+    }
+}
+
+/* What a hand holds now, by a packet or at the panel. */
+static void holds(hand_t *hand, unsigned buttons)
+{
+    const unsigned down = buttons & BUTTONS;
+    const bool is_stop = buttons >= BUTTON_STOP || down == CODE_STOP;
+    const unsigned code = is_stop ? CODE_STOP : buttons == BUTTON_PAUSE ? NO_CODE : down;
+    hand->spent &= down;
+    if (code != 0 && code < CODE_STOP && code != hand->code && (down & ~hand->spent) != 0) {
+        calls_pressed(code);
+        hand->press_tick = session.tick;
+        if (must_be_answered(hand, session.tick - hand->tick)) {
+            presses.press_tick = session.tick;
+        }
+    }
+    if (presses.is_playing || is_stop) {
+        hand->spent = down;
+    }
+    hand->down = down;
+    hand->code = code;
+    hand->tick = session.tick;
+}
+
+void presses_remote(unsigned buttons)
+{
+    if (session.tick - presses.remote.tick > SILENT) {
+        presses.remote.code = presses.remote.spent = 0;
+    }
+    holds(&presses.remote, buttons);
+}
+
+/* Its arrows are codes. Start stops when it comes down, and is no part of a code. */
+void presses_panel(unsigned buttons)
+{
+    const unsigned arrows = buttons & ARROWS, start = buttons & START;
+    holds(&presses.panel, arrows);
+    if (start != 0 && !presses.has_start) {
+        presses.panel.spent = arrows;
+    }
+    presses.has_start = start != 0;
+}
+
+void presses_typed(void)
+{
+    presses.line_tick = session.tick;
+}
+
+void presses_printed(const char *line)
+{
+    static const char *const over[] = {"Ended", "Stopped", "Broken", "The pose", "The servo adapter", NULL};
+    bool is_over = strstr(line, "dropped") != NULL;   /* perhaps */
+    for (unsigned i = 0; over[i] != NULL; i++) {
+        is_over = is_over || strncmp(line, over[i], strlen(over[i])) == 0;
+    }
+    const bool begins = strncmp(line, "Going to", 8) == 0 || strncmp(line, "Playing", 7) == 0;
+    presses.is_playing = (presses.is_playing || begins) && !is_over;
+    presses.over_tick = is_over ? session.tick : presses.over_tick;
+    if (presses.press_tick != NEVER_TICK && strncmp(line, "Page ", 5) == 0 && strstr(line, " step ") == NULL) {
+        session_fail("a press starts a play or is refused", "\"%s\": a code calls no such page", line);
+    }
+    presses.press_tick = NEVER_TICK;
+    if (is_over) {
+        forgive(&presses.remote);
+        forgive(&presses.panel);
+    }
+}
+
+void presses_tick(void)
+{
+    if (presses.press_tick != NEVER_TICK && session.tick - presses.press_tick > ANSWERED) {
+        if (rules_is_well() && session.printed_tick < presses.press_tick) {
+            session_fail("a press starts a play or is refused", "nothing was said for %u ticks", ANSWERED);
+        }
+        presses.press_tick = NEVER_TICK;
+    }
+}
+
+bool presses_are_at_rest(void)
+{
+    return !presses.is_playing && calls_are_said();
+}
+
+/* Every button counts as down until a packet, or the panel, shows otherwise. */
+void presses_boot(void)
+{
+    const unsigned down = presses.panel.down;
+    const bool has_start = presses.has_start;
+    memset(&presses, 0, sizeof presses);
+    presses.remote.spent = BUTTONS;
+    presses.has_start = has_start;
+    presses.panel.spent = presses.panel.down = down;
+    presses.remote.tick = presses.panel.tick = session.tick;
+    presses.line_tick = presses.over_tick = session.tick;
+    presses.press_tick = NEVER_TICK;
+}

@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: MIT
+ * rest.c - what must rest: all joints after a break, and all joints in a pause, those of a layer and those that code moves,
+ * too (motion/LAWS.md 7, motion/SHAPING.md, firmware/play/README.md "Joints moved by code"). */
+#include "session.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define SLOWED 300u                /* ticks: a joint slows down within a ramp, 255 at most */
+#define LINE_BEHIND 32u            /* ticks: what has ended a pause may have been read before the line that tells of it */
+
+static struct {
+    enum { NOTHING, BREAK, PAUSE } what;
+    uint32_t since;
+    uint32_t moved_tick;           /* the last time that something came that may end a pause */
+    uint32_t line_tick;            /* the newest line was typed */
+    bool is_layer_asked;           /* by it, in a pause */
+    bool may_hold;                 /* letting go of the remote may be a stop: the setting `remote` was changed */
+} rest;
+
+static bool is_one_of(const char *line, const char *const *words)
+{
+    char word[16] = "";
+    (void)sscanf(line + (*line == '@' ? 1 : 0), "%15[^ ,.:;]", word);
+    for (; *words != NULL; words++) {
+        if (strcmp(word, *words) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void rest_may_end(void)
+{
+    rest.what = NOTHING;
+    rest.moved_tick = session.tick;
+}
+
+/* A break has been asked for. */
+void rest_break(void)
+{
+    rest.what = BREAK;
+    rest.since = session.tick;
+}
+
+/* A line has been typed. A break lasts until something may move; in a pause `aim`, `swing`, `free`, codes and what shapes a
+ * motion move nothing, `play` and `layer` are refused. */
+void rest_typed(const char *line)
+{
+    static const char *const after_break[] = {"play", "p", "on", "aim", "swing", "layer", "resume", "code", "free",
+                                              "move", "torque", "drive", "reset", NULL};
+    static const char *const in_pause[] = {"resume", "stop", "s", "break", "b", "on", "off",
+                                           "torque", "code", "reset", NULL};
+    const bool is_alone = session.tick - rest.line_tick > SECOND;
+    rest.line_tick = session.tick;
+    rest.may_hold = rest.may_hold || !session.typed_is_known || strstr(line, "remote") != NULL;
+    rest.is_layer_asked = rest.what == PAUSE && is_alone && session.tick - rest.since > SECOND && session.typed_is_known &&
+                          is_one_of(line, (const char *const[]){"layer", NULL}) && strstr(line, "off") == NULL;
+    if (!session.typed_is_known || is_one_of(line, in_pause) || (rest.what == BREAK && is_one_of(line, after_break))) {
+        rest_may_end();
+    }
+    if (strcmp(line, "break") == 0 || strcmp(line, "@break") == 0) {
+        rest_break();
+    }
+}
+
+/* Codes only come into force in a pause; buttons 5 and 6, and all of the first eight, end it, and so does letting go in
+ * `hold`. */
+void rest_remote(unsigned buttons)
+{
+    if (rest.what == PAUSE ? rest.may_hold || buttons >= 256 || buttons == 255 : buttons != 0) {
+        rest_may_end();
+    }
+}
+
+void rest_printed(const char *line)
+{
+    static const char *const ends[] = {"Servo ", "Ended", "Stopped", "Broken", "Nobody", "The computer", "The servo adapter",
+                                       "Going to", "Playing", "Moving", NULL};
+    if (strncmp(line, "Paused", 6) == 0 && long_ago(rest.moved_tick, LINE_BEHIND)) {
+        rest.what = PAUSE;
+        rest.since = session.tick;
+        reached("pause that comes to rest");
+        return;
+    }
+    if (rest.is_layer_asked && (strcmp(line, " OK") == 0 || strcmp(line, "@layer OK") == 0)) {
+        session_fail("a layer wants a page that plays", "one has begun in a pause");
+    }
+    rest.is_layer_asked = rest.is_layer_asked && strchr(line, ']') == line;
+    for (unsigned i = 0; ends[i] != NULL && rest.what == PAUSE; i++) {
+        if (strncmp(line, ends[i], strlen(ends[i])) == 0) {
+            rest_may_end();
+        }
+    }
+}
+
+/* A goal of a joint that has had one before. */
+void rest_goal(unsigned id, unsigned goal)
+{
+    const joint_t *joint = &session.joint[id];
+    if (rest.what == NOTHING || session.tick - rest.since <= SLOWED || !long_ago(session.late_tick, SLOWED) ||
+        joint->goal_tick < session.boot_tick || (rest.what == PAUSE && !rules_is_well())) {
+        return;
+    }
+    if (goal != joint->goal) {
+        session_fail(rest.what == BREAK ? "a break comes to rest" : "a pause is at rest",
+                     "servo %u from %u to %u, %u ticks after it", id, joint->goal, goal, session.tick - rest.since);
+    }
+}
+
+void rest_boot(void)
+{
+    rest.what = NOTHING;
+    rest.moved_tick = rest.line_tick = session.tick;
+    rest.is_layer_asked = false;
+}

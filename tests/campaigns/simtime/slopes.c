@@ -1,0 +1,222 @@
+/* SPDX-License-Identifier: MIT
+ * slopes.c - how soft a joint is that a play moves: its slope registers are those of the page that plays, and, for joints
+ * of a layer, those of the layer's page (motion/PAGE_FORMAT.md bytes 32 to 62, hal/DYNAMIXEL.md, and the headers
+ * servo_link.h and performer_shape.h in firmware/common). Also behind a fault, a loss of power or a search. */
+#include "session.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "servo_fault.h"
+
+#define SETTLED 16u                /* ticks from the line that names a page until its slopes are there */
+#define WRONG_MOST 32u             /* goals: the line that names the next page may come late */
+#define PAGE_CHAIN 16u             /* pages that a layer goes through */
+enum { CW_SLOPE_AT = 28, CCW_SLOPE_AT = 29, COMPLIANCE_AT = 32, STEPS_AT = 20, NEXT_AT = 25, UNUSED = 0x2000 };
+
+static struct {
+    unsigned page;                 /* that plays; 0: none, or it is not known */
+    uint32_t page_tick;            /* since then */
+    bool is_lost;                  /* somebody may have asked for anything, or lines are missing, until this play ends */
+    unsigned layer;                /* the page that a layer began with; 0: none */
+    uint32_t layer_joints;
+    bool is_layer_sure;            /* else they may be the layer's or not */
+    bool is_asked;                 /* for another layer, or none, by the newest line, until it is answered */
+    unsigned asked_layer;
+    uint32_t asked_joints;
+    uint32_t code_joints;          /* perhaps moved by code: they leave a layer */
+    unsigned wrong[JOINTS];        /* goals in a row with other slopes */
+    uint32_t goal_tick[JOINTS];    /* of the last one that was looked at */
+    bool did_not_hear[JOINTS];     /* since the program has last named it as silent, or as back */
+} slopes;
+
+static uint32_t bit(unsigned id)
+{
+    return (uint32_t)1 << id;
+}
+
+/* Whether the servo has the slopes of the page. A nibble that the page's format does not know allows all. */
+static bool has_slopes(unsigned id, unsigned page)
+{
+    const uint8_t byte = page_at(page)[COMPLIANCE_AT + id], *table = session.joint[id].servo->table;
+    const unsigned cw = byte >> 4, ccw = byte & 15u;
+    const bool has_cw = cw == 0 || cw > 7 || table[CW_SLOPE_AT] == 1u << cw;
+    return has_cw && (ccw == 0 || ccw > 7 || table[CCW_SLOPE_AT] == 1u << ccw);
+}
+
+/* The same for a layer, which follows its own links and does not say where it is. */
+static bool has_slopes_of_layer(unsigned id)
+{
+    unsigned page = slopes.layer;
+    for (unsigned i = 0; i < PAGE_CHAIN && page != 0; i++, page = page_at(page)[NEXT_AT]) {
+        if (has_slopes(id, page)) {
+            return true;
+        }
+    }
+    return page != 0;
+}
+
+static bool is_right(unsigned id)
+{
+    const bool may_be_of_layer = slopes.layer != 0 && (slopes.layer_joints & bit(id)) != 0;
+    if (may_be_of_layer && has_slopes_of_layer(id)) {
+        reached("slopes of a layer");
+        return true;
+    }
+    const bool is_of_layer = may_be_of_layer && slopes.is_layer_sure && (slopes.code_joints & bit(id)) == 0;
+    return !is_of_layer && has_slopes(id, slopes.page);
+}
+
+/* Known, and let be: a loss of power so short that the servo is not called silent is not noticed, and its slopes are not
+ * sent again. Until they are, nothing is said of this joint. */
+static bool was_off_unnoticed(unsigned id)
+{
+    return servo_fault_is_on(session.joint[id].servo, SERVO_FAULT_DEAD) && !session.joint[id].named_silent;
+}
+
+static void note_hearing(unsigned id)
+{
+    const servo_t *servo = session.joint[id].servo;
+    /* A servo does not hear before it has answered. */
+    if (servo_fault_is_on(servo, SERVO_FAULT_MISHEARS) || servo_fault_is_on(servo, SERVO_FAULT_LATE) ||
+        was_off_unnoticed(id) || !long_ago(session.late_tick, SECOND)) {
+        slopes.did_not_hear[id] = true;
+    }
+}
+
+static void look_at(unsigned id)
+{
+    const joint_t *joint = &session.joint[id];
+    const bool has_new_goal = joint->goal_tick > slopes.goal_tick[id] && joint->goal_tick > slopes.page_tick + SETTLED;
+    if (slopes.page == 0 || slopes.did_not_hear[id] || is_right(id)) {
+        slopes.did_not_hear[id] = slopes.did_not_hear[id] && (slopes.page == 0 || !is_right(id));
+        slopes.wrong[id] = 0;
+    } else if (has_new_goal && ++slopes.wrong[id] > WRONG_MOST) {
+        const uint8_t *table = joint->servo->table;
+        session_fail("a joint that plays is as soft as its page says", "servo %u has %u %u, page %u says %02x, layer %u", id,
+                     table[CW_SLOPE_AT], table[CCW_SLOPE_AT], slopes.page, page_at(slopes.page)[COMPLIANCE_AT + id],
+                     slopes.layer);
+    } else if (has_new_goal) {
+        reached("slopes on their way");
+    }
+    slopes.goal_tick[id] = joint->goal_tick;
+}
+
+void slopes_tick(void)
+{
+    for (unsigned id = 0; id < JOINTS && !session.is_edit; id++) {
+        if (session.joint[id].servo != NULL) {
+            note_hearing(id);
+            look_at(id);
+        }
+    }
+}
+
+/* ---- what plays ---- */
+
+static void plays(unsigned page)
+{
+    if (page != slopes.page) {
+        slopes.page_tick = session.tick;
+    }
+    slopes.page = page < PAGES ? page : 0;
+}
+
+static uint32_t joints_of_first_step(unsigned page)
+{
+    const uint8_t *at = page_at(page) + STEP_BYTES;
+    uint32_t joints = 0;
+    for (unsigned id = 0; id < JOINTS; id++) {
+        joints |= (at[2 * id] | (unsigned)at[2 * id + 1] << 8) < 1024 ? bit(id) : 0;
+    }
+    return joints;
+}
+
+/* The joints that a line names. */
+static uint32_t joints_named(const char *words)
+{
+    uint32_t joints = 0;
+    for (char *end; ; words = end) {
+        const unsigned long id = strtoul(words, &end, 10);
+        if (end == words) {
+            return joints;
+        }
+        joints |= id < JOINTS ? bit((unsigned)id) : 0;
+    }
+}
+
+static void asks_for_layer(unsigned page, uint32_t joints)
+{
+    slopes.is_asked = true;
+    slopes.asked_layer = page;
+    slopes.asked_joints = joints;
+    slopes.is_layer_sure = false;
+    if (slopes.layer == 0) {   /* it may begin before it is answered */
+        slopes.layer = page;
+        slopes.layer_joints = joints;
+    }
+}
+
+void slopes_typed(const char *line)
+{
+    unsigned id, page;
+    int at = 0;
+    line += *line == '@' ? 1 : 0;
+    slopes.is_asked = false;
+    if (!session.typed_is_known || strncmp(line, "settings talk", 13) == 0) {
+        plays(0);
+        slopes.is_lost = true;
+    } else if (strncmp(line, "layer off", 9) == 0) {
+        asks_for_layer(0, 0);
+    } else if (sscanf(line, "layer %u%n", &page, &at) == 1 && page < PAGES) {
+        const uint32_t joints = joints_named(line + at);
+        asks_for_layer(page, joints != 0 ? joints : joints_of_first_step(page));
+    } else if (sscanf(line, "aim %u", &id) == 1 || sscanf(line, "swing %u", &id) == 1) {
+        slopes.code_joints |= id < JOINTS ? bit(id) : 0;
+    }
+}
+
+static void answered(void)
+{
+    if (slopes.is_asked) {
+        slopes.layer = slopes.asked_layer;
+        slopes.layer_joints = slopes.asked_joints;
+        slopes.is_layer_sure = true;
+    }
+    slopes.is_asked = false;
+}
+
+void slopes_printed(const char *line)
+{
+    unsigned number;
+    const char *step = strstr(line, " step ");
+    if ((sscanf(line, "Playing page %u", &number) == 1 || sscanf(line, "Page %u step", &number) == 1) && step != NULL) {
+        plays(slopes.is_lost ? 0 : number);
+    } else if (strncmp(line, "Going to", 8) == 0 || strncmp(line, "Moving", 6) == 0 || strncmp(line, "Ended", 5) == 0 ||
+               strncmp(line, "Stopped", 7) == 0 || strncmp(line, "Broken", 6) == 0 || strstr(line, "dropped") != NULL) {
+        plays(0);
+        slopes.is_lost = strstr(line, "dropped") != NULL;
+        slopes.layer = slopes.layer_joints = 0;
+    } else if (strncmp(line, "The layer ended", 15) == 0) {
+        slopes.layer = slopes.layer_joints = 0;
+    } else if (strcmp(line, " OK") == 0) {
+        answered();
+    } else if (strncmp(line, "Servo ", 6) == 0) {
+        slopes.is_layer_sure = false;   /* it may have left the layer */
+    }
+    if (sscanf(line, "Servo %u ", &number) == 1 && strstr(line, " answer") != NULL && number < JOINTS) {
+        slopes.did_not_hear[number] = false;
+    }
+}
+
+/* All servos were searched for: all slopes are sent again. */
+void slopes_searched(void)
+{
+    memset(slopes.did_not_hear, 0, sizeof slopes.did_not_hear);
+}
+
+void slopes_boot(void)
+{
+    memset(&slopes, 0, sizeof slopes);
+}
