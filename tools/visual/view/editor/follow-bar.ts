@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Live follow: the robot goes, slowly, where the chosen step is. Off until somebody wants it, and off again when a limb is let
-// go.
+// go or the robot is stopped.
 
 import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
@@ -22,6 +22,7 @@ export class FollowBar extends HTMLElement {
             this.editing.watch(() => this.render()),
             this.session.editor.state.watch(() => this.render()),
             this.session.state.watch(() => this.render()),
+            this.session.onStop(() => this.editing.set({ follow: false })),
         );
     }
 
