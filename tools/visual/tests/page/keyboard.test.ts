@@ -187,7 +187,7 @@ test('a hobbyist: opens a file, goes where it is faulty, renames, copies and cle
     await person.leave();
 }, 900_000);
 
-test('in an empty motion: a joint begins where the robot has it; from the chart of links to the first motion; trying motions and stopping it', async () => {
+test('in an empty motion: a joint begins where the robot has it; the last step deleted, and brought back; from the chart of links to the first motion; trying motions and stopping it', async () => {
     const person = await Visitor.come(suite.browser, suite.address, { screen: WIDE });
     const keys = new Keyboard(person);
     await person.untilStanding();
@@ -197,6 +197,14 @@ test('in an empty motion: a joint begins where the robot has it; from the chart 
     await keys.press('ArrowUp');
     await expect.poll(async () => Number(await chosen(person).inputValue())).toBe(position + 1);
     await keys.press('Control+z', 'F6');
+    await keys.enter('Add step from the robot');
+    await keys.to('Step 1', 'Shift+Tab');
+    await keys.press('Delete');
+    await keys.at(/^No step yet/);
+    await keys.press('Control+z');
+    await keys.at('Step 1'); // where the next key is for it again
+    await keys.press('Control+z');
+    await keys.at(/^No step yet/);
     await keys.open('Links');
     await keys.to(/^motion \d+ /);
     await keys.press('ArrowDown');

@@ -5,7 +5,7 @@
 import { anglesOf } from '../../model/body.ts';
 import type { Step } from '../../model/page.ts';
 import type { Session } from '../session/session.ts';
-import { define, isTyping, make } from '../element.ts';
+import { define, handOver, isTyping, make } from '../element.ts';
 import { showPose } from './pose-picture.ts';
 import { TEXTS } from '../texts/texts.ts';
 import { nearestSetting, possibleSeconds, stepTimes } from './step-times.ts';
@@ -105,8 +105,11 @@ export class StepRow extends HTMLElement {
         const count = Math.max(1, steps.length); // one that is not seen keeps the room of the first step: nothing jumps when that comes
         while (this.cards.length > count) this.cards.pop()?.root.remove();
         while (this.cards.length < count) this.addCard(this.cards.length);
-        this.empty.hidden = steps.length > 0;
-        this.classList.toggle('without', steps.length === 0);
+        const isEmpty = steps.length === 0;
+        handOver(isEmpty ? this : this.empty, isEmpty ? this.empty : (this.cards[state.step]?.pick ?? null), () => {
+            this.empty.hidden = !isEmpty;
+            this.classList.toggle('without', isEmpty);
+        });
         const times = stepTimes(editor, state.page);
         for (const [index, card] of this.cards.entries()) {
             const isCursor = index === state.step;
