@@ -200,6 +200,15 @@ static void take_torque(servo_link_t *link, uint8_t id, const uint8_t *table)
     servo_link_put(&link->torque, id, on);
 }
 
+/* A servo that has lost its power has forgotten its slopes, even if it was away too shortly to be missed. */
+static void take_slopes(servo_link_t *link, uint8_t id, const uint8_t *slope)
+{
+    const uint16_t slopes = slopes_of(link->slopes[id]);
+    if (slope[0] != (uint8_t)slopes || slope[1] != (uint8_t)(slopes >> 8)) {
+        servo_link_put(&link->slopes_pending, id, true);
+    }
+}
+
 static void take_health(servo_link_t *link, const bus_answer_t *answer)
 {
     uint8_t id = link->poll_id;
@@ -211,7 +220,6 @@ static void take_health(servo_link_t *link, const bus_answer_t *answer)
     link->present_pos[id] = servo_link_to_page(link, id, present[0] | (present[1] & 3u) << 8);
     if (servo_link_has(&link->silent, id)) {
         servo_link_put(&link->silent, id, false);
-        servo_link_put(&link->slopes_pending, id, true);   /* it may have lost its power */
         note_fault(link, id, SERVO_FAULT_BACK);
     }
     if (errors != link->errors[id]) {
@@ -219,6 +227,7 @@ static void take_health(servo_link_t *link, const bus_answer_t *answer)
     }
     link->errors[id] = errors;
     take_torque(link, id, table);
+    take_slopes(link, id, table + (DXL_AT_CW_SLOPE - POLL_AT));
     if (link->round_voltage_dv == 0 || voltage_dv < link->round_voltage_dv) {
         link->round_voltage_dv = voltage_dv;
     }

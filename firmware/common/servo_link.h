@@ -96,7 +96,8 @@ void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOI
     NOINLINE;   /* a name of its own in the image: the bench counts its cycles */
 
 /* Sets the compliance bytes of a page (motion/PAGE_FORMAT.md: nibbles CW, CCW; 0 and above 7 are taken for 5). Those that
- * differ from what was sent last follow the next goals in a SYNC WRITE of their own. */
+ * differ from what was sent last follow the next goals in a SYNC WRITE of their own; so do those of a servo in which a
+ * health poll finds others. */
 void servo_link_slopes(servo_link_t *link, const uint8_t compliance[SERVO_LINK_JOINTS]);
 
 /* Call in every turn of the main loop: continues this tick's traffic. One health poll (READ 24..43) a tick, round robin over

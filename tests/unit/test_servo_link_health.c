@@ -136,8 +136,8 @@ static void test_servo_that_is_silent_behind_late_answers_is_named(void)
     TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(2), servos.silent);
 }
 
-/* It may have lost its power meanwhile. */
-static void test_servo_that_is_back_gets_its_slopes_again(void)
+/* It has lost its power, and with it its slopes; after `silent_ticks` it answers again. */
+static void servo_gets_its_slopes_again(uint8_t silent_ticks)
 {
     uint8_t compliance[SERVO_LINK_JOINTS];
     memset(compliance, 0x33, sizeof compliance);
@@ -145,12 +145,40 @@ static void test_servo_that_is_back_gets_its_slopes_again(void)
     servo_link_slopes(&servos, compliance);
     tick_with_goals(SERVO_LINK_ALL);
     fake_bus_servo(2)->faults = FAKE_BUS_SILENT;
-    idle_ticks(10);
-    fake_bus_servo(2)->table[DXL_AT_CW_SLOPE] = 32;
+    idle_ticks(silent_ticks);
+    fake_bus_servo(2)->table[DXL_AT_CCW_SLOPE] = 32;
     fake_bus_servo(2)->faults = 0;
     idle_ticks(10);
     TEST_ASSERT_EQUAL_HEX32(0, servos.silent);
     tick_with_goals(SERVO_LINK_ALL);
+    TEST_ASSERT_EQUAL(8, fake_bus_servo(2)->table[DXL_AT_CCW_SLOPE]);
+}
+
+static void test_servo_that_is_back_gets_its_slopes_again(void)
+{
+    servo_gets_its_slopes_again(10);
+}
+
+static void test_servo_that_forgot_its_slopes_before_it_was_missed_gets_them_again(void)
+{
+    servo_gets_its_slopes_again(0);
+}
+
+/* The pose of a servo that was silent is read by a command, before its poll. */
+static void test_servo_that_a_command_has_found_again_gets_its_slopes(void)
+{
+    uint8_t compliance[SERVO_LINK_JOINTS];
+    memset(compliance, 0x33, sizeof compliance);
+    robot(3);
+    servo_link_slopes(&servos, compliance);
+    tick_with_goals(SERVO_LINK_ALL);
+    servo_link_lost(&servos, 2);
+    fake_bus_servo(2)->table[DXL_AT_CW_SLOPE] = 32;
+    servo_link_quiet(&servos);
+    (void)servo_link_engage(&servos, SERVO_LINK_BIT(2));
+    for (uint8_t tick = 0; tick < 4; tick++) {
+        tick_with_goals(SERVO_LINK_ALL);
+    }
     TEST_ASSERT_EQUAL(8, fake_bus_servo(2)->table[DXL_AT_CW_SLOPE]);
 }
 
@@ -250,6 +278,8 @@ int main(void)
     RUN_TEST(test_late_answers_keep_neither_goals_nor_servos_back);
     RUN_TEST(test_servo_that_is_silent_behind_late_answers_is_named);
     RUN_TEST(test_servo_that_is_back_gets_its_slopes_again);
+    RUN_TEST(test_servo_that_forgot_its_slopes_before_it_was_missed_gets_them_again);
+    RUN_TEST(test_servo_that_a_command_has_found_again_gets_its_slopes);
     RUN_TEST(test_servo_with_wrong_checksums_counts_as_silent);
     RUN_TEST(test_errors_are_named_when_they_come_when_they_go_and_when_they_come_again);
     RUN_TEST(test_torque_that_goes_off_by_itself_is_named_and_not_driven);

@@ -400,6 +400,7 @@ static void take_answer(void)
     unsigned id = JOINTS, to = 0, speed = SLOWEST, amplitude = 0, period_ms = 0;
     const bool is_swing = sscanf(law.asked, "swing %u %u %u %u", &id, &to, &amplitude, &period_ms) == 4;
     const bool is_aim = is_swing || sscanf(law.asked, "aim %u %u %u", &id, &to, &speed) >= 2;
+    law.was_paused = law.was_paused || begins(law.asked, "pause");   /* "Paused" comes when all joints rest */
     /* The end of a play that is stopped ends it too. */
     if (is_aim && !law.is_mixed && id < JOINTS && speed > 0 && !law.is_stopped && !law.was_paused) {
         const double is = session.joint[id].servo == NULL ? to : session.joint[id].servo->position;

@@ -413,9 +413,6 @@ void rules_printed(const char *line)
     }
     if (strstr(line, " servos: ") != NULL) {
         servos_are_listed(rules.is_searching);
-        if (rules.is_searching) {
-            slopes_searched();
-        }
         rules.is_searching = false;
     }
     if (strncmp(line, "No answer from servos ", 22) == 0) {

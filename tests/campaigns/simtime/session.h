@@ -175,7 +175,6 @@ bool presses_are_at_rest(void);    /* nothing plays: the console has said so */
 void slopes_boot(void);
 void slopes_typed(const char *line);
 void slopes_printed(const char *line);
-void slopes_searched(void);
 void slopes_tick(void);
 
 /* kept.c */

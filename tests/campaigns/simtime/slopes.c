@@ -11,7 +11,7 @@
 #include "servo_fault.h"
 
 #define SETTLED 16u                /* ticks from the line that names a page until its slopes are there */
-#define WRONG_MOST 32u             /* goals: the line that names the next page may come late */
+#define WRONG_MOST 48u             /* goals: the line that names the next page may come late, a poll of 31 servos takes 31 */
 #define PAGE_CHAIN 16u             /* pages that a layer goes through */
 enum { CW_SLOPE_AT = 28, CCW_SLOPE_AT = 29, COMPLIANCE_AT = 32, STEPS_AT = 20, NEXT_AT = 25, UNUSED = 0x2000 };
 
@@ -28,7 +28,6 @@ static struct {
     uint32_t code_joints;          /* perhaps moved by code: they leave a layer */
     unsigned wrong[JOINTS];        /* goals in a row with other slopes */
     uint32_t goal_tick[JOINTS];    /* of the last one that was looked at */
-    bool did_not_hear[JOINTS];     /* since the program has last named it as silent, or as back */
 } slopes;
 
 static uint32_t bit(unsigned id)
@@ -68,29 +67,19 @@ static bool is_right(unsigned id)
     return !is_of_layer && has_slopes(id, slopes.page);
 }
 
-/* Known, and let be: a loss of power so short that the servo is not called silent is not noticed, and its slopes are not
- * sent again. Until they are, nothing is said of this joint. */
-static bool was_off_unnoticed(unsigned id)
-{
-    return servo_fault_is_on(session.joint[id].servo, SERVO_FAULT_DEAD) && !session.joint[id].named_silent;
-}
-
-static void note_hearing(unsigned id)
+/* A servo does not hear before it has answered. */
+static bool hears(unsigned id)
 {
     const servo_t *servo = session.joint[id].servo;
-    /* A servo does not hear before it has answered. */
-    if (servo_fault_is_on(servo, SERVO_FAULT_MISHEARS) || servo_fault_is_on(servo, SERVO_FAULT_LATE) ||
-        was_off_unnoticed(id) || !long_ago(session.late_tick, SECOND)) {
-        slopes.did_not_hear[id] = true;
-    }
+    return !servo_fault_is_on(servo, SERVO_FAULT_MISHEARS) && !servo_fault_is_on(servo, SERVO_FAULT_LATE) &&
+           !servo_fault_is_on(servo, SERVO_FAULT_DEAD) && long_ago(session.late_tick, SECOND);
 }
 
 static void look_at(unsigned id)
 {
     const joint_t *joint = &session.joint[id];
     const bool has_new_goal = joint->goal_tick > slopes.goal_tick[id] && joint->goal_tick > slopes.page_tick + SETTLED;
-    if (slopes.page == 0 || slopes.did_not_hear[id] || is_right(id)) {
-        slopes.did_not_hear[id] = slopes.did_not_hear[id] && (slopes.page == 0 || !is_right(id));
+    if (slopes.page == 0 || !hears(id) || is_right(id)) {
         slopes.wrong[id] = 0;
     } else if (has_new_goal && ++slopes.wrong[id] > WRONG_MOST) {
         const uint8_t *table = joint->servo->table;
@@ -107,7 +96,6 @@ void slopes_tick(void)
 {
     for (unsigned id = 0; id < JOINTS && !session.is_edit; id++) {
         if (session.joint[id].servo != NULL) {
-            note_hearing(id);
             look_at(id);
         }
     }
@@ -205,15 +193,6 @@ void slopes_printed(const char *line)
     } else if (strncmp(line, "Servo ", 6) == 0) {
         slopes.is_layer_sure = false;   /* it may have left the layer */
     }
-    if (sscanf(line, "Servo %u ", &number) == 1 && strstr(line, " answer") != NULL && number < JOINTS) {
-        slopes.did_not_hear[number] = false;
-    }
-}
-
-/* All servos were searched for: all slopes are sent again. */
-void slopes_searched(void)
-{
-    memset(slopes.did_not_hear, 0, sizeof slopes.did_not_hear);
 }
 
 void slopes_boot(void)
