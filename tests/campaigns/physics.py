@@ -33,7 +33,7 @@ EXPECTED = {("AX-18", FORWARD): 210, ("AX-18", BACK): -204, ("AX-12", FORWARD): 
 TOLERANCE = 0.25
 SECONDS = 10
 TRIED = proof.RESULTS / "bodies.jsonl"
-WALKS_ON_BOARD = 100
+WALKS_ON_BOARD = 50
 FIRST_SEED = 1000  # those below were looked at while the motions were made
 
 

@@ -27,7 +27,7 @@ CYCLE_S = 56 / 128  # of the walk at rate 100: walk_r and walk_l
 SEGMENT_S, SETTLES_S = 12, 5  # a value is held so long; its figures are those behind the first seconds
 VALUES = {"rate": (50, 75, 100, 125, 150), "amplitude": (0, 30, 60, 90, 120), "blend": (-100, -50, 0, 50, 100)}
 STRAIGHT = {"blend": 0, "rate": 100, "amplitude": 100}
-BODIES = 20
+BODIES = 10
 TOO_LONG_S = 20  # behind the last line: a second of the watchdog, the exit page, and more
 
 

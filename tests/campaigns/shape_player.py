@@ -8,7 +8,7 @@ from tests.models import classic, hand_over, jumps, shaped
 
 # --- what is played ---
 
-CASES, STEPS = 5000, 1000
+CASES, STEPS = 2000, 1000
 PIECE = 100
 
 

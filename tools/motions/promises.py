@@ -70,16 +70,16 @@ def a_minute(page, code, bodies):
 
 
 STANDS = [
-    Stands("walk", 60, round_trip(UP, (RIGHT, LEFT), 60), bodies=300),
-    a_minute("back", DOWN, 200),
+    Stands("walk", 60, round_trip(UP, (RIGHT, LEFT), 60), bodies=200),
+    a_minute("back", DOWN, 100),
     a_minute("right", RIGHT, 100),
     a_minute("left", LEFT, 100),
     a_minute("side_r", RIGHT + 16, 100),
     a_minute("side_l", LEFT + 16, 100),
     a_minute("turn_r", RIGHT, 100),
     a_minute("turn_l", LEFT, 100),
-    Stands("right", 40, ((0, RIGHT), (8, LEFT), (16, UP), (22, RIGHT), (26, LEFT), (30, UP), (36, STOP)), "from way to way"),
-    Stands("side_r", 40, ((0, RIGHT + 16), (8, LEFT + 16), (16, UP), (22, LEFT), (28, UP), (34, DOWN), (36, STOP)), "from way to way"),
+    Stands("right", 40, ((0, RIGHT), (8, LEFT), (16, UP), (22, RIGHT), (26, LEFT), (30, UP), (36, STOP)), "from way to way", bodies=100),
+    Stands("side_r", 40, ((0, RIGHT + 16), (8, LEFT + 16), (16, UP), (22, LEFT), (28, UP), (34, DOWN), (36, STOP)), "from way to way", bodies=100),
     Stands("ready", 3),
     Stands("bow", 6),
     Stands("wave", 6),
