@@ -76,13 +76,18 @@ export class Driving {
             .finally(() => (this.isBecoming = false));
     }
 
-    /** A key that is still held speaks for itself. */
+    /** A button that is down when Play starts is no press (firmware/common/REMOTE.md), so it goes up first. A key that is still held
+     *  speaks for itself then. */
     private carryOut(): void {
-        const { wish } = this;
-        this.wish = null;
-        if (!wish || this.keys.isHeld) return;
-        this.send(remotePacket(wish));
-        setTimeout(() => !this.keys.isHeld && this.send(remotePacket([])), REPEAT_MS);
+        if (!this.wish) return;
+        this.send(remotePacket([]));
+        setTimeout(() => {
+            const { wish } = this;
+            this.wish = null;
+            if (!wish || this.keys.isHeld) return;
+            this.send(remotePacket(wish));
+            setTimeout(() => !this.keys.isHeld && this.send(remotePacket([])), REPEAT_MS);
+        }, REPEAT_MS);
     }
 
     private walkPage(): number | null {

@@ -50,7 +50,16 @@ function driven(start: Partial<SessionState>, isHeld = false) {
         stand();
         await vi.advanceTimersByTimeAsync(0);
     };
-    return { press, becomes, sent, refuse: (error: Error) => refuse(error), asked: () => asked, message: () => state.get().message };
+    const forget = (): void => driving.forget();
+    return {
+        press,
+        becomes,
+        forget,
+        sent,
+        refuse: (error: Error) => refuse(error),
+        asked: () => asked,
+        message: () => state.get().message,
+    };
 }
 
 test('a robot that stands hears a key at once', () => {
@@ -70,9 +79,8 @@ test.each([
     await vi.advanceTimersByTimeAsync(3000);
     expect(sent).toEqual([]);
     await becomes();
-    expect(sent).toEqual([remotePacket(['up'])]);
     await vi.advanceTimersByTimeAsync(500);
-    expect(sent).toEqual([remotePacket(['up']), remotePacket([])]);
+    expect(sent).toEqual([remotePacket([]), remotePacket(['up']), remotePacket([])]);
     expect(asked()).toBe(1);
 });
 
@@ -83,7 +91,17 @@ test('the last of several keys counts; one that is still held goes on by itself'
     press('left');
     await becomes();
     await vi.advanceTimersByTimeAsync(250);
-    expect(sent).toEqual([remotePacket(['left']), remotePacket(['left'])]);
+    expect(sent).toEqual([remotePacket([]), remotePacket(['left']), remotePacket(['left'])]);
+});
+
+test('what is stopped while the key goes up is not sent', async () => {
+    const { press, becomes, forget, sent } = driven({}, true);
+    press('up');
+    press();
+    await becomes();
+    forget();
+    await vi.advanceTimersByTimeAsync(500);
+    expect(sent).toEqual([remotePacket([])]);
 });
 
 test('when the robot refuses, the key is dropped with a word', async () => {
