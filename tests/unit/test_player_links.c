@@ -243,7 +243,7 @@ static void test_player_ends_standing_before_a_page_that_cannot_be_played(void)
 }
 
 /* LAWS.md: "a link above 127 counts as 0". 127 is a page; there is none in these tests, so it is a damaged one. */
-static void link_to(player_law_t law, uint8_t named, uint8_t next_page, uint8_t fault)
+static void link_to(player_law_t law, uint8_t named, uint8_t link_page, uint8_t fault)
 {
     sparse_clear();
     setUp();
@@ -251,7 +251,7 @@ static void link_to(player_law_t law, uint8_t named, uint8_t next_page, uint8_t 
     sparse_pages[1].next = named;
     start_law(1, law);
     (void)run_to_end();
-    TEST_ASSERT_EQUAL_UINT8(next_page, player.link_page);
+    TEST_ASSERT_EQUAL_UINT8(link_page, player.link_page);
     TEST_ASSERT_EQUAL_UINT8(fault, player.fault);
     TEST_ASSERT_EQUAL_UINT8(fault == PAGE_OK ? 0 : named, player.fault_page);
 }

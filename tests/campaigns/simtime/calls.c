@@ -160,10 +160,8 @@ void calls_printed(const char *line)
 {
     static const char *const over[] = {"Ended", "Stopped", "Broken", "The pose", NULL};
     unsigned number;
-    for (unsigned i = 0; over[i] != NULL; i++) {
-        if (strncmp(line, over[i], strlen(over[i])) == 0) {
-            play_ends();
-        }
+    if (begins_with_one_of(line, over)) {
+        play_ends();
     }
     if (strcmp(line, " OK") == 0) {
         calls.named_tick = calls.asked != UNKNOWN ? session.tick : calls.named_tick;

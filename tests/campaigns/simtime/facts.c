@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "session.h"
 
+#include <string.h>
+
 const uint8_t *page_at(unsigned page)
 {
     return simtime_memory(MACHINE_PAGES) + page % PAGES * PAGE_BYTES;
@@ -25,4 +27,14 @@ uint16_t crc_of(const uint8_t *bytes, unsigned count)
         }
     }
     return crc;
+}
+
+bool begins_with_one_of(const char *line, const char *const *texts)
+{
+    for (; *texts != NULL; texts++) {
+        if (strncmp(line, *texts, strlen(*texts)) == 0) {
+            return true;
+        }
+    }
+    return false;
 }

@@ -94,11 +94,9 @@ void presses_typed(void)
 void presses_printed(const char *line)
 {
     static const char *const over[] = {"Ended", "Stopped", "Broken", "The pose", "The servo adapter", NULL};
-    bool is_over = strstr(line, "dropped") != NULL;   /* perhaps */
-    for (unsigned i = 0; over[i] != NULL; i++) {
-        is_over = is_over || strncmp(line, over[i], strlen(over[i])) == 0;
-    }
-    const bool begins = strncmp(line, "Going to", 8) == 0 || strncmp(line, "Playing", 7) == 0;
+    static const char *const begun[] = {"Going to", "Playing", NULL};
+    const bool is_over = begins_with_one_of(line, over) || strstr(line, "dropped") != NULL;   /* perhaps */
+    const bool begins = begins_with_one_of(line, begun);
     presses.is_playing = (presses.is_playing || begins) && !is_over;
     presses.over_tick = is_over ? session.tick : presses.over_tick;
     if (presses.press_tick != NEVER_TICK && strncmp(line, "Page ", 5) == 0 && strstr(line, " step ") == NULL) {

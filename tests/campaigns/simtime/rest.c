@@ -87,10 +87,8 @@ void rest_printed(const char *line)
         session_fail("a layer wants a page that plays", "one has begun in a pause");
     }
     rest.is_layer_asked = rest.is_layer_asked && strchr(line, ']') == line;
-    for (unsigned i = 0; ends[i] != NULL && rest.what == PAUSE; i++) {
-        if (strncmp(line, ends[i], strlen(ends[i])) == 0) {
-            rest_may_end();
-        }
+    if (rest.what == PAUSE && begins_with_one_of(line, ends)) {
+        rest_may_end();
     }
 }
 

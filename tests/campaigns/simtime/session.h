@@ -115,6 +115,7 @@ void world_forget_line(void);   /* what is still under way on the console is los
 const uint8_t *page_at(unsigned page);   /* in flash; PAGE_BYTES. Numbers wrap at PAGES */
 uint8_t sum_of(const uint8_t *page);     /* 0xFF: the page is whole */
 uint16_t crc_of(const uint8_t *bytes, unsigned count);   /* CRC-16/CCITT-FALSE */
+bool begins_with_one_of(const char *line, const char *const *texts);   /* NULL behind the last one */
 
 /* rules.c */
 void rules_boot(void);

@@ -13,7 +13,7 @@
 #define SETTLED 16u                /* ticks from the line that names a page until its slopes are there */
 #define WRONG_MOST 48u             /* goals: the line that names the next page may come late, a poll of 31 servos takes 31 */
 #define PAGE_CHAIN 16u             /* pages that a layer goes through */
-enum { CW_SLOPE_AT = 28, CCW_SLOPE_AT = 29, COMPLIANCE_AT = 32, STEPS_AT = 20, NEXT_AT = 25, UNUSED = 0x2000 };
+enum { CW_SLOPE_AT = 28, CCW_SLOPE_AT = 29, COMPLIANCE_AT = 32, NEXT_AT = 25 };
 
 static struct {
     unsigned page;                 /* that plays; 0: none, or it is not known */
@@ -177,12 +177,12 @@ static void answered(void)
 
 void slopes_printed(const char *line)
 {
+    static const char *const other[] = {"Going to", "Moving", "Ended", "Stopped", "Broken", NULL};   /* no page plays */
     unsigned number;
     const char *step = strstr(line, " step ");
     if ((sscanf(line, "Playing page %u", &number) == 1 || sscanf(line, "Page %u step", &number) == 1) && step != NULL) {
         plays(slopes.is_lost ? 0 : number);
-    } else if (strncmp(line, "Going to", 8) == 0 || strncmp(line, "Moving", 6) == 0 || strncmp(line, "Ended", 5) == 0 ||
-               strncmp(line, "Stopped", 7) == 0 || strncmp(line, "Broken", 6) == 0 || strstr(line, "dropped") != NULL) {
+    } else if (begins_with_one_of(line, other) || strstr(line, "dropped") != NULL) {
         plays(0);
         slopes.is_lost = strstr(line, "dropped") != NULL;
         slopes.layer = slopes.layer_joints = 0;
