@@ -14,7 +14,7 @@
 #include "shell.h"
 
 #define PLAY_LINE_BYTES 112u /* requests have up to 110 characters */
-#define PLAY_HISTORY_BYTES 48u
+#define PLAY_HISTORY_BYTES 40u
 
 typedef struct {
     performer_t performer;
