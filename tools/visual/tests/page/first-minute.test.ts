@@ -28,6 +28,8 @@ test('"Walk it" before the robot stands makes it walk; the buttons do not come b
 test('"Push it" pushes the robot over as soon as the hand has let go of it', async () => {
     const person = await Visitor.come(suite.browser, suite.address, { isNew: true, hasPicture: false });
     await person.button('Push it').click();
+    await person.page.getByText('It is pushed as soon as it stands by itself.', { exact: true }).waitFor();
+    await person.page.getByText('When it lies, press Get up.', { exact: true }).waitFor(); // now that it was pushed
     await person.doing.filter({ hasText: /^The robot lies on the floor/ }).waitFor();
     await person.leave();
 });

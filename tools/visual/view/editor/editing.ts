@@ -46,6 +46,11 @@ export function isEditing(tab: Tab): boolean {
     return EDITING_TABS.has(tab);
 }
 
+/** What is still being taught when servos that were limp hold again: Play switches on what it moves. */
+export function stillTaught(taught: ReadonlySet<number>, wereLimp: readonly number[], areLimp: readonly number[]): ReadonlySet<number> {
+    return new Set([...taught].filter(servo => areLimp.includes(servo) || !wereLimp.includes(servo)));
+}
+
 export function stepAngles(editor: Editor, body: Body, page: number, step: number): Angles {
     return anglesOf(body, editor.poseAfter(page, step), new Map());
 }

@@ -19,7 +19,7 @@ export class PhysicsBar extends HTMLElement {
     private readonly stop = make('button', { onclick: () => this.session.trials.cancel() }, TEXTS.trials.stop);
     private readonly progress = make('progress', { 'aria-label': TEXTS.trials.tried });
     private readonly row = make('div', { class: 'row' }, this.one, this.all, this.stop, this.progress);
-    private readonly status = make('p', { class: 'result', role: 'status', 'aria-label': TEXTS.trials.state });
+    private readonly status = make('p', { class: 'result', role: 'status', tabindex: '-1', 'aria-label': TEXTS.trials.state });
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
@@ -59,7 +59,7 @@ export class PhysicsBar extends HTMLElement {
     }
 
     private turn(isBusy: boolean): void {
-        const wanted = isBusy ? this.stop : this.all.disabled ? this.one : this.all;
+        const wanted = isBusy ? this.stop : ([this.all, this.one].find(button => !button.disabled) ?? this.status);
         handOver(this.row, wanted, () => {
             this.one.hidden = this.all.hidden = isBusy;
             this.stop.hidden = this.progress.hidden = !isBusy;

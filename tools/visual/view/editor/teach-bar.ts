@@ -7,6 +7,7 @@ import type { Body } from '../../model/body.ts';
 import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
+import { stillTaught } from './editing.ts';
 import type { Editing } from './editing.ts';
 import { TEXTS } from '../texts/texts.ts';
 
@@ -57,14 +58,23 @@ export class TeachBar extends HTMLElement {
             this.session.onFrame(({ servos }) => {
                 const limp = servos.filter(servo => !servo.torque).map(servo => servo.id);
                 if (limp.join() === this.limp.join()) return;
-                this.limp = limp;
-                this.render();
+                this.takeLimp(limp);
             }),
         );
     }
 
     disconnectedCallback(): void {
         for (const dispose of this.disposals.splice(0)) dispose();
+    }
+
+    /** A limb of the simulated robot is taught also while it holds: its button stays as it is. */
+    private takeLimp(limp: readonly number[]): void {
+        const { taught } = this.editing.get();
+        const isSimulated = this.session.state.get().source === 'simulated';
+        const still = isSimulated ? taught : stillTaught(taught, this.limp, limp);
+        this.limp = limp;
+        if (still.size === taught.size) this.render();
+        else this.editing.set({ taught: still });
     }
 
     private render(): void {

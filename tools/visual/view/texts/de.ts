@@ -163,7 +163,8 @@ const DE: Texts = {
         teach: 'Bring ihm Winken bei',
         motions: 'oder sieh dir zehn seiner Bewegungen an',
         walks: 'Er geht, sobald er steht. Die Pfeiltasten lenken ihn; Stopp oder die Leertaste hält ihn an.',
-        pushes: 'Er wird gestoßen, sobald er von allein steht. Wenn er liegt, drücke Aufstehen.',
+        pushes: 'Er wird gestoßen, sobald er von allein steht.',
+        pushed: 'Wenn er liegt, drücke Aufstehen.',
     },
 
     actions: {

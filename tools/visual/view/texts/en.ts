@@ -394,7 +394,8 @@ export const EN = {
         teach: 'Teach it to wave',
         motions: 'or look at ten of its motions',
         walks: 'It walks as soon as it stands. The arrow keys steer it; Stop or the space bar stops it.',
-        pushes: 'It is pushed as soon as it stands by itself. When it lies, press Get up.',
+        pushes: 'It is pushed as soon as it stands by itself.',
+        pushed: 'When it lies, press Get up.',
     },
 
     /** The bar of motions below the picture. */

@@ -162,7 +162,8 @@ const ES: Texts = {
         teach: 'Enséñale a saludar',
         motions: 'o mira diez de sus movimientos',
         walks: 'Andará en cuanto esté de pie. Las flechas lo dirigen; Parar o la barra espaciadora lo detiene.',
-        pushes: 'Se le empuja en cuanto esté de pie por sí solo. Cuando esté en el suelo, pulsa Levantarse.',
+        pushes: 'Se le empuja en cuanto esté de pie por sí solo.',
+        pushed: 'Cuando esté en el suelo, pulsa Levantarse.',
     },
 
     actions: {
