@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the page does by itself when a robot answers: it asks for its pages; the robot in the page stands up; what yours has is kept.
+// What the page does when a robot answers. It asks for the robot's pages, stands the robot in the page up, and backs up your robot.
 
 import type { ConnectionState } from '../robot/connection-table.ts';
 import { askList, askPose } from '../robot/protocol.ts';
@@ -43,19 +43,19 @@ export class Arrival {
         if (!sources.isSimulated && editor.state.get().robot.length === 0) void this.learnYours();
     }
 
-    /** The robot in the page stands up by itself as soon as it answers and has a body, whichever comes last. */
+    /** The robot in the page stands up by itself once it answers and has a body, whichever comes last. */
     standUp(): void {
         const { state, sources } = this.parts;
         const { connection, version } = state.get();
         if (sources.isSimulated && connection === 'ready' && version?.image === 'play') void sources.simulated.prepare().catch(this.fail);
     }
 
-    /** One that has gone, or starts anew, is told of by its state, and asked again when it answers. */
+    /** The connection state already shows that a robot was lost or restarted. It is asked again when it answers. */
     private readonly fail = (error: unknown): void => {
         if (!(error instanceof RobotError && error.code === 'not-connected')) this.parts.messages.fail(error);
     };
 
-    /** Reads what your robot has and keeps it, as soon as it is known; no question is asked for it. */
+    /** Reads your robot's pages and keeps them as a backup once the robot is known, without asking the person. */
     private async learnYours(): Promise<void> {
         const { state, messages, editor, transfer } = this.parts;
         if (!(await transfer.read()).isDone) return;
@@ -65,7 +65,7 @@ export class Arrival {
         messages.say({ text: TEXTS.robot.isBackedUp, tone: 'calm' });
     }
 
-    /** Who answers of servos that nobody knows yet, and who should. */
+    /** Reports which servos answer and which IDs up to the highest one are missing. */
     private async tellServos(): Promise<void> {
         const { messages, sources } = this.parts;
         const ids = (await askPose(sources.connection.requests)).map(({ id }) => id);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The files beside the page: WebAssembly, images, motions, body. Their addresses are relative, so that the folder works
-// from any place; each is fetched once.
+// The files next to the page: WebAssembly, images, motions, body. Their addresses are relative, so the folder works anywhere. Each file is
+// fetched once.
 
 import boardUrl from '../../../build/wasm/board.wasm?url';
 import bodyXmlUrl from '../../../build/wasm/body.xml?url';
@@ -24,7 +24,7 @@ import type { MotionExports } from '../model/motion.ts';
 import type { Images } from '../sim/machine.ts';
 import { TrialClient } from '../sim/trial-client.ts';
 
-/** A line that stands still, as at the edge of a wireless network, is no reason to wait for ever. */
+/** A stalled connection, for example at the edge of a wireless network, must not block for ever. */
 const FIRMWARE_MS = 120_000;
 
 async function get(url: string, signal: AbortSignal | null = null): Promise<Response> {
@@ -50,10 +50,10 @@ export async function servosModule(image: 'play' | 'edit'): Promise<WebAssembly.
 /** An instance of motion.wasm for one owner. */
 export async function motionInstance(): Promise<Motion> {
     const { instance } = await WebAssembly.instantiate(await (await get(motionUrl)).arrayBuffer());
-    return new Motion(instance.exports as unknown as MotionExports); // made by board/motion_api.c; tests/editor-model.test.ts uses all of it
+    return new Motion(instance.exports as unknown as MotionExports); // made by board/motion_api.c
 }
 
-/** The motion library: what a robot fresh from the factory has, 65,536 bytes. */
+/** The motion library in a factory-new robot, 65,536 bytes. */
 export async function motionLibrary(): Promise<Uint8Array> {
     return new Uint8Array(await (await get(motionsUrl)).arrayBuffer());
 }
@@ -69,14 +69,14 @@ export async function robotImages(image: 'play' | 'edit'): Promise<Images> {
     return { boot, application, motions: new Uint8Array(motions) };
 }
 
-/** 2.5 MB, packed here rather than by the host, which may not pack at all. */
+/** 2.5 MB. It is packed at build time, because the host may not compress at all. */
 export async function physics(): Promise<{ bodyXml: string; wasm: ArrayBuffer }> {
     const [bodyXml, packed] = await Promise.all([get(bodyXmlUrl).then(r => r.text()), get(mujocoUrl)]);
     const stream = packed.body?.pipeThrough(new DecompressionStream('gzip'));
     return { bodyXml, wasm: await new Response(stream).arrayBuffer() };
 }
 
-/** A worker for trials, with a MuJoCo of its own. */
+/** A worker for trials with its own MuJoCo. */
 export async function trialClient(body: Body): Promise<TrialClient> {
     const [{ bodyXml, wasm }, module] = await Promise.all([
         physics(),
@@ -88,7 +88,7 @@ export async function trialClient(body: Body): Promise<TrialClient> {
     return new TrialClient(worker, { module, wasm, bodyXml, body });
 }
 
-/** Motion files; Python (5 MB) is loaded at the first one. */
+/** Reads and writes motion files. Python (5 MB) is loaded with the first one. */
 export function fileFormats(): FormatsWorker {
     const parts = { wasmUrl: new URL(pythonWasmUrl, document.baseURI).href, libraryUrl: new URL(pythonLibraryUrl, document.baseURI).href };
     return new FormatsClient(parts, () => new Worker(new URL('../files/worker.ts', import.meta.url), { type: 'module', name: 'files' }));

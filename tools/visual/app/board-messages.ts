@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The last whole line that the board said by itself, for the status bar. Prompts, echoes, bare OKs, answers that came too late and the
-// escape sequences of a full screen are no messages. Nor is the step that plays: the status bar says it beside, and Edit counts from 0.
+// The last complete line that the board sent unasked, for the status bar. Prompts, echoes, bare OKs, late answers and the escape sequences
+// of a full screen are not messages. Reports of the playing step are not either: the status bar shows the step separately, and Edit counts
+// steps from 0.
 
 const LINE_MAX = 200;
 const TELLS_TROUBLE = /damaged|does not answer|no servo|overload|hot|voltage|fault|lost|cannot|bad|not /i;
 
-/** What Play says behind a servo's fault; on its own it would not say which servo. */
+/** Play prints this after a servo fault. The line alone does not name the servo. */
 const ENDED_BY_SERVO = /^Ended for the fault of a servo/;
 
 const TELLS_STEP = /^(Page|Playing page) \d+( \(.*\))? step \d+ repetition \d+$/;

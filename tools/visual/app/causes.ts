@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// When the cause of a trouble has gone: the next edit or another page for one that was refused, a robot that answers again or has ended
-// what it played, a document that is kept again.
+// Clears a trouble when its cause is gone: a refused edit after the next edit or page change, robot trouble once the robot answers and is
+// idle, storage trouble once the document is saved again.
 
 import type { EditorState } from '../model/editor-state.ts';
 import type { SessionState } from '../view/session/session.ts';
@@ -34,7 +34,7 @@ export function watchCauses({ messages, robot, editor, documents }: CausesParts)
     );
 }
 
-/** It answers, and nothing moves. */
+/** It answers and does not move. */
 function isQuiet({ connection, where }: SessionState): boolean {
     return connection === 'ready' && (where === null || where.state === 'idle' || where.state === 'ready');
 }

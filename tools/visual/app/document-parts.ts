@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the session joins to the editor: the documents of this browser, and the way to the robot.
+// Connects the editor to the documents of this browser and to the robot.
 
 import { emptyDocument } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
@@ -13,19 +13,19 @@ import type { DocumentEditor } from './editor.ts';
 import { holdDocument } from './hold-document.ts';
 import { RobotTransfer } from './transfer.ts';
 
-/** Where documents are kept; isKept false: only as long as the page is open. */
+/** Where documents are kept. isKept is false if they are lost when the page closes. */
 export interface ChosenStorage {
     readonly storage: DocumentStorage;
     readonly isKept: boolean;
 }
 
-/** The robot in use, as far as pages go there. */
+/** What a transfer of pages needs from the robot in use. */
 export interface RobotForPages {
-    /** By which its backups are told apart. */
+    /** Identifies the robot's backups. */
     name(): string;
-    /** Throws RobotError when no line is open. */
+    /** Throws RobotError if no line is open. */
     requests(): Requests;
-    /** Rejects with RobotError when Edit cannot be had. */
+    /** Rejects with RobotError if Edit cannot be started. */
     becomeEdit(): Promise<void>;
 }
 

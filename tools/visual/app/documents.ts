@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The documents of this browser: which there are, which is open, and the autosave: every finished edit is handed to the
-// storage at once. Only one tab may have a document open; a second tab gets a copy, which is kept from its first edit on.
+// The documents of this browser: the list, the open one, and the autosave. Every finished edit is passed to the storage at once. Only one
+// tab can have a document open. A second tab gets a copy, which is kept from its first edit on.
 
 import { copyName, documentFrom, imageOf } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
@@ -21,21 +21,21 @@ export interface Shown {
     edited(): Edited;
 }
 
-/** Takes a document for this tab, or says that another tab has it. The last one taken is given back. */
+/** Locks a document for this tab and releases the one locked before. false: another tab has it. */
 export type Hold = (id: string) => Promise<boolean>;
 
 export interface DocumentsParts {
     readonly storage: DocumentStorage;
-    /** false: this browser keeps nothing, and the storage ends with the page. */
+    /** false: this browser stores nothing, and documents are lost when the page closes. */
     readonly isKept: boolean;
-    /** Opens as a document with nothing in it. */
+    /** The content of a new document. */
     readonly empty: MotionDocument;
     readonly hold: Hold;
     readonly nowMs: () => number;
     readonly newId: () => string;
-    /** Another tab has the document: this one goes on with a copy of that name. */
+    /** Another tab has the document. This tab continues with a copy of that name. */
     readonly copied: (name: string) => void;
-    /** It could not be kept. */
+    /** The document could not be stored. */
     readonly failed: (error: unknown) => void;
 }
 
@@ -47,7 +47,7 @@ export class KeptDocuments implements Documents {
     private readonly shown: Shown;
     private underWay = 0;
     private log: HistoryLog = EMPTY_LOG;
-    /** The open document is a copy in which nothing was edited: it goes with its tab, or with another document. */
+    /** The open document is an unedited copy. It is dropped when the tab closes or another document opens. */
     private isUntouched = false;
 
     constructor(shown: Shown, parts: DocumentsParts) {
@@ -56,7 +56,7 @@ export class KeptDocuments implements Documents {
         if (!parts.isKept) this.state.set({ saving: 'off' });
     }
 
-    /** Opens what was edited last; `first` when there is nothing, or when it cannot be read. */
+    /** Opens the document that was edited last, or `first` if there is none or storage cannot be read. */
     async start(first: MotionDocument): Promise<void> {
         const kept = await this.load();
         this.state.set({ backups: [...kept.backups].sort((a, b) => b.takenMs - a.takenMs), unreadable: kept.unreadable });
@@ -66,14 +66,14 @@ export class KeptDocuments implements Documents {
         await this.take(newest);
     }
 
-    /** It is open when this returns: the next edit is one of the new document. What is resolved is only that this tab has it. */
+    /** The new document is open when this returns, so the next edit belongs to it. The promise only waits for the lock. */
     async create(name: string, from?: MotionDocument): Promise<void> {
         const id = this.begin(name, from ?? this.parts.empty);
         this.keep();
-        await this.parts.hold(id); // nobody else knows it yet
+        await this.parts.hold(id); // cannot fail: no other tab knows this id
     }
 
-    /** Opens a new document, and returns its id. */
+    /** Opens a new document and returns its id. */
     private begin(name: string, from: MotionDocument): string {
         const id = this.parts.newId();
         this.show(id, { document: { ...from, name }, history: NO_HISTORY, log: EMPTY_LOG });
@@ -107,7 +107,7 @@ export class KeptDocuments implements Documents {
         return kept ? documentFrom(kept.image, kept.name) : null;
     }
 
-    /** A finished edit: it is in the storage's hands when this returns. */
+    /** Stores a finished edit. The storage has it when this returns. */
     keep(): void {
         const { document, history } = this.shown.edited();
         const { openId, documents } = this.state.get();
@@ -120,13 +120,13 @@ export class KeptDocuments implements Documents {
         this.follow(this.put({ ...entry, image: imageOf(document), position: positionOf(log, history) }, change));
     }
 
-    /** The document comes before its history: where there is no room for both, the history goes. */
+    /** The document matters more than its history: if both do not fit, the history is dropped. */
     private put(document: KeptDocument, change: StepsChange): Promise<void> {
         const { storage } = this.parts;
         return storage.putDocument(document, change).catch(() => storage.putDocument(document, DROP_ALL));
     }
 
-    /** Keeps a robot's pages, unless the newest backup of that robot is the same. */
+    /** Stores a robot's pages unless its newest backup has the same content. */
     async backUp(robot: string, pages: readonly Uint8Array[]): Promise<void> {
         const image = imageOf({ name: robot, pages });
         const { backups } = this.state.get();
@@ -137,7 +137,7 @@ export class KeptDocuments implements Documents {
         await this.parts.storage.putBackup(backup);
     }
 
-    /** Opens what is kept, with its history; a copy of it when another tab has it. */
+    /** Opens a stored document with its history, or a copy if another tab has it open. */
     private async take(kept: KeptDocument): Promise<void> {
         const document = documentFrom(kept.image, kept.name);
         if (!(await this.parts.hold(kept.id))) {
@@ -152,7 +152,7 @@ export class KeptDocuments implements Documents {
             await this.parts.hold(id);
             return;
         }
-        const steps = await this.parts.storage.readSteps(kept.id).catch(() => []); // then it is forgotten, and said so
+        const steps = await this.parts.storage.readSteps(kept.id).catch(() => []); // the history is then lost, and the page says so
         this.show(kept.id, restored(document, kept.position ?? 0, steps));
     }
 

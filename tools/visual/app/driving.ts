@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Driving the robot by the keys of a remote or by a stick. Only Play can be driven, and only a robot on its feet: a key that is pressed
-// before is kept, and sent when the robot can do it.
+// Drives the robot with the keys of a remote or a stick. Only Play can be driven, and only a robot on its feet. A key pressed earlier is
+// kept and sent when the robot is ready.
 
 import type { Connection } from '../robot/connection.ts';
 import { remotePacket } from '../robot/remote.ts';
@@ -18,9 +18,9 @@ export interface DrivingParts {
     readonly state: Store<SessionState>;
     readonly messages: StatusMessages;
     readonly simulated: Pick<SimulatedSource, 'post' | 'isHeld'>;
-    /** Throws RobotError not-connected when there is none. */
+    /** Throws RobotError not-connected if there is none. */
     connection(): Connection;
-    /** The robot in the page runs Play and stands on its feet, at last. Rejects with RobotError. */
+    /** Resolves when the robot in the page runs Play and is on its feet. Rejects with RobotError. */
     becomeDriven(): Promise<void>;
 }
 
@@ -28,7 +28,7 @@ export class Driving {
     private readonly parts: DrivingParts;
     private readonly keys = new RemoteKeys(packet => this.send(packet));
     private readonly stick: StickDrive;
-    /** What was pressed last while the robot could not hear it. */
+    /** The keys pressed last while the robot could not receive them. */
     private wish: ReadonlySet<RemoteButton> | null = null;
     private isBecoming = false;
 
@@ -44,7 +44,7 @@ export class Driving {
         this.keys.hold(held);
     }
 
-    /** What was pressed before is not carried out any more. */
+    /** Drops a key press that still waits for the robot. */
     forget(): void {
         this.wish = null;
     }
@@ -53,7 +53,7 @@ export class Driving {
         this.stick.set(stick);
     }
 
-    /** It runs Play and is on its feet. */
+    /** The robot runs Play and is on its feet. */
     private get hears(): boolean {
         const { connection, image, version } = this.state;
         const isHeld = this.isSimulated && this.parts.simulated.isHeld;
@@ -76,8 +76,8 @@ export class Driving {
             .finally(() => (this.isBecoming = false));
     }
 
-    /** A button that is down when Play starts is no press (firmware/common/REMOTE.md), so it goes up first. A key that is still held
-     *  speaks for itself then. */
+    /** Play ignores a button that is already down when it starts (firmware/common/REMOTE.md), so all buttons are released first. A key that
+     *  is still held is sent again anyway. */
     private carryOut(): void {
         if (!this.wish) return;
         this.send(remotePacket([]));
@@ -95,7 +95,7 @@ export class Driving {
         return version?.image === 'play' ? (pages.find(page => page.name === 'walk')?.page ?? null) : null;
     }
 
-    /** To Edit they would be letters. */
+    /** Edit would take a packet for typed letters. */
     private send(packet: Uint8Array): void {
         const { messages, simulated } = this.parts;
         if (this.isSimulated && this.hears) simulated.post({ kind: 'bytes', sender: 'remote', bytes: packet });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The editor: joins the document's store with motion.wasm and what is said to the person. The only writer of the store.
+// The editor joins the document's store with motion.wasm and the messages to the person. It is the only writer of the store.
 
 import { jointPairs } from '../model/body.ts';
 import type { Body } from '../model/body.ts';
@@ -27,18 +27,18 @@ const CURVE_TICKS = 4096;
 /** What an editor begins with. */
 export interface EditorParts {
     readonly format: PageFormat;
-    /** For this editor alone. */
+    /** Used by this editor only. */
     readonly player: Motion;
     readonly document: MotionDocument;
-    /** The motions that the robot came with. */
+    /** The motions that the robot shipped with. */
     readonly library?: readonly Uint8Array[];
 }
 
 export interface EditorEvents {
-    /** A finished edit, undo or redo has made another document. */
+    /** A finished edit, undo or redo has changed the document. */
     changed(document: MotionDocument): void;
     refused(refusal: Refusal): void;
-    /** Another document has taken the place of the one before. */
+    /** Another document has been opened. */
     opened(): void;
 }
 
@@ -51,7 +51,7 @@ export class DocumentEditor implements Editor {
     private readonly library: readonly Uint8Array[];
     private readonly events: EditorEvents;
     private readonly views = new WeakMap<Uint8Array, PageView>();
-    /** Whose gesture is open, if one is. */
+    /** The owner of the open gesture; null if none is open. */
     private holder: symbol | null = null;
     private readonly loaded: (Uint8Array | null)[] = [];
 
@@ -110,7 +110,7 @@ export class DocumentEditor implements Editor {
         this.show(change.page === undefined || change.step !== undefined ? state : { ...state, step: 0, steps: new Set([0]) });
     }
 
-    /** Another document takes the place of this one, with the history that was kept of it. */
+    /** Opens another document with its stored history. */
     open(document: MotionDocument, history: History): void {
         const { robot, law } = this.state.get();
         this.show({
@@ -138,7 +138,7 @@ export class DocumentEditor implements Editor {
         this.state.set({ document: { ...document, name } });
     }
 
-    /** What is known of the robot's pages. */
+    /** Sets the known content of the robot's pages. */
     setRobot(robot: readonly (Uint8Array | null)[]): void {
         this.state.set({ robot });
     }
@@ -167,7 +167,7 @@ export class DocumentEditor implements Editor {
         return Array.from(this.player.poseAfter(page, step, new Uint16Array(JOINTS).fill(POSITION_MIDDLE)));
     }
 
-    /** The player has the document's pages; only those that changed are copied. */
+    /** Loads the document into the player. Only changed pages are copied. */
     private load(): void {
         for (const [page, bytes] of this.state.get().document.pages.entries()) {
             if (this.loaded[page] === bytes) continue;
@@ -187,7 +187,7 @@ export class DocumentEditor implements Editor {
         if (next.history !== before.history) this.events.changed(next.document);
     }
 
-    /** The cursor stays on a step that is there. */
+    /** Keeps the cursor on an existing step. */
     private show(next: EditorState): void {
         const count = readPage(this.format, pageOf(next.document, next.page)).steps.length;
         const step = Math.max(0, Math.min(next.step, count - 1));

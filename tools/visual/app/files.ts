@@ -19,7 +19,7 @@ function noPython(error: unknown): string {
     return TEXTS.files.noPython(error instanceof Error ? error.message : String(error));
 }
 
-/** A sentence: why it cannot be read. */
+/** Returns the bytes, or a sentence that says why the file cannot be read. */
 function bytesOf(file: ChosenFile): Promise<Uint8Array | string> {
     if (file.size > MOST_BYTES) return Promise.resolve(TEXTS.files.tooManyBytes(file.name));
     return file.arrayBuffer().then(
@@ -29,9 +29,9 @@ function bytesOf(file: ChosenFile): Promise<Uint8Array | string> {
 }
 
 export interface FilesParts {
-    /** Ends what the formats open or save. */
+    /** Cancels the file operation that runs. */
     cancel(): void;
-    /** Opens a document that is new. */
+    /** Opens a new document. */
     create(name: string, document: MotionDocument): Promise<void>;
 }
 
@@ -134,7 +134,7 @@ export class DocumentFiles implements Files {
         return isTooLong ? null : text;
     }
 
-    /** What stands in the address of the page; nothing when it holds no motion. */
+    /** Reads the motion in the page's address. Does nothing if there is none. */
     async readAddress(hash: string): Promise<void> {
         if (!hash.startsWith(HASH)) return;
         const pages = await decodeMotion(hash.slice(HASH.length));
@@ -161,7 +161,7 @@ export class DocumentFiles implements Files {
         this.state.set({ ...NOTHING, trouble: isSame ? TEXTS.files.allHere : null });
     }
 
-    /** Into free pages; the first one is chosen. 0: there is no room, and that has been said. */
+    /** Copies pages to free pages and selects the first. Returns it, or 0 if there is no room, which has then been reported. */
     private adopt(pages: ReadonlyMap<number, Uint8Array>): number {
         const adopted = this.editor.edits.adoptPages(this.editor.state.get().document, pages);
         if (!this.editor.dispatch(adopted.ok ? { ok: true, value: adopted.value.edit } : adopted) || !adopted.ok) return 0;
@@ -209,13 +209,13 @@ export class DocumentFiles implements Files {
         }
     }
 
-    /** Steps, or something damaged that may have been some. */
+    /** The page has steps, or is damaged and may have had some. */
     private holdsSteps(bytes: Uint8Array): boolean {
         const { format } = this.editor;
         return !format.isErased(bytes) && (format.fault(bytes) !== null || readPage(format, bytes).steps.length > 0);
     }
 
-    /** One thing at a time; trouble in words, never thrown. Null: it went wrong. */
+    /** Runs one action. Reports trouble as text and never throws. Null: it failed or was cancelled. */
     private async busy<T>(words: string, action: () => Promise<T>): Promise<T | null> {
         this.state.set({ ...NOTHING, busy: words });
         this.isCancelled = false;

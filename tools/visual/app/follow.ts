@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Live follow: brings the robot, slowly, to the pose that is wanted last. One request is under way at a time; while the robot
-// still moves, the next pose waits (`@move` is refused then).
+// Live follow moves the robot slowly to the latest wanted pose. Only one request is under way. While the robot moves, it refuses `@move`,
+// so the next pose waits.
 
 import type { Connection } from '../robot/connection.ts';
 import { REFUSED, movePose } from '../robot/protocol.ts';
@@ -28,7 +28,7 @@ export class Follow {
         return this.wanted !== null;
     }
 
-    /** Servo units by ID; null: no more. The way that is on is finished. */
+    /** Servo units by ID. null stops following, but a movement that has begun is finished. */
     set(positions: readonly (number | null)[] | null): void {
         this.wanted = positions;
         if (positions && !this.isRunning) void this.run();
@@ -51,7 +51,7 @@ export class Follow {
         }
     }
 
-    /** false: it moves still. */
+    /** false: the robot is still moving. */
     private async move(pose: readonly (number | null)[]): Promise<boolean> {
         try {
             await movePose(this.connection().requests, FOLLOW_DEGREES_PER_SECOND, pose);

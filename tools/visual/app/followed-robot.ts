@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A robot at the end of a line: its connection, and the picture that follows its servos: `@pose` as often as the line lets it. The feet stand
-// on the ground, for nobody tells where the robot is in its room.
+// A robot on a line: its connection, and the picture that follows its servos, asking `@pose` as often as the line allows. The feet are
+// drawn on the ground, because the robot's place in the room is unknown.
 
 import { jointAngle } from '../model/body.ts';
 import type { Body } from '../model/body.ts';
@@ -32,7 +32,7 @@ export class FollowedRobot {
         this.follower?.stop();
         this.standing.begin();
         this.startedMs = performance.now();
-        // What an old connection still says when it is closed concerns nobody.
+        // Ignore what an old connection still reports while it closes.
         const connection: Connection = new Connection(port, wallClock, {
             state: state => this.connection === connection && this.events.connection(state),
             text: bytes => this.connection === connection && this.events.text(bytes),

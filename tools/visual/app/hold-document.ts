@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// One tab for one document, and one for what the robot in the page keeps: locks of the browser, given back when the tab closes.
+// Locks of the browser: one tab for each document, and one for the memory of the robot in the page. They are released when the tab closes.
 
-/** A page that is loaded anew may find itself, still leaving. */
+/** How long the previous page may hold its lock while the page reloads. */
 const RELOAD_MS = 1000;
 
 let release: () => void = () => undefined;
 
-/** Takes a document for this tab and gives back the one taken before. false: another tab has it; what was taken stays taken. */
+/** Locks a document for this tab and releases the one locked before. false: another tab has it, and the previous lock stays. */
 export function holdDocument(id: string): Promise<boolean> {
     if (!('locks' in navigator)) return Promise.resolve(true);
     return new Promise((resolve, reject) => {
@@ -22,7 +22,7 @@ export function holdDocument(id: string): Promise<boolean> {
     });
 }
 
-/** Takes what the robot in the page keeps for this tab, for good. false: another tab has it. */
+/** Locks the memory of the robot in the page for as long as this tab lives. false: another tab has it. */
 export async function holdRobot(): Promise<boolean> {
     if (!('locks' in navigator)) return true;
     if (await tryRobot()) return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Something that happens, and who wants to know.
+// An event and its listeners.
 
 export class Listeners<T> {
     private readonly all = new Set<(value: T) => void>();

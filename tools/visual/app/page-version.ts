@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The page's own versions: the browser keeps the one that is open (service-worker.js) and looks for a newer one when the page opens
-// and whenever somebody comes back to it. The newer one takes over when a person says so.
+// The page's own versions. The browser keeps the open one (service-worker.js) and looks for a newer one when the page opens and whenever
+// somebody returns to it. The newer one takes over when the person agrees.
 
 import type { SessionState } from '../view/session/session.ts';
 import type { Store } from '../view/store.ts';
@@ -13,7 +13,8 @@ export class PageVersion {
         this.state = state;
     }
 
-    /** Keeps the whole page in the browser. Where that refuses (plain http from another machine) the page works, but not offline. */
+    /** Stores the complete page in the browser. If the browser refuses (plain http from another machine), the page works, but not
+     *  offline. */
     async keep(): Promise<void> {
         if (!('serviceWorker' in navigator)) return;
         const registration = await navigator.serviceWorker.register('./service-worker.js').catch(() => null);
@@ -22,11 +23,11 @@ export class PageVersion {
         registration.addEventListener('updatefound', () => this.follow(registration.installing));
         this.follow(registration.waiting ?? registration.installing);
         document.addEventListener('visibilitychange', () => {
-            if (!document.hidden) void registration.update().catch(() => undefined); // without a network there is none
+            if (!document.hidden) void registration.update().catch(() => undefined); // fails without a network
         });
     }
 
-    /** The newer version takes the place of this page. */
+    /** Replaces this page with the newer version. */
     take(): void {
         navigator.serviceWorker.addEventListener('controllerchange', () => window.location.reload());
         this.registration?.waiting?.postMessage('take-over');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shows a motion in the picture at once, while the robot is still being asked or written; and says what the figure is.
+// Shows a motion in the picture at once, while the robot is still being asked or written, and says what the figure in the picture is.
 //
 //          an edit, another step or page                a play is asked for; the scrubber
 //   STEP <--------------------------------- SHOWN <-------------------------------------- STEP, ROBOT
@@ -19,9 +19,9 @@ import type { Editor } from '../view/session/editor.ts';
 import type { Figure, Preview, PreviewState, ShownPose } from '../view/session/preview.ts';
 import { Store } from '../view/store.ts';
 
-/** The feet are followed so often: 64 times a second. */
+/** Ticks between two updates of the feet: 64 updates a second. */
 const STRIDE = 2;
-/** A motion that goes round ends here: 32 s. */
+/** A looping motion is cut here: 32 s. */
 const MOST_TICKS = 32 * TICKS_PER_SECOND;
 const ORIGIN: Place = { pos: [0, 0, 0], quat: [1, 0, 0, 0] };
 
@@ -29,19 +29,19 @@ export interface PreviewParts {
     readonly body: Body;
     readonly editor: Editor;
     readonly state: Store<SessionState>;
-    /** Where the robot stands: there the motion begins. */
+    /** The place of the robot, where the motion begins. */
     trunk(): Place | null;
-    /** The robot goes after the edited step: it moves, and the step is still what one looks at. */
+    /** The robot follows the edited step. It moves, but the picture keeps showing the step. */
     isFollowing(): boolean;
-    /** A hand is standing the robot up: it moves, and a motion that is shown meanwhile is what one looks at. */
+    /** A hand is standing the robot up. It moves, but a motion that is shown keeps the picture. */
     isStoodUp(): boolean;
-    /** `shownPage` of the state has changed. */
+    /** `shownPage` in the state has changed. */
     pageChanged(): void;
-    /** Calls back once, at the next picture, with the time in milliseconds. */
+    /** Calls back once at the next frame, with the time in milliseconds. */
     nextFrame(call: (nowMs: number) => void): void;
 }
 
-/** A motion and where its feet take it, found out as far as somebody looks. */
+/** A motion and the path of its trunk, computed only as far as it is viewed. */
 class ShownMotion {
     readonly curve: Curve;
     private readonly standing: Standing;
@@ -73,7 +73,7 @@ class ShownMotion {
     }
 }
 
-/** A place of a way that begins at `first`, when it begins at `from` instead: on the floor, turned about the vertical. */
+/** Moves a place of a path that begins at `first` to the same path from `from`: shifted on the floor, turned about the vertical. */
 function moved(place: Place, first: Place, from: Place): Place {
     const about = turn([0, 0, 1], heading(from.quat) - heading(first.quat));
     const [x, y] = rotate(about, [place.pos[0] - first.pos[0], place.pos[1] - first.pos[1], 0]);
@@ -116,7 +116,7 @@ export class MotionPreview implements Preview {
             const isAside = parts.isFollowing() || editor.state.get().gesture !== null || (this.state.get().isRunning && parts.isStoodUp());
             if (isMoving && !this.isRobotMoving && !isAside) this.showRobot();
             this.isRobotMoving = isMoving;
-            if (tab !== tabBefore && !isMoving && this.state.get().figure === 'robot') this.showStep(); // who comes to edit looks at the step
+            if (tab !== tabBefore && !isMoving && this.state.get().figure === 'robot') this.showStep(); // a changed tab shows the step
             tabBefore = tab;
         });
     }
@@ -127,7 +127,7 @@ export class MotionPreview implements Preview {
         return true;
     }
 
-    /** A play is asked for. A robot that moves already, and will refuse it, stays what one looks at. */
+    /** A play was requested. If the robot already moves, it will refuse, and the picture keeps showing it. */
     playAsked(page: number): void {
         if (!this.isRobotMoving || this.parts.isStoodUp()) this.start(page);
     }
@@ -176,7 +176,7 @@ export class MotionPreview implements Preview {
         if (this.state.get().figure !== 'step' || this.state.get().ticks > 0) this.become('step', { isRunning: false, tick: 0, ticks: 0 });
     }
 
-    /** A play has begun: nothing but the robot is to be looked at. */
+    /** A play has begun. Only the robot is shown. */
     showRobot(): void {
         this.become('robot', { isRunning: false });
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The keys of the remote, as long as they are held: the robot in the page hears them over its own link, yours over the serial line.
+// Sends the keys of the remote while they are held: to the robot in the page over its own link, to yours over the serial line.
 
 import { remotePacket } from '../robot/remote.ts';
 import type { RemoteButton } from '../robot/remote.ts';

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which image the robot in the page runs, or your servos are driven by. Another one starts it anew: what its flash holds stays, what only its
-// RAM holds is lost.
+// The image that the robot in the page runs or that drives your servos. Changing it restarts the robot: flash is kept, RAM is lost.
 
 import type { PageFormat } from '../model/page-format.ts';
 import { hasUnsavedEdits } from '../robot/page-requests.ts';
@@ -15,7 +14,7 @@ const READY_MS = 180_000;
 export interface ImageParts {
     readonly state: Store<SessionState>;
     readonly format: PageFormat;
-    /** The one whose image is meant. */
+    /** The robot whose image is changed. */
     robot(): Pick<SimulatedSource, 'restart' | 'forget' | 'prepare' | 'connection'>;
     say(message: Notice): void;
     fail(error: unknown): void;
@@ -29,12 +28,12 @@ export class RobotImages {
         this.parts = parts;
     }
 
-    /** As somebody wants who presses a button for it. */
+    /** For a button press: errors are reported, not thrown. */
     run(image: ImageName): void {
         void this.restart(image).catch((error: unknown) => this.parts.fail(error));
     }
 
-    /** A robot as the factory gives it. */
+    /** Restarts the robot in its factory state. */
     async forget(): Promise<void> {
         const { robot, fail } = this.parts;
         await robot()
@@ -42,7 +41,7 @@ export class RobotImages {
             .catch((cause: unknown) => fail(new RobotError('no-image', '', { cause })));
     }
 
-    /** Only Edit saves pages. The robot starts anew with it, stands up, and stays so until somebody drives it. */
+    /** Only Edit saves pages. The robot restarts with it, stands up, and keeps it until somebody drives the robot. */
     async becomeEdit(): Promise<void> {
         if (this.state.image !== 'edit') {
             this.parts.say({ text: TEXTS.robot.startsEdit, tone: 'calm' });
@@ -52,7 +51,7 @@ export class RobotImages {
         await this.parts.robot().prepare();
     }
 
-    /** Only Play hears a remote control. Resolves when it does, and the robot is on its feet. Rejects with RobotError. */
+    /** Only Play receives a remote control. Resolves when Play runs and the robot is on its feet. Rejects with RobotError. */
     async becomeDriven(): Promise<void> {
         if (this.state.image !== 'play') {
             this.leaving ??= this.leaveEdit().finally(() => (this.leaving = null));
@@ -66,13 +65,13 @@ export class RobotImages {
         return this.parts.state.get();
     }
 
-    /** A key of the remote is no word for throwing edits away: with any of them Edit goes on. Rejects with RobotError: page-unsaved, and as
-     *  a request does. */
+    /** A remote key must not discard edits: if there are unsaved ones, Edit keeps running. Rejects with RobotError: page-unsaved, or as a
+     *  request does. */
     private async leaveEdit(): Promise<void> {
         if (this.state.stopped === null) {
-            // else nothing is left in its RAM
+            // a stopped robot has nothing left in RAM
             await this.untilReady();
-            if (this.state.image === 'play') return; // meanwhile
+            if (this.state.image === 'play') return; // changed meanwhile
             const { connection } = this.parts.robot();
             if (!connection) throw new RobotError('not-connected');
             if (await hasUnsavedEdits(connection.requests, this.parts.format)) throw new RobotError('page-unsaved');
@@ -81,7 +80,7 @@ export class RobotImages {
         await this.restart('play');
     }
 
-    /** Rejects with RobotError when the image cannot be had: the robot goes on as it was. */
+    /** Rejects with RobotError if the image cannot be had. The robot then keeps running as before. */
     private async restart(image: ImageName): Promise<void> {
         const { state, robot } = this.parts;
         const before = state.get().image;

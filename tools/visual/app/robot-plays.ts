@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a robot is asked to play: a page as it has it, the page that is edited, and what goes on beside a play. What is not done
-// rejects with RobotError.
+// Asks a robot to play: a page in its flash, the edited page, and overlays on a play. A request that is not carried out rejects with
+// RobotError.
 
 import { pageOf } from '../model/document.ts';
 import type { Shape } from '../model/motion.ts';
@@ -18,22 +18,22 @@ export interface PlayParts {
     readonly state: Store<SessionState>;
     readonly editor: DocumentEditor;
     readonly transfer: RobotTransfer;
-    /** Throws RobotError not-connected when there is none. */
+    /** Throws RobotError not-connected if there is none. */
     connection(): Connection;
-    /** Before a motion: the robot in the page gets to its feet. */
+    /** Before a motion: gets the robot in the page to its feet. */
     prepare(): Promise<void>;
 }
 
 export class RobotPlays {
     private readonly parts: PlayParts;
-    /** Counts what was asked for and taken back. */
+    /** Counts requests and cancels, so that an outdated request can be recognised. */
     private asked = 0;
 
     constructor(parts: PlayParts) {
         this.parts = parts;
     }
 
-    /** A page as the robot has it. */
+    /** Plays a page as it is in the robot. */
     async play(page: number): Promise<void> {
         const mine = this.asked;
         await this.parts.prepare();
@@ -41,7 +41,7 @@ export class RobotPlays {
         await play(this.requests, page);
     }
 
-    /** A page as the document has it. */
+    /** Plays a page as it is in the document. */
     async playEdited(page: number): Promise<void> {
         const { format, state } = this.parts.editor;
         const mine = ++this.asked;
@@ -51,7 +51,7 @@ export class RobotPlays {
         await play(this.requests, page);
     }
 
-    /** What has been asked to play, and still waits, does not play any more. */
+    /** Cancels requested plays that still wait. */
     cancel(): void {
         this.asked++;
     }
@@ -83,8 +83,8 @@ export class RobotPlays {
         }
     }
 
-    /** Makes sure that the robot has these pages as the document has them. The robot in the page gets them; what will change in
-     *  yours is to be seen before. */
+    /** Makes sure that these pages are the same in robot and document. The robot in the page is written. Yours is not: its owner must see
+     *  the changes first. */
     private async bringPages(pages: readonly number[]): Promise<void> {
         const { editor, transfer, state } = this.parts;
         const differing = await this.differing(pages);
@@ -92,13 +92,13 @@ export class RobotPlays {
         if (!this.isSimulated) throw new RobotError('pages-differ');
         const { document } = editor.state.get();
         const damaged = differing.find(page => editor.format.fault(pageOf(document, page)) !== null);
-        if (damaged !== undefined) throw new RobotError('damaged-here', String(damaged)); // it would not be written
+        if (damaged !== undefined) throw new RobotError('damaged-here', String(damaged)); // transfer.write() would skip it
         const end = await transfer.write(pages);
         if (!end.isDone) throw end.error;
         state.set({ pages: await askList(this.requests) });
     }
 
-    /** A layer is what the robot has in its flash: one that differs is not played. */
+    /** A layer plays from the robot's flash, so a page that differs is refused. */
     private async layer(page: number | null, joints: readonly number[]): Promise<void> {
         const { format, state } = this.parts.editor;
         if (page !== null && (await this.differing(format.reach(state.get().document, page))).length > 0)
@@ -106,7 +106,7 @@ export class RobotPlays {
         await setLayer(this.requests, page, joints);
     }
 
-    /** Pages that the robot has otherwise than the document. The robot is asked: what was read of it may be old, or not read yet. */
+    /** Pages that differ between robot and document. Asks the robot, because what was read of it may be outdated or missing. */
     private async differing(pages: readonly number[]): Promise<number[]> {
         if (pages.length === 0) return [];
         const { format, state } = this.parts.editor;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The session: joins the simulated robot or a port with the protocol and the views. The only place that knows
-// them all.
+// The session joins the simulated robot or a port with the protocol and the views. It is the only place that knows all of them.
 
 import type { FormatsWorker } from '../model/file-formats.ts';
 import type { Body } from '../model/body.ts';
@@ -42,10 +41,10 @@ import type { SourceEvents } from './simulated-source.ts';
 import { RobotSources } from './sources.ts';
 import { StatusMessages } from './status-messages.ts';
 
-/** A robot that has the motion already plays it before this, and nothing has to be shown in its place. */
+/** A robot that already has the motion plays it within this time, so no preview is needed. */
 const SHOWN_MS = 160;
 
-/** As the page begins. */
+/** The state when the page opens. */
 const startState = (): SessionState => ({
     source: 'simulated',
     connection: 'closed',
@@ -241,7 +240,7 @@ export class RobotSession implements Session {
         preview.setLooping(true);
         preview.start(page);
         await this.untilReady();
-        if (preview.state.get().isRunning) await this.playEdited(page); // else somebody wants something else by now
+        if (preview.state.get().isRunning) await this.playEdited(page); // otherwise the person has chosen something else
         preview.setLooping(false);
     }
 
@@ -281,7 +280,7 @@ export class RobotSession implements Session {
         else this.messages.say(message);
     }
 
-    /** Edit hears no remote, but it is to be stopped, too. */
+    /** Edit ignores the remote, but Stop must work there as well. */
     remote(held: ReadonlySet<RemoteButton>): void {
         const stops = held.has('b6');
         if (stops) this.dropWaiting();
@@ -336,7 +335,7 @@ export class RobotSession implements Session {
         return this.sources.connection;
     }
 
-    /** What a robot that is off is asked for is not kept: it would do it whenever it is switched on. */
+    /** A request to a robot that is off is dropped, or it would run whenever the robot is switched on. */
     private async act(action: () => Promise<void>): Promise<void> {
         if (this.isSimulated && !this.state.get().isPowered) return this.messages.complain(TEXTS.status.isOff, 'robot');
         try {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The serial ports that a person has allowed. A board and a servo adapter are both one, and the browser tells no more of them than their
-// kind, so the kind of the adapter is remembered: nobody's board is found there.
+// The serial ports that the person has allowed. A board and a servo adapter both are one, and the browser reveals only the kind of a port.
+// The adapter's kind is remembered, so that it is not taken for a board.
 
 import { RobotError } from '../robot/robot-error.ts';
 
@@ -11,7 +11,7 @@ function kindOf(port: SerialPort): string {
     return `${usbVendorId.toString(16)}:${usbProductId.toString(16)}`;
 }
 
-/** A browser that keeps nothing lets the person choose once more. */
+/** A browser without storage asks the person again. */
 export function isAdapter(port: SerialPort): boolean {
     try {
         return localStorage.getItem(ADAPTER) === kindOf(port);
@@ -28,7 +28,7 @@ export function rememberAdapter(port: SerialPort): void {
     }
 }
 
-/** Does what needs Web Serial and a port that somebody chooses. false: the chooser was closed. Rejects with RobotError. */
+/** Runs `work`, which needs Web Serial and a port chosen by the person. false: the chooser was closed. Rejects with RobotError. */
 export async function withPort(work: () => Promise<void>): Promise<boolean> {
     if (!('serial' in navigator)) throw new RobotError('no-serial');
     try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// My servos: Play or Edit in a worker of this page, at servos on an adapter (Web Serial). To everything else it is a robot on a line.
+// My servos: Play or Edit in a worker of this page drives servos on an adapter (Web Serial). All other code sees a robot on a line.
 
 import type { Body } from '../model/body.ts';
 import type { Connection } from '../robot/connection.ts';
@@ -16,7 +16,7 @@ import { FollowedRobot } from './followed-robot.ts';
 import { rememberAdapter, withPort } from './serial-ports.ts';
 import type { SourceEvents } from './simulated-source.ts';
 
-/** What moves is brought to a stand before the program ends. */
+/** Time limit for the robot to come to a stop before the program is ended. */
 const STAND_MS = 5000;
 
 export class ServosSource {
@@ -32,7 +32,7 @@ export class ServosSource {
         this.robot = new FollowedRobot(body, events, mayAsk);
     }
 
-    /** null: there is none. */
+    /** null if there is none. */
     get connection(): Connection | null {
         return this.robot.connection;
     }
@@ -49,41 +49,41 @@ export class ServosSource {
         });
     }
 
-    /** Resolves when the adapter is open and the program runs; then connect(). Rejects with RobotError; then nothing runs. */
+    /** Resolves when the adapter is open and the program runs; call connect() then. Rejects with RobotError, and nothing runs. */
     start(image: ImageName): Promise<void> {
         return this.inTurn(() => this.begin(image));
     }
 
-    /** Talks to the program. */
+    /** Connects to the program. */
     connect(): void {
         if (this.client) this.robot.connect(this.client.port);
     }
 
-    /** Starts another program at the same servos; what is kept stays. What moves is brought to a stand before. */
+    /** Stops the robot and starts another program on the same servos. The memories are kept. */
     restart(image: ImageName): Promise<void> {
         return this.inTurn(() => this.again(image));
     }
 
-    /** The same with the memories of a new robot. */
+    /** Like restart(), but with the memories of a new robot. */
     forget(image: ImageName): Promise<void> {
         return this.inTurn(async () => {
             await this.again(image, () => forgetServos().catch(() => this.say(TEXTS.robot.notKept, 'bad')));
         });
     }
 
-    /** It stands where its owner has put it. */
+    /** Nothing to do: the robot stands where its owner has put it. */
     prepare(): Promise<void> {
         return Promise.resolve();
     }
 
-    /** What moves is brought to a stand; servos that hold their pose go on holding it. */
+    /** Stops movement. Servos that hold their pose keep holding it. */
     close(): Promise<void> {
         return this.inTurn(() => this.end());
     }
 
     private inTurn(work: () => Promise<void>): Promise<void> {
         const done = this.turn.then(work);
-        this.turn = done.catch(() => undefined); // its caller hears of it
+        this.turn = done.catch(() => undefined); // the caller gets the error
         return done;
     }
 
@@ -140,7 +140,7 @@ export class ServosSource {
                 return this.say(message.text, 'calm');
             case 'adapter':
                 return this.events.change({ adapter: message.isThere ? 'back' : 'out' });
-            case 'ended': // a restart, as a board does it
+            case 'ended': // restarts, as a board does
                 return void this.restart(this.image).catch(() => this.stop(TEXTS.robot.servosCrashed));
             case 'crashed':
                 return this.stop(`${TEXTS.robot.servosCrashed} (${message.text})`);
@@ -148,7 +148,7 @@ export class ServosSource {
             case 'refused':
             case 'bytes':
             case 'keep':
-                return; // others have them
+                return; // handled elsewhere
             default:
                 message satisfies never;
         }
@@ -162,7 +162,7 @@ export class ServosSource {
         this.events.change({ stopped: why, doing: { text: why, tone: 'bad' } });
     }
 
-    /** What was kept, or the motions that a new robot begins with. */
+    /** The stored memories, or those of a new robot: the motion library. */
     private async memories(): Promise<(Uint8Array | null)[]> {
         const kept = await loadServos().catch(() => null);
         return kept ? [...kept] : [await motionLibrary(), null, null];

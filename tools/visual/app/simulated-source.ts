@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The robot in the page: its worker, its memory in the browser, and the hands that a person would lend it: one holds it up
-// until its legs bear it.
+// The robot in the page: its worker, its memory in the browser, and the hand that holds it up until its legs bear it.
 
 import type { Body } from '../model/body.ts';
 import { Connection } from '../robot/connection.ts';
@@ -22,12 +21,12 @@ import { boardModule, motionLibrary, physics, robotImages } from './assets.ts';
 import { TickClock } from './tick-clock.ts';
 
 const KEY = 'cm5';
-/** Page of the motion library in which the robot stands by itself. */
+/** The page of the motion library that takes the robot to its standing pose. */
 const READY_PAGE = 1;
 const STAND_LIMIT_MS = 8000;
 const ASK_MS = 50;
 const WHERE_MS = 3000;
-/** Of the worker, until it has heard that the hand opens. */
+/** Frames to wait for the worker to report that the hand has let go. */
 const MOST_FRAMES = 60;
 
 interface Parts {
@@ -40,7 +39,7 @@ export interface SourceEvents {
     text(bytes: Uint8Array): void;
     connection(state: ConnectionState): void;
     change(change: Partial<SessionState>): void;
-    /** What the robot in the page has in its flash: the 65,536 bytes of its motion pages. */
+    /** The robot in the page has these motion pages in its flash: 65,536 bytes. */
     motions(image: Uint8Array): void;
 }
 
@@ -48,7 +47,7 @@ function motionsIn({ flash }: KeptRobot): Uint8Array {
     return flash.slice(MOTIONS_ADDRESS, MOTIONS_ADDRESS + PAGE_BYTES * PAGE_COUNT);
 }
 
-/** What the robot in the page has when the page starts: what it kept, or what the factory gives it. */
+/** The motion pages of the robot in the page at start: stored ones, or the motion library. */
 export async function simulatedMotions(): Promise<Uint8Array> {
     const kept = await loadRobot(KEY).catch(() => null);
     return kept ? motionsIn(kept) : motionLibrary();
@@ -63,7 +62,7 @@ export class SimulatedSource {
     private standing: Promise<void> | null = null;
     private isInHand = false;
     private clock = new TickClock();
-    /** Only one tab keeps what its robot saves: two would write over each other. */
+    /** Only one tab stores its robot's memories. Two would overwrite each other. */
     private readonly mayKeep = holdRobot();
     private isSecondShown = false;
     private readonly waiting: ((state: RobotState) => void)[] = [];
@@ -82,8 +81,8 @@ export class SimulatedSource {
         });
     }
 
-    /** Starts the robot anew with this image; what is in its memories stays. Rejects when the image cannot be had: then the robot
-     *  goes on as it was. */
+    /** Restarts the robot with this image. Its memories are kept. Rejects if the image cannot be had; the robot then keeps running as
+     *  before. */
     restart(image: ImageName): Promise<void> {
         return this.inTurn(async () => {
             const parts = await this.parts(image);
@@ -93,7 +92,7 @@ export class SimulatedSource {
         });
     }
 
-    /** Starts a robot as the factory gives it. Rejects as restart() does. */
+    /** Starts a factory-new robot. Rejects as restart() does. */
     forget(image: ImageName): Promise<void> {
         return this.inTurn(async () => {
             const parts = await this.parts(image);
@@ -104,10 +103,10 @@ export class SimulatedSource {
         });
     }
 
-    /** One robot at a time: who presses twice gets the second one when the first is there. */
+    /** One robot at a time: the second of two quick requests waits for the first. */
     private inTurn(action: () => Promise<void>): Promise<void> {
         const done = this.turn.then(action);
-        this.turn = done.catch(() => undefined); // its caller hears of it
+        this.turn = done.catch(() => undefined); // the caller gets the error
         return done;
     }
 
@@ -116,7 +115,7 @@ export class SimulatedSource {
         return { module, images };
     }
 
-    /** What the robot has now; when it has crashed, what was kept of it last. */
+    /** The robot's current memories, or after a crash the last stored ones. */
     private async memories(): Promise<KeptRobot | null> {
         try {
             const memories = await this.robot?.memories();
@@ -162,17 +161,17 @@ export class SimulatedSource {
         if (this.connection) this.events.connection(this.connection.state);
     }
 
-    /** A hand holds the robot: what plays moves it in the air. */
+    /** A hand holds the robot, so motions move it in the air. */
     get isHeld(): boolean {
         return this.isInHand;
     }
 
-    /** Does what a person does before a motion: holds the robot, lets it go to its standing pose, lets go of it. At once when
-     *  nobody holds it. Rejects with RobotError when the robot refuses; then the hand has let go, too. */
+    /** Does what a person does before a motion: holds the robot, lets it take its standing pose, lets go. Does nothing if no hand holds the
+     *  robot. Rejects with RobotError if the robot refuses; the hand has then let go as well. */
     prepare(): Promise<void> {
         if (this.standing) return this.standing;
         const standing: Promise<void> = this.stand().finally(() => {
-            if (this.standing === standing) this.standing = null; // another robot has its own
+            if (this.standing === standing) this.standing = null; // a new robot has its own
         });
         this.standing = standing;
         return standing;
@@ -195,7 +194,7 @@ export class SimulatedSource {
             this.post({ kind: 'hold', held: false });
         }
         for (let frame = 0; frame < MOST_FRAMES && (await this.nextFrame()).isHeld; frame++); // the hand opens
-        if (wanted) await play(requests, wanted.page, wanted.code); // somebody had asked for it
+        if (wanted) await play(requests, wanted.page, wanted.code); // the play that was interrupted
     }
 
     private async untilIdle({ requests }: Connection): Promise<void> {
@@ -241,7 +240,7 @@ export class SimulatedSource {
             case 'crashed':
                 return this.stop(TEXTS.robot.crashed);
             case 'bytes':
-                return; // the port has them
+                return; // handled by the port
             default:
                 message satisfies never;
         }

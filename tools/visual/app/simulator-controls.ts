@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What a person can do to the robot in the page besides talking to it: its time, its power, its buttons, its servos, its floor.
+// What a person can do to the robot in the page besides talking to it: time, power, buttons, battery, servo faults, hands, floor.
 
 import type { SessionState, Floor, Hand, SimControls, PanelButton } from '../view/session/session.ts';
 import type { Store } from '../view/store.ts';
 import type { SimulatedSource } from './simulated-source.ts';
 
-/** Behind this the image has started and answers. */
+/** After this time the image has started and answers. */
 const STARTED_MS = 1500;
 
 export class SimulatorControls implements SimControls {

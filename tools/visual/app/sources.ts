@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which robot is used: the one in the page, yours, or your servos with a program in the page. The one in the page waits
-// meanwhile.
+// Selects the robot in use: the one in the page, yours, or your servos with a program in the page. The one in the page pauses while another
+// is used.
 
 import type { Body } from '../model/body.ts';
 import { documentFrom } from '../model/document.ts';
@@ -34,9 +34,9 @@ export class RobotSources {
     private readonly parts: SourcesParts;
     private readonly yours: YourSource;
     private readonly servos: ServosSource;
-    /** What the robot in the page has in its flash. */
+    /** The motion pages in the flash of the robot in the page. */
     private inPage: readonly Uint8Array[] = [];
-    /** What is said of it, and comes back with it. */
+    /** State of the robot in the page, restored when it is used again. */
     private ofPage: Pick<SessionState, 'image' | 'stopped'> = { image: 'play', stopped: null };
     private wasHidden = false;
 
@@ -56,7 +56,7 @@ export class RobotSources {
         return this.parts.state.get().source === 'simulated';
     }
 
-    /** To the robot in use. Throws RobotError not-connected when there is none. */
+    /** The connection to the robot in use. Throws RobotError not-connected if there is none. */
     get connection(): Connection {
         const { connection } = this.current;
         if (!connection) throw new RobotError('not-connected');
@@ -83,7 +83,7 @@ export class RobotSources {
         this.yours.connect();
     }
 
-    /** Rejects never: what went wrong is said, and the robot in use stays. */
+    /** Never rejects. Errors are reported, and then the robot in the page is used. */
     async connectServos(): Promise<void> {
         try {
             if (!(await this.servos.choose())) return; // the chooser was closed: no error
@@ -92,7 +92,7 @@ export class RobotSources {
             await this.yours.close();
             await this.servos.start('play');
         } catch (error) {
-            if (!this.isSimulated) this.useSimulated(); // the one before is closed
+            if (!this.isSimulated) this.useSimulated(); // the previous one may be closed already
             return this.parts.fail(error);
         }
         this.leave('servos');
@@ -100,7 +100,7 @@ export class RobotSources {
         this.servos.connect();
     }
 
-    /** The robot whose programs this page can change; those of yours it cannot. */
+    /** The robot whose image this page can change. It cannot change that of yours. */
     get withImages(): SimulatedSource | ServosSource {
         return this.parts.state.get().source === 'servos' ? this.servos : this.simulated;
     }
@@ -117,7 +117,7 @@ export class RobotSources {
         this.parts.editor.setRobot([]);
     }
 
-    /** A hidden page is not given the time that servos need: what plays is ended before it stutters, and the person told who comes back. */
+    /** A hidden page gets too little time to drive servos. What plays is ended before it stutters, and the person is told on return. */
     private async lookHidden(): Promise<void> {
         if (!document.hidden && this.wasHidden) {
             this.wasHidden = false;

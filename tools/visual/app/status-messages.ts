@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is said in the status bar: by the page, by the board, and what went wrong. That goes when its cause has gone.
+// The messages in the status bar: from the page, from the board, and troubles. A trouble is removed when its cause is gone.
 
 import { RobotError } from '../robot/robot-error.ts';
 import type { SessionState, Notice } from '../view/session/session.ts';
@@ -7,10 +7,10 @@ import type { Store } from '../view/store.ts';
 import { errorText } from '../view/texts/robot.ts';
 import { BoardMessages } from './board-messages.ts';
 
-/** What went wrong is to be read before the board's next line takes its place. */
+/** Time to read a trouble before the board's next line may replace it. */
 const TROUBLE_STAYS_MS = 6000;
 
-/** What a trouble comes from: an edit that was refused, the robot, or a browser that keeps nothing. */
+/** The cause of a trouble: a refused edit, the robot, or a browser that stores nothing. */
 export type Cause = 'edit' | 'robot' | 'storage';
 
 export class StatusMessages {
@@ -23,31 +23,31 @@ export class StatusMessages {
         this.state = state;
     }
 
-    /** null: nothing stands there. */
+    /** null clears the message. */
     say(message: Notice | null): void {
         this.state.set({ message });
     }
 
-    /** As say(), but what the board says by itself does not take its place, unless that is a trouble. */
+    /** Like say(), but a board message replaces it only if it reports trouble. */
     keep(message: Notice): void {
         this.kept = message;
         this.say(message);
     }
 
-    /** Says what went wrong, until over() with that cause. */
+    /** Shows a trouble until over() is called with its cause. */
     complain(text: string, cause: Cause): void {
         const message: Notice = { text, tone: 'bad' };
         this.trouble = { message, cause, untilMs: performance.now() + TROUBLE_STAYS_MS };
         this.say(message);
     }
 
-    /** Says why a robot did not do what it was asked. Any other error is our own mistake, and is thrown. */
+    /** Reports why a robot did not do what it was asked. Any other error is a bug and is thrown. */
     readonly fail = (error: unknown): void => {
         if (!(error instanceof RobotError)) throw error;
         this.complain(errorText(error), 'robot');
     };
 
-    /** What went wrong for that cause does not hold any more. A robot's trouble can be read all the same. */
+    /** That cause is gone. A robot's trouble still stays long enough to be read. */
     over(cause: Cause): void {
         const { trouble } = this;
         if (trouble?.cause !== cause) return;
@@ -56,7 +56,7 @@ export class StatusMessages {
         else this.takeAway(trouble.message);
     }
 
-    /** Says what the board says by itself, but not over a trouble that has just come. */
+    /** Shows what the board says unasked. A recent trouble is replaced only by another one. */
     hear(bytes: Uint8Array): void {
         const message = this.boardMessages.take(bytes);
         const isKept = this.kept !== null && this.state.get().message === this.kept;
@@ -64,7 +64,7 @@ export class StatusMessages {
             this.say({ text: message.text, tone: message.isTrouble ? 'bad' : 'calm' });
     }
 
-    /** Unless something else was said since. */
+    /** Removes the message unless another one has replaced it. */
     private takeAway(message: Notice): void {
         if (this.state.get().message === message) this.say(null);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A stick becomes a walk: the first push starts the page `walk`, how far and where it points shapes it (`@drive`), letting go
-// stops it through its exit page. One request is under way at a time, so that a slow line is never flooded.
+// Turns a stick into a walk. The first push starts the page `walk`, the stick's position shapes it (`@drive`), and letting go stops it
+// through its exit page. Only one request is under way, so that a slow line is never flooded.
 
 import type { Connection } from '../robot/connection.ts';
 import { command, drive, play } from '../robot/protocol.ts';
@@ -13,7 +13,7 @@ export interface Stick {
     readonly y: number;
 }
 
-/** What the stick asks for: PROTOCOL.md, `@drive`. */
+/** The arguments of `@drive` for this stick position (PROTOCOL.md). */
 export function shapeOf(stick: Stick): { blend: number; rate: number; amplitude: number } {
     const push = Math.min(1, Math.hypot(stick.x, stick.y));
     return {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The clock of the robot in the page: its time-outs count its own time, so that a slow or busy computer, slow motion and a
-// pause are no silence of the robot.
+// The clock of the robot in the page. Its time-outs count robot time, so that a slow or busy computer, slow motion or a pause does not
+// count as silence.
 
 import { TICKS_PER_SECOND } from '../model/motion.ts';
 import type { Clock } from '../robot/clock.ts';
 
-/** A page that was busy hears of more than this at once. What it asked meanwhile may not have reached the robot, and the answer
- *  not the page: so much counts as passed, and no more. */
+/** Most time that one report of the robot counts for. After a busy spell the page receives a longer jump, but its requests may not have
+ *  reached the robot, nor the answers the page. */
 const MOST_STEP_MS = 100;
 
 export class TickClock implements Clock {
@@ -25,12 +25,12 @@ export class TickClock implements Clock {
         return () => this.timers.delete(id);
     }
 
-    /** Resolves when so much of the robot's time has passed. */
+    /** Resolves after this much robot time. */
     pass(delayMs: number): Promise<void> {
         return new Promise(resolve => this.after(delayMs, resolve));
     }
 
-    /** The robot has come so far. */
+    /** The robot has reached this tick. */
     reach(ticks: number): void {
         const robotMs = (1000 * ticks) / TICKS_PER_SECOND;
         this.ms += Math.min(robotMs - this.reachedMs, MOST_STEP_MS);

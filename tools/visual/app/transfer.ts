@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pages between the document and the robot in use: read with as little talk as can be, a backup before anything is
-// written, written with an account (robot/page-write.ts), and gone on with after a pulled cable.
+// Transfers pages between the document and the robot in use. It reads as little as possible, makes a backup before it writes, keeps an
+// account of what was written (robot/page-write.ts), and can continue after a pulled cable.
 //
 //   idle --read--> reading --> idle             idle --write--> writing --> written
 //                     |                                            |  ^
@@ -21,12 +21,12 @@ import { Store } from '../view/store.ts';
 export interface TransferParts {
     readonly format: PageFormat;
     document(): MotionDocument;
-    /** What is known of the robot's pages; null: not read. */
+    /** The known content of the robot's pages; null: not read. */
     robot(): readonly (Uint8Array | null)[];
     setRobot(pages: readonly Uint8Array[]): void;
     /** Of the open line. Throws RobotError. */
     requests(): Requests;
-    /** Makes sure that Edit runs, which alone saves pages. Rejects with RobotError. */
+    /** Makes sure that Edit runs, the only image that saves pages. Rejects with RobotError. */
     becomeEdit(): Promise<void>;
     backUp(pages: readonly Uint8Array[]): Promise<void>;
 }
@@ -49,7 +49,7 @@ export class RobotTransfer implements Transfer {
         return this.state.get().phase === 'writing';
     }
 
-    /** Keeps pages as a backup of the robot in use. Rejects with RobotError. */
+    /** Stores pages as a backup of the robot in use. Rejects with RobotError. */
     keep(pages: readonly Uint8Array[]): Promise<void> {
         return this.parts.backUp(pages);
     }
@@ -90,7 +90,7 @@ export class RobotTransfer implements Transfer {
         this.stop.abort();
     }
 
-    /** Edit takes its time to start; who stops the transfer does not wait for it. */
+    /** Edit takes time to start. Cancelling does not wait for it. */
     private orStopped(action: Promise<void>): Promise<void> {
         const { signal } = this.stop;
         const stopped = new Promise<never>((_, reject) =>
@@ -111,7 +111,7 @@ export class RobotTransfer implements Transfer {
         return new PageWrite(wanted, this.parts.format);
     }
 
-    /** What was written is known of the robot, whether the rest was written or not. */
+    /** Records the written pages as the robot's, even if the rest failed. */
     private async run(write: PageWrite): Promise<void> {
         const changed = (): void => {
             const done = [...write.account.values()].filter(account => account === 'written' || account === 'verified').length;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Motions of the document in physics: joins the editor with the worker for trials, which is made when it is first wanted.
+// Tries motions of the document in physics. Joins the editor with the worker for trials, which starts at the first use.
 
 import { imageOf, pageOf } from '../model/document.ts';
 import { AS_STORED, NOMINAL_VOLTS, TICKS_PER_SECOND } from '../model/motion.ts';
@@ -11,11 +11,11 @@ import { Store } from '../view/store.ts';
 import type { Trials, TrialsState } from '../view/session/trials.ts';
 import type { DocumentEditor } from './editor.ts';
 
-/** A motion that goes round is told to stop then: 6 s. */
+/** A looping motion is stopped after this: 6 s. */
 const TICKS = 6 * TICKS_PER_SECOND;
 const CURVE_TICKS = 6000;
 
-/** What a trial held for. */
+/** The law and pages for which a trial is valid. */
 interface Tried {
     readonly law: Law;
     readonly pages: ReadonlyMap<number, Uint8Array>;
@@ -31,7 +31,7 @@ export class MotionTrials implements Trials {
     private readonly tried = new Map<number, Tried>();
     private hasFailed = false;
     private stop = new AbortController();
-    /** One motion at a time is in the worker. */
+    /** The worker tries one motion at a time. */
     private last: Promise<unknown> = Promise.resolve();
 
     constructor(editor: DocumentEditor, makeClient: () => Promise<TrialClient>) {
@@ -66,7 +66,7 @@ export class MotionTrials implements Trials {
         this.stop.abort();
     }
 
-    /** Nothing is known any more: it is another document. */
+    /** Drops all results, because another document was opened. */
     forget(): void {
         this.cancel();
         this.tried.clear();
@@ -99,7 +99,7 @@ export class MotionTrials implements Trials {
             return touches ?? [];
         } catch {
             this.giveUp();
-            return []; // Checks says why, when somebody asks there
+            return []; // Checks reports the reason when it is used
         }
     }
 
@@ -152,7 +152,7 @@ export class MotionTrials implements Trials {
         return this.client;
     }
 
-    /** Physics does not work: nothing asks for it again until a person does. */
+    /** Physics does not work. It is not tried again until a person asks. */
     private giveUp(): void {
         this.hasFailed = true;
         void this.client?.then(

@@ -18,12 +18,12 @@ export class YourSource {
         if ('serial' in navigator) navigator.serial.addEventListener('connect', () => this.connection?.retryNow());
     }
 
-    /** null: there is none. */
+    /** null if there is none. */
     get connection(): Connection | null {
         return this.robot.connection;
     }
 
-    /** Lets the person choose a port, unless one was allowed before. false: the chooser was closed. */
+    /** Lets the person choose a port unless one was already allowed. false: the chooser was closed. */
     choose(): Promise<boolean> {
         return withPort(async () => {
             const known = (await navigator.serial.getPorts()).find(port => !isAdapter(port));

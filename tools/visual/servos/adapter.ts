@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
-// The servo adapter: a serial port whose rate changes, that is lost when it is pulled out, and taken again when it is back. Bytes that come
-// wait here until the program takes them.
+// The servo adapter: a serial port whose rate can change. It is lost when unplugged and reopened when it is back. Received bytes wait here
+// until the program takes them.
 
 import type { Port } from '../robot/port.ts';
 
-/** The part of a port that is needed here. */
+/** The part of a port that is used here. */
 export type AdapterPort = Pick<Port, 'readable' | 'writable' | 'close'> & {
     open(options: { baudRate: number; bufferSize: number }): Promise<void>;
 };
 
 export interface AdapterEvents {
-    /** Bytes have come, or the adapter has gone or is back: who waits may look. */
+    /** Bytes have arrived, or the adapter is lost or back. Wakes a waiting program. */
     news(): void;
     isThere(isThere: boolean): void;
 }
 
 const BUFFER_BYTES = 4096;
 const TRY_AGAIN_MS = 1000;
-/** What an adapter is sent as soon as it is opened it may lose. */
+/** An adapter may lose what is sent right after it is opened. */
 const SETTLE_MS = 100;
 
 export class Adapter {
@@ -31,7 +31,7 @@ export class Adapter {
     private rate = 0;
     private isClosed = false;
 
-    /** find: the adapter's port, if it is plugged in. */
+    /** find returns the adapter's port, or null if it is not plugged in. */
     constructor(find: () => Promise<AdapterPort | null>, events: AdapterEvents) {
         this.find = find;
         this.events = events;
@@ -41,7 +41,7 @@ export class Adapter {
         return this.port !== null;
     }
 
-    /** Rejects when there is no port, or it cannot be opened. */
+    /** Rejects if there is no port or it cannot be opened. */
     async open(rate: number): Promise<void> {
         this.rate = rate;
         const port = await this.find();
@@ -49,13 +49,13 @@ export class Adapter {
         await this.openPort(port);
     }
 
-    /** Gives the port back. */
+    /** Closes the port. */
     async close(): Promise<void> {
         this.isClosed = true;
         await this.closePort().catch(() => undefined); // a lost port cannot be closed
     }
 
-    /** Resolves when the port has that rate, and what was sent before has left. */
+    /** Resolves when the port has this rate. Bytes sent before have left by then. */
     async setRate(rate: number): Promise<void> {
         if (this.rate === rate) return;
         this.rate = rate;
@@ -69,13 +69,13 @@ export class Adapter {
         }
     }
 
-    /** What cannot be sent is lost, as on a cable. */
+    /** Bytes that cannot be sent are lost, as on a cable. */
     write(bytes: Uint8Array): void {
         const { port } = this;
         this.writer?.write(bytes).catch(() => this.lose(port));
     }
 
-    /** Takes bytes that have come; returns how many. */
+    /** Takes received bytes and returns their count. */
     read(to: Uint8Array): number {
         let count = 0;
         for (let piece = this.heard[0]; piece && count < to.length; piece = this.heard[0]) {
@@ -117,7 +117,7 @@ export class Adapter {
                     this.events.news();
                 }
             } catch {
-                // A framing or overrun error ends this stream and the port offers another; a lost port offers none.
+                // A framing or overrun error ends this stream, and the port offers another. A lost port offers none.
             } finally {
                 reader.releaseLock();
             }
@@ -126,7 +126,7 @@ export class Adapter {
     }
 
     private lose(port: AdapterPort | null): void {
-        if (!port || this.port !== port) return; // closed on purpose, or lost already
+        if (!port || this.port !== port) return; // closed on purpose or already lost
         const { writer } = this;
         this.writer = null;
         this.port = null;
@@ -136,11 +136,11 @@ export class Adapter {
         void this.giveUp(port, writer).finally(() => this.lookAgain());
     }
 
-    /** Once its streams are nobody's, the port can be opened again when it is back. */
+    /** The port can only be reopened after its streams are released. */
     private async giveUp(port: AdapterPort, writer: WritableStreamDefaultWriter<Uint8Array> | null): Promise<void> {
         writer?.releaseLock();
         await this.reading;
-        await port.close().catch(() => undefined); // it may be closed by its loss
+        await port.close().catch(() => undefined); // a lost port may be closed already
     }
 
     private lookAgain(): void {

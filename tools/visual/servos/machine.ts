@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // hal/host/machine.h for a program of servos-*.wasm: the page is the computer below it. The program is one loop in C that waits inside its
-// calls. A wait is a promise: JavaScript Promise Integration keeps the program's stack meanwhile, and the worker hears its post box.
+// calls. A wait is a promise: JavaScript Promise Integration keeps the program's stack, and the worker can receive messages meanwhile.
 
 import { wasiImports } from '../sim/wasi.ts';
 
-/** machine_memory_t: motion pages, journal, EEPROM. null: nothing was kept. */
+/** machine_memory_t: motion pages, journal, EEPROM. null: nothing was stored. */
 export type Memories = readonly (Uint8Array | null)[];
 
 export interface MachineParts {
-    /** Milliseconds from any fixed moment. Never falls. */
+    /** Milliseconds since a fixed moment. Monotonic. */
     now(): number;
-    /** Resolves at that moment, or when something has come for the program. */
+    /** Resolves at that time, or earlier when something arrives for the program. */
     sleep(untilMs: number): Promise<void>;
     readonly adapter: {
         isThere(): boolean;
@@ -18,13 +18,13 @@ export interface MachineParts {
         write(bytes: Uint8Array): void;
         read(to: Uint8Array): number;
     };
-    /** Takes what was typed; returns how many bytes. */
     isAskedToEnd(): boolean;
+    /** Takes typed bytes and returns their count. */
     typed(to: Uint8Array): number;
     printed(bytes: Uint8Array): void;
     sentence(text: string): void;
     readonly kept: Memories;
-    /** Resolves when the memories are kept; false: they are not. */
+    /** Resolves when the memories are stored; false: they could not be. */
     keep(memories: readonly Uint8Array[]): Promise<boolean>;
 }
 
@@ -34,25 +34,25 @@ interface Exports {
     program_start(): number;
 }
 
-/** What TypeScript's own library does not know yet. */
+/** Not yet in TypeScript's own library. */
 interface PromiseIntegration {
     readonly Suspending?: new (work: (...values: never[]) => unknown) => WebAssembly.ImportValue;
     readonly promising?: (exported: () => number) => () => Promise<number>;
 }
 
 const HALF_US_PER_MS = 2000;
-/** An adapter of FTDI holds bytes back for 16 ms, and a busy browser hands on late what has come. */
+/** An FTDI adapter holds bytes back for 16 ms, and a busy browser delivers them late. */
 const PATIENCE_MS = 60;
 const RATE_OF_DIVISOR = 2_000_000;
 
-/** The program has ended by itself, as after `@reset`. */
+/** The program has ended by itself, for example after `@reset`. */
 class Ended extends Error {}
 
 export function canRunServos(): boolean {
     return (WebAssembly as PromiseIntegration).Suspending !== undefined;
 }
 
-/** Runs the program from its beginning; resolves when it has ended. Rejects when it crashed, with what it said of that. */
+/** Runs the program from its start. Resolves when it ends. Rejects with the reason if it crashes. */
 export async function runProgram(module: WebAssembly.Module, parts: MachineParts): Promise<void> {
     const { Suspending, promising } = WebAssembly as PromiseIntegration;
     if (!Suspending || !promising) throw new Error('this browser has no JavaScript Promise Integration');

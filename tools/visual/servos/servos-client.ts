@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The page's end of the worker that drives servos: a Port, as to any robot.
+// The page's end of the worker that drives servos. Offers a Port, as any robot has.
 
 import { BytePort } from '../sim/byte-port.ts';
 import type { FromServos, ToServos } from './messages.ts';
 
 export interface ServosEvents {
-    /** Everything but bytes, which go to the port, and what is to be kept. */
+    /** All messages except bytes, which go to the port, and memories to keep. */
     message(message: FromServos): void;
-    /** false: it could not be kept. */
+    /** Resolves with false if they could not be stored. */
     keep(memories: readonly Uint8Array[]): Promise<boolean>;
 }
 
@@ -18,7 +18,7 @@ export class ServosClient {
     private ended: () => void = () => undefined;
     private isOver = false;
 
-    /** worker: a new one that runs worker.ts. name: of the adapter, for people. */
+    /** worker: a new one that runs worker.ts. name: the adapter's name, for people. */
     constructor(worker: Worker, name: string, events: ServosEvents) {
         this.worker = worker;
         this.events = events;
@@ -31,7 +31,7 @@ export class ServosClient {
         this.worker.postMessage(message);
     }
 
-    /** Ends the program and its worker, softly within so many milliseconds. */
+    /** Ends the program and then its worker. After limitMs the worker is terminated anyway. */
     async end(limitMs: number): Promise<void> {
         if (!this.isOver)
             await new Promise<void>(resolve => {

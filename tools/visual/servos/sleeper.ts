@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Sleeping in a worker, to a millisecond, until something comes.
+// Sleep in a worker, accurate to a millisecond, that an event can end early.
 
-/** A timer comes up to a millisecond late, so the last one is waited for in turns of the post box. */
+/** A timer fires up to a millisecond late, so the last millisecond is spent in turns of the message loop. */
 const TURNS_MS = 1;
 
 export class Sleeper {
-    /** Timers that are set within timers wait for 4 ms at least; those that are set within a message do not. */
+    /** Nested timers wait at least 4 ms. Timers set inside a message handler do not. */
     private readonly turn = new MessageChannel();
     private timer: ReturnType<typeof setTimeout> | undefined;
     private untilMs = 0;
@@ -32,13 +32,13 @@ export class Sleeper {
     }
 
     private look(): void {
-        if (!this.resolve) return; // woken meanwhile
+        if (!this.resolve) return; // already woken
         const leftMs = this.untilMs - performance.now();
         const next = (): void => this.turn.port2.postMessage(null);
         if (leftMs <= 0) {
             if (this.isOver) return this.wake();
             this.isOver = true;
-            return next(); // what came while a busy computer was elsewhere is heard before the time is said to be over
+            return next(); // handle what arrived while the computer was busy before the sleep ends
         }
         clearTimeout(this.timer);
         if (leftMs > TURNS_MS) this.timer = setTimeout(next, leftMs - TURNS_MS);

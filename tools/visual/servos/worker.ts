@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The worker in which Play or Edit drives servos: the program, its adapter, and its post box (messages.ts). The port is opened here and not
-// in the page, so that a page that draws never holds a goal up.
+// The worker in which Play or Edit drives servos: the program, its adapter and its messages (messages.ts). The port is opened here rather
+// than in the page, so that drawing never delays a goal.
 
 import { Adapter } from './adapter.ts';
 import type { AdapterPort } from './adapter.ts';
@@ -8,7 +8,7 @@ import { runProgram } from './machine.ts';
 import type { FromServos, PortHint, ToServos } from './messages.ts';
 import { Sleeper } from './sleeper.ts';
 
-/** What we use of Web Serial. */
+/** The part of Web Serial that is used here. */
 type BrowserPort = AdapterPort & { getInfo(): { usbVendorId?: number; usbProductId?: number } };
 declare const navigator: { readonly serial: { getPorts(): Promise<BrowserPort[]> } };
 
@@ -24,7 +24,7 @@ function tell(message: FromServos, transfer: Transferable[] = []): void {
     postMessage(message, { transfer });
 }
 
-/** The port that the person chose; after it was pulled out, the one of its kind that is there. */
+/** The port that the person chose, or after it was unplugged one of the same kind. */
 async function find(hint: PortHint): Promise<BrowserPort | null> {
     const ports = await navigator.serial.getPorts();
     const isKind = (port: BrowserPort | undefined): boolean => {
