@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Does it stand? The centre of mass and the ground that the soles cover. Statics only: what moves fast falls sooner, and
-// that is what physics is for.
+// Static balance: the centre of mass and the ground that the soles cover. A robot that moves fast falls earlier; that is left to physics.
 
 import { angleIn, placeLinks, soleCorners } from './body.ts';
 import type { Angles, Body, Side } from './body.ts';
@@ -12,7 +11,7 @@ export type Places = ReadonlyMap<string, Place>;
 
 export const SIDES: readonly Side[] = ['right', 'left'];
 export const ORIGIN: Place = { pos: [0, 0, 0], quat: STILL };
-/** A sole's corner so near to the floor touches it. */
+/** A corner of a sole this near to the floor touches it. */
 const TOUCHES_M = 0.004;
 
 export function centreOfMass(body: Body, places: Places): Vector {
@@ -27,7 +26,7 @@ export function centreOfMass(body: Body, places: Places): Vector {
     return mass > 0 ? scale(sum, 1 / mass) : sum;
 }
 
-/** The four corners of both soles in the room. */
+/** The four corners of both soles, in room coordinates. */
 function corners(body: Body, places: Places): Vector[] {
     return SIDES.flatMap(side => {
         const foot = places.get(`${side}_foot`);
@@ -35,7 +34,7 @@ function corners(body: Body, places: Places): Vector[] {
     });
 }
 
-/** The ground between the corners of the soles that touch the floor, counter-clockwise; empty when none does. */
+/** The convex hull of the sole corners that touch the floor, counter-clockwise. Empty if none does. */
 export function supportPolygon(body: Body, places: Places, floorM = 0): Point[] {
     return hull(
         corners(body, places)
@@ -63,7 +62,7 @@ export function hull(points: readonly Point[]): Point[] {
     return sorted.length < 3 ? sorted : [...half(sorted), ...half(sorted.toReversed())];
 }
 
-/** How far a point is inside a polygon of hull(): metres to the nearest edge, negative outside, -Infinity without one. */
+/** Distance from a point to the nearest edge of a polygon of hull(), in metres. Negative outside; -Infinity if there is no polygon. */
 export function marginInside(polygon: readonly Point[], point: Point): number {
     if (polygon.length < 3) return -Infinity;
     const distances = polygon.map((a, i) => {
@@ -73,14 +72,14 @@ export function marginInside(polygon: readonly Point[], point: Point): number {
     return Math.min(...distances);
 }
 
-/** Where the trunk is when this foot stands flat at `at` (its heading and place; the sole on the floor). */
+/** The trunk's place when this foot stands flat on the floor with the position and heading of `at`. */
 export function trunkOn(body: Body, foot: Side, angles: Angles, at: Place): Place {
     const inTrunk = placeLinks(body, ORIGIN, angleIn(angles)).get(`${foot}_foot`) ?? ORIGIN;
     const lowest = Math.min(0, ...soleCorners(body, `${foot}_sole`).map(corner => corner[2]));
     return carrying({ pos: [at.pos[0], at.pos[1], -lowest], quat: turn([0, 0, 1], heading(at.quat)) }, inTrunk);
 }
 
-/** The foot that carries: the one whose sole is lower while the trunk is upright. Level soles: the right one. */
+/** The foot that carries the robot: the one with the lower sole while the trunk is upright. The right one if they are level. */
 export function lowerFoot(body: Body, angles: Angles): Side {
     const places = placeLinks(body, ORIGIN, angleIn(angles));
     const [right = 0, left = 0] = SIDES.map(one => {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The robot's body as numbers: build/wasm/body.json, made from tools/body by body/body_files.py. Servo positions to
-// angles, angles to places of the links.
+// The robot's body as numbers: build/wasm/body.json, made from tools/body by body/body_files.py. Converts servo positions to angles and
+// angles to places of the links.
 
 import { POSITION_MAX } from './motion.ts';
 import { within, turn } from './space.ts';
@@ -8,7 +8,7 @@ import type { Place, Quaternion, Vector } from './space.ts';
 
 export interface Link {
     readonly name: string;
-    /** null: the trunk, which nothing carries. Parents stand before their children. */
+    /** null: the trunk, which has no parent. Parents precede their children. */
     readonly parent: string | null;
     readonly pos: Vector;
     readonly quat: Quaternion;
@@ -17,12 +17,12 @@ export interface Link {
 export interface Joint {
     readonly servo: number;
     readonly name: string;
-    /** The link that it turns. */
+    /** The link that the joint turns. */
     readonly body: string;
     readonly direction: 1 | -1;
-    /** Servo position of angle 0. */
+    /** Servo position at angle 0. */
     readonly zero: number;
-    /** Of its servo: what a unit of position turns. */
+    /** Angle of one unit of servo position. */
     readonly radiansPerUnit: number;
     /** Radians. */
     readonly low: number;
@@ -39,7 +39,7 @@ export interface Shape {
     readonly pos: Vector;
     readonly quat: Quaternion;
     readonly material: string;
-    /** Kilograms; 0: only to be seen. */
+    /** Kilograms; 0: only drawn. */
     readonly mass: number;
 }
 
@@ -59,12 +59,12 @@ export function servoPosition(joint: Joint, angleRad: number): number {
     return joint.zero + (joint.direction * angleRad) / joint.radiansPerUnit;
 }
 
-/** So many units of position, in degrees. */
+/** Converts units of servo position to degrees. */
 export function degreesOf(joint: Joint, units: number): number {
     return (units * joint.radiansPerUnit * 180) / Math.PI;
 }
 
-/** Servo IDs of the joints that mirror each other, right and left: their names differ only in their side. */
+/** Servo IDs of joints that mirror each other. Their names differ only in the side. */
 export function jointPairs(body: Body): (readonly [right: number, left: number])[] {
     const servos = new Map(body.joints.map(joint => [joint.name, joint.servo]));
     return body.joints.flatMap(joint => {
@@ -82,7 +82,7 @@ export function angleIn(angles: Angles): (joint: Joint) => number {
     return joint => angles.get(joint.servo) ?? 0;
 }
 
-/** Angles of a step or a pose: servo positions by ID; where there is none, `others`. */
+/** Joint angles of a step or pose, from servo positions by ID. A joint without a position is taken from `others`. */
 export function anglesOf(body: Body, positions: ArrayLike<number | null>, others: Angles): Angles {
     return new Map(
         body.joints.map(joint => {
@@ -92,13 +92,13 @@ export function anglesOf(body: Body, positions: ArrayLike<number | null>, others
     );
 }
 
-/** The whole servo position nearest to an angle that joint and servo can have. */
+/** The servo position nearest to an angle, within the limits of joint and servo. */
 export function nearestPosition(joint: Joint, angleRad: number): number {
     const angle = Math.min(Math.max(angleRad, joint.low), joint.high);
     return Math.min(Math.max(Math.round(servoPosition(joint, angle)), 0), POSITION_MAX);
 }
 
-/** Places of all links. angleOf: radians of the joint that turns this link, 0 for a link without one. */
+/** The places of all links. angleOf returns radians; it is called only for links that a joint turns. */
 export function placeLinks(body: Body, trunk: Place, angleOf: (joint: Joint) => number): Map<string, Place> {
     const joints = new Map(body.joints.map(joint => [joint.body, joint]));
     const places = new Map<string, Place>();
@@ -116,7 +116,7 @@ export function placeLinks(body: Body, trunk: Place, angleOf: (joint: Joint) => 
     return places;
 }
 
-/** The four lower corners of a sole, in the frame of its link. */
+/** The four lower corners of a sole in the frame of its link. */
 export function soleCorners(body: Body, name: string): Vector[] {
     const sole = body.shapes.find(shape => shape.name === name);
     if (!sole) return [];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which limb a motion moves most.
+// Finds the limb that a motion moves most.
 
 import type { Step } from './page.ts';
 
@@ -7,7 +7,7 @@ export interface Limb {
     readonly servos: readonly number[];
 }
 
-/** Servos of the limb of which a joint goes farthest through these steps; the first one when nothing moves; none when there is no step. */
+/** Servo IDs of the limb whose joint travels farthest in these steps. The first limb if nothing moves; empty if there are no steps. */
 export function busiestLimb(limbs: readonly Limb[], steps: readonly Pick<Step, 'positions'>[]): readonly number[] {
     if (steps.length === 0) return [];
     const travel = (servo: number): number => {

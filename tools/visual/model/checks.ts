@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the page finds odd in a document besides what m512 says of it: too fast for the servos, farther than a joint turns,
-// falls as it stands, a stop that goes round. Each finding has a place to go to. Pure.
+// Checks of the page beyond those of m512: movement too fast for the servos, joints beyond their limits, poses that tip over, exit links in
+// a circle. Each finding names the page, step and joint. Pure.
 
 import { fastSteps } from './curve-speed.ts';
 import { centreOfMass, lowerFoot, marginInside, supportPolygon, trunkOn, ORIGIN } from './balance.ts';
@@ -24,26 +24,26 @@ export interface PageFinding {
     readonly step: number | null;
     /** Servo ID; null: none in particular. */
     readonly joint: number | null;
-    /** too-fast: times the top speed; tips-over: metres outside the soles; else 0. */
+    /** too-fast: multiple of the top speed; tips-over: metres outside the soles; else 0. */
     readonly amount: number;
     readonly fault: PageFault | null;
 }
 
-/** Joints may be set so far beyond what the body allows before it is told: rounding. Radians. */
+/** Tolerance for rounding beyond the body's joint limits. Radians. */
 const REACH_SLACK = 0.01;
-/** So far outside the soles is told. Metres. */
+/** Distance outside the soles from which a finding is made. Metres. */
 const TIPS_M = 0.005;
-/** A robot whose trunk leans more than 60 degrees does not mean to stand. Cosine. */
+/** A robot whose trunk leans more than 60 degrees is not meant to stand. Cosine. */
 const UPRIGHT = 0.5;
-/** A pause up to this is part of a movement: 0.2 s, for the servos to arrive. */
+/** A pause up to this length is part of a movement: 0.2 s, for the servos to arrive. */
 const HELD_TICKS = 26;
 
 export interface CheckOptions {
     readonly format: PageFormat;
     readonly body: Body;
-    /** Servo units a tick that a servo should be asked for at most (Motion.topSpeed). */
+    /** Highest speed to ask of a servo, in servo units per tick (Motion.topSpeed). */
     readonly topSpeed: number;
-    /** What the player makes of one page; null: nothing. */
+    /** The curve that the player makes of one page; null: none. */
     readonly curve: (page: number) => Curve | null;
 }
 
@@ -77,8 +77,8 @@ function checkReach(body: Body, page: number, index: number, step: Step): PageFi
     });
 }
 
-/** The worst of the poses that the page holds: one is enough to look there. Through the others it goes without a stop, as a walk does, and
- *  what it leans out of the soles it swings back: there physics has to say. */
+/** Reports only the worst pose that the page holds; one finding is enough. Other poses are passed without a stop, as in a walk, and the
+ *  swing may bring the robot back. Only physics can judge those. */
 function checkBalance(body: Body, page: number, steps: readonly Step[], isEnd: boolean): PageFinding[] {
     const isHeld = (step: Step, index: number): boolean => step.pause > HELD_TICKS || (isEnd && index === steps.length - 1);
     const out = steps.map((step, index) => (isHeld(step, index) ? tipsOver(body, step) : 0));
@@ -86,8 +86,8 @@ function checkBalance(body: Body, page: number, steps: readonly Step[], isEnd: b
     return worst > TIPS_M ? [finding('tips-over', page, { step: out.indexOf(worst), amount: worst })] : [];
 }
 
-/** Metres by which the centre of mass lies outside the soles while the pose is held; 0: it stands, lies or leans on its hands, or
- *  does not use the legs. */
+/** Metres by which the centre of mass lies outside the soles while the pose is held. 0 if the robot stands, lies, leans on its hands or
+ *  does not use its legs. */
 function tipsOver(body: Body, step: Step): number {
     if (body.joints.some(joint => joint.name.includes('hip') && (step.positions[joint.servo] ?? null) === null)) return 0;
     const angles = anglesOf(body, step.positions, new Map());
@@ -99,7 +99,7 @@ function tipsOver(body: Body, step: Step): number {
     return margin < 0 && Number.isFinite(margin) ? -margin : 0;
 }
 
-/** What is odd about the links of all pages; m512 tells of those that lead nowhere. */
+/** Findings on the links of all pages. m512 reports links that lead nowhere. */
 export function checkLinks(format: PageFormat, document: MotionDocument): PageFinding[] {
     return linkGraph(format, document).nodes.flatMap(({ page, exitsRound }) => (exitsRound ? [finding('exit-circle', page)] : []));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a curve asks more of a servo than it can do.
+// Finds where a curve asks for more speed than a servo has.
 
 import { JOINTS, MARK_BYTES } from './motion.ts';
 import type { Curve } from './motion.ts';
@@ -7,8 +7,8 @@ import type { Curve } from './motion.ts';
 /** Ticks [from, to) of a curve. */
 export type TickSpan = readonly [from: number, to: number];
 
-/** Where a joint is asked to go faster than `unitsPerTick`: the spans between whose ticks it hurries. A goal is a whole number:
- *  speeds are taken over four ticks, so that rounding does not count. */
+/** The spans in which a joint is asked to move faster than `unitsPerTick`. Goals are whole numbers, so speed is measured over four ticks to
+ *  exclude rounding. */
 export function tooFast(curve: Curve, joint: number, unitsPerTick: number): TickSpan[] {
     const goal = (tick: number): number => curve.goals[tick * JOINTS + joint] ?? 0;
     const spans: [number, number][] = [];
@@ -27,13 +27,13 @@ export interface FastStep {
     readonly page: number;
     /** 0..6 */
     readonly step: number;
-    /** The joint that is asked for most, by ID. */
+    /** ID of the joint with the highest demand. */
     readonly joint: number;
-    /** How many times `unitsPerTick`. */
+    /** Multiple of `unitsPerTick`. */
     readonly times: number;
 }
 
-/** Steps in which a joint is asked to go faster than `unitsPerTick`: the worst joint of each. */
+/** The steps that ask a joint to move faster than `unitsPerTick`, with the worst joint of each. */
 export function fastSteps(curve: Curve, unitsPerTick: number): FastStep[] {
     const worst = new Map<number, FastStep>();
     for (let joint = 0; joint < JOINTS; joint++) {

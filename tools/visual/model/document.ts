@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A set of motions: 128 pages, page 0 the trim of the robot that they were read from. A value: pages are never written in
-// place, and pages that an edit leaves alone stay the same object.
+// A set of motions: 128 pages. Page 0 is the trim of the robot that they were read from. A document is a value: pages are never changed in
+// place, and unchanged pages stay the same object.
 
 import { PAGE_BYTES, PAGE_COUNT } from './motion.ts';
 import type { PageFormat } from './page-format.ts';
@@ -15,7 +15,7 @@ export function emptyDocument(format: PageFormat, name: string): MotionDocument 
     return { name, pages: Array.from({ length: PAGE_COUNT }, () => format.empty) };
 }
 
-/** From the 65,536 bytes of a motion area. Throws RangeError on another length. */
+/** From the 65,536 bytes of a motion area. Throws RangeError for another length. */
 export function documentFrom(image: Uint8Array, name: string): MotionDocument {
     if (image.length !== PAGE_BYTES * PAGE_COUNT) throw new RangeError(`a motion area has 65,536 bytes, not ${image.length}`);
     return { name, pages: Array.from({ length: PAGE_COUNT }, (_, page) => image.slice(page * PAGE_BYTES, (page + 1) * PAGE_BYTES)) };
@@ -27,7 +27,7 @@ export function imageOf(document: MotionDocument): Uint8Array {
     return image;
 }
 
-/** Page 0..127. Throws RangeError on another number. */
+/** Page 0..127. Throws RangeError for another number. */
 export function pageOf(document: MotionDocument, page: number): Uint8Array {
     const bytes = document.pages[page];
     if (!bytes) throw new RangeError(`no page ${page}`);
@@ -38,7 +38,7 @@ export function isSamePage(a: Uint8Array, b: Uint8Array): boolean {
     return a === b || (a.length === b.length && a.every((byte, i) => byte === b[i]));
 }
 
-/** The name of a copy that none of these documents has yet: "walk (copy)", "walk (copy 2)" ... word: "copy" in somebody's language. */
+/** A copy's name that is not taken yet: "walk (copy)", "walk (copy 2)" ... word: "copy" in the person's language. */
 export function copyName(name: string, taken: readonly string[], word: string): string {
     const base = name.replace(new RegExp(` \\(${word}( \\d+)?\\)$`), '');
     for (let count = 1; ; count++) {
@@ -47,7 +47,7 @@ export function copyName(name: string, taken: readonly string[], word: string): 
     }
 }
 
-/** The document with the pages that the changes name. Throws when one of them was not as a change expects it: our mistake. */
+/** Returns the changed document. Throws if a page is not as its change expects it, which is a bug. */
 export function withChanges(document: MotionDocument, changes: readonly Change[]): MotionDocument {
     const pages = [...document.pages];
     for (const { page, before, after } of changes) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All edits of a document, bound to the format of pages. Each takes a document and returns what would change, as a value, or
-// why it cannot be done; nobody's document is touched.
+// All edits of a document, bound to the page format. Each takes a document and returns the changes as a value, or the reason why it is
+// refused. The document stays unchanged.
 
 import type { PageFormat } from './page-format.ts';
 import * as pages from './page-edits.ts';
@@ -8,7 +8,7 @@ import * as steps from './step-edits.ts';
 
 type Bound<F> = F extends (format: PageFormat, ...rest: infer Rest) => infer Made ? (...rest: Rest) => Made : never;
 
-/** A function without its first argument. */
+/** Binds the first argument. */
 function bind<Rest extends readonly unknown[], Made>(
     format: PageFormat,
     edit: (format: PageFormat, ...rest: Rest) => Made,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The one value of the editor: document, history, selection, and what is known of the robot's pages. Pure.
+// The complete state of the editor as one value: document, history, selection, and the known pages of the robot. Pure.
 
 import { withChanges } from './document.ts';
 import type { MotionDocument } from './document.ts';
@@ -10,7 +10,7 @@ import type { PageFormat } from './page-format.ts';
 import { transaction } from './transaction.ts';
 import type { Change, EditName, Transaction } from './transaction.ts';
 
-/** What is looked at; never in the history. Steps 0..6, joints by servo ID. */
+/** What is displayed. It is not part of the history. Steps 0..6, joints by servo ID. */
 export interface Selection {
     readonly page: number;
     /** The cursor: the step that is shown and edited. */
@@ -20,7 +20,7 @@ export interface Selection {
     readonly law: Law;
 }
 
-/** A gesture under way: one undo step, from its beginning to its end. */
+/** A gesture under way. It becomes one undo step. */
 export interface OpenGesture {
     readonly label: EditName;
     readonly start: MotionDocument;
@@ -31,7 +31,7 @@ export interface EditorState extends Edited, Selection {
     readonly document: MotionDocument;
     readonly history: History;
     readonly gesture: OpenGesture | null;
-    /** The robot's pages as they were heard last, by number; null: not read. Empty: nothing is known of a robot. */
+    /** The robot's pages as last read, by number; null: not read. Empty if nothing is known of a robot. */
     readonly robot: readonly (Uint8Array | null)[];
 }
 
@@ -51,7 +51,7 @@ export function startState(document: MotionDocument): EditorState {
     };
 }
 
-/** Pages that the robot has otherwise; those of which nothing is known do not count, nor does page 0: the trim belongs to the robot. */
+/** Pages that differ in the robot. Unknown pages do not count, nor does page 0: the trim belongs to the robot. */
 export function dirtyPages(state: Pick<EditorState, 'document' | 'robot'>, format: PageFormat): ReadonlySet<number> {
     const dirty = state.robot.flatMap((bytes, page) => {
         const ours = state.document.pages[page];
@@ -60,7 +60,7 @@ export function dirtyPages(state: Pick<EditorState, 'document' | 'robot'>, forma
     return new Set(dirty);
 }
 
-/** An edit outside a gesture; a gesture under way is ended before it. */
+/** Applies an edit outside a gesture. An open gesture is finished first. */
 export function dispatch(state: EditorState, edit: Transaction): EditorState {
     return apply(finishGesture(state), edit);
 }
@@ -78,7 +78,7 @@ export function beginGesture(state: EditorState, label: EditName): EditorState {
     return { ...ended, gesture: { label, start: ended.document, changes: [] } };
 }
 
-/** What the gesture amounts to now, made against its start; it replaces what it amounted to before. */
+/** Sets the gesture's current result, relative to its start. It replaces the previous result. */
 export function changeGesture(state: EditorState, edit: Transaction): EditorState {
     const { gesture } = state;
     if (!gesture) return state;

@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: MIT
-// The numbers of C: made from its headers by board/facts.c while the page is built. They are written nowhere else here.
+// The constants of the C code, generated from its headers by board/facts.c during the build. They are not repeated anywhere else here.
 
 export * from '../../../build/wasm/facts.ts';

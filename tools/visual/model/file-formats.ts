@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Motion files as the page sees them. m512 (Python, in Pyodide) reads and writes them, so that every file, loss and sentence is
-// the same here and on the command line. An image is 65,536 bytes: pages 0..127 as they lie in flash.
+// Motion files from the page's view. m512 (Python, in Pyodide) reads and writes them, so files, losses and messages are the same as on the
+// command line. An image is 65,536 bytes: pages 0..127 as in flash.
 
-/** What reading or writing said: `notes` what it had to decide, `losses` what the new form cannot say. */
+/** `notes`: decisions that m512 made; `losses`: what the new form cannot represent. */
 export interface Opened {
     readonly kind: 'opened';
     readonly image: Uint8Array;
@@ -16,13 +16,13 @@ export interface Saved {
     readonly losses: readonly string[];
 }
 
-/** Pages of the user's have no room among 128; to open it without them, say so. */
+/** Some of the user's pages do not fit into the 128. Open again with leaveOut to drop them. */
 export interface NoRoom {
     readonly kind: 'no-room';
     readonly pages: string;
 }
 
-/** A file that cannot be read as motions, or an image that the format cannot hold: one sentence of m512's. */
+/** The file cannot be read as motions, or the format cannot hold the image. text: one sentence from m512. */
 export interface Refused {
     readonly kind: 'refused';
     readonly text: string;
@@ -31,7 +31,7 @@ export interface Refused {
 export interface Finding {
     readonly page: number;
     readonly text: string;
-    /** false: right, but may surprise. */
+    /** false: valid, but may surprise. */
     readonly isFault: boolean;
 }
 
@@ -40,27 +40,27 @@ export interface Difference {
     readonly text: string;
 }
 
-/** Suffixes that can be written. */
+/** Suffixes of the formats that can be written. */
 export const SUFFIXES = ['.m512', '.bin', '.hex', '.mtn'] as const;
 export type Suffix = (typeof SUFFIXES)[number];
 
-/** No motion file is larger: m512's own bound (files/storage.py). */
+/** Largest motion file, m512's own limit (files/storage.py). */
 export const MOST_BYTES = 4 << 20;
 
-/** The first call loads Python (5 MB, 2 to 4 s); later ones take 0.1 to 0.6 s. Rejects with Error when it cannot be loaded. */
+/** The first call loads Python (5 MB, 2 to 4 s). Later calls take 0.1 to 0.6 s. They reject with Error if it cannot be loaded. */
 export interface FileFormats {
-    /** What `m512 convert NAME image.bin` makes. leaveOut: without the pages that have no room. */
+    /** Like `m512 convert NAME image.bin`. leaveOut: drop the pages that do not fit. */
     open(name: string, data: Uint8Array, leaveOut?: boolean): Promise<Opened | NoRoom | Refused>;
-    /** What `m512 convert image.bin NAME` makes. */
+    /** Like `m512 convert image.bin NAME`. */
     save(name: string, image: Uint8Array): Promise<Saved | Refused>;
-    /** What `m512 pages image.bin check` says. */
+    /** The findings of `m512 pages image.bin check`. */
     check(image: Uint8Array): Promise<readonly Finding[]>;
-    /** What `m512 diff` says. */
+    /** The output of `m512 diff`. */
     differences(first: Uint8Array, second: Uint8Array): Promise<readonly Difference[]>;
 }
 
-/** In a worker, so that what takes long can be ended. */
+/** Runs in a worker, so that a long operation can be cancelled. */
 export interface FormatsWorker extends FileFormats {
-    /** Ends what is being opened or saved: those promises reject. What else was asked is answered, by a new worker. */
+    /** Cancels what is being opened or saved: those promises reject. A new worker answers all other requests. */
     cancel(): void;
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The history of a document as it is kept beside it, so that undo goes on where a closed tab has stopped. Its steps are numbered
-// from the document's first edit on; the document says how many of them are done:
+// The stored history of a document, so that undo continues after a tab was closed. Steps are numbered from the document's first edit. The
+// document stores how many of them are done:
 //
 //     number   0 1 2 | 3 4 5 6 7 8 | 9 10        kept: 3..10. The document is as step 8 left it: 9 of them are done,
 //            forgotten |    done   | undone      9 and 10 were taken back and can be done once more.
 //
-// Pure. What is read back is believed only as far as it fits the document, step by step.
+// Pure. Stored steps are used only as far as each of them fits the document.
 
 import { withChanges } from './document.ts';
 import type { MotionDocument } from './document.ts';
@@ -14,19 +14,19 @@ import { PAGE_BYTES, PAGE_COUNT } from './motion.ts';
 import { EDIT_NAMES, inverse } from './transaction.ts';
 import type { Change, Transaction } from './transaction.ts';
 
-/** What the steps of one document may take on the disk: about 8000 edits of one page. The oldest go first. */
+/** Limit for the stored steps of one document: about 8000 edits of one page. The oldest are dropped first. */
 export const HISTORY_BYTES_MOST = 8 << 20;
-const STEP_BYTES = 100; // besides its pages
+const STEP_BYTES = 100; // without its pages
 
 export interface NumberedStep extends Transaction {
     readonly number: number;
 }
 
-/** What is to be done to the steps that are kept. */
+/** What changes in the stored steps. */
 export interface StepsChange {
-    /** Steps with smaller numbers go. */
+    /** Delete steps with smaller numbers. */
     readonly dropBefore: number;
-    /** Steps from this number on go. */
+    /** Delete steps from this number on. */
     readonly dropFrom: number;
     /** Numbered from dropFrom on. */
     readonly add: readonly NumberedStep[];
@@ -34,7 +34,7 @@ export interface StepsChange {
 
 export const DROP_ALL: StepsChange = { dropBefore: 0, dropFrom: 0, add: [] };
 
-/** What is kept now. */
+/** The steps stored now. */
 export interface HistoryLog {
     /** Number of the oldest step of this tab's history. */
     readonly base: number;
@@ -48,12 +48,13 @@ function stepsOf({ done, undone }: History): Transaction[] {
     return [...done, ...[...undone].reverse()];
 }
 
-/** How many steps of the document are done. */
+/** How many steps of the document are done, including forgotten ones. */
 export function positionOf(log: HistoryLog, history: History): number {
     return log.base + history.done.length;
 }
 
-/** What an edit, undo or redo changes about what is kept. Steps stay the same objects, so equal ends mean equal beginnings. */
+/** What an edit, undo or redo changes in the stored steps. Steps stay the same objects, so comparing from the end finds the common
+ *  beginning. */
 export function advance(
     log: HistoryLog,
     history: History,
@@ -68,7 +69,7 @@ export function advance(
     return { log: { base: log.base, steps }, change: { dropBefore: number(first), dropFrom: number(same), add } };
 }
 
-/** Index of the oldest step that still fits beside the newer ones. */
+/** Index of the oldest step that fits together with the newer ones. */
 function firstWithin(steps: readonly Transaction[], most: number): number {
     let bytes = 0;
     for (let index = steps.length - 1; index >= 0; index--) {
@@ -92,7 +93,7 @@ function isStep(value: unknown): value is NumberedStep {
     return Number.isInteger(number) && EDIT_NAMES.some(name => name === label) && Array.isArray(changes) && changes.every(isChange);
 }
 
-/** The document after a step, or before it; null: the step does not fit it. */
+/** The document after applying a step's changes; null if they do not fit it. */
 function stepped(document: MotionDocument, { changes }: Transaction): MotionDocument | null {
     try {
         return withChanges(document, changes);
@@ -101,7 +102,7 @@ function stepped(document: MotionDocument, { changes }: Transaction): MotionDocu
     }
 }
 
-/** The history of a document of which `position` steps are done, from what was kept of it; log.base: how many steps are forgotten. */
+/** Restores the history of a document of which `position` steps are done. log.base: how many steps are forgotten. */
 export function restored(document: MotionDocument, position: number, kept: readonly unknown[]): Edited & { readonly log: HistoryLog } {
     const byNumber = new Map(kept.filter(isStep).map(({ number, label, changes }) => [number, { label, changes }]));
     const run = (from: number, by: 1 | -1, turn: (step: Transaction) => Transaction): Transaction[] => {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Undo and redo: two lists of transactions, the newest last. Nothing limits their length.
+// Undo and redo: two lists of transactions, the newest last. Their length is not limited.
 
 import { withChanges } from './document.ts';
 import type { MotionDocument } from './document.ts';
@@ -18,14 +18,14 @@ export interface Edited {
     readonly history: History;
 }
 
-/** Does it. What had been undone is forgotten. One that changes nothing leaves everything as it is. */
+/** Applies a transaction and clears the redo list. A transaction without changes has no effect. */
 export function apply<T extends Edited>(edited: T, transaction: Transaction): T {
     if (transaction.changes.length === 0) return edited;
     const history = { done: [...edited.history.done, transaction], undone: [] };
     return { ...edited, document: withChanges(edited.document, transaction.changes), history };
 }
 
-/** Takes the last one back; without one nothing happens. */
+/** Reverts the last transaction. Does nothing if there is none. */
 export function undo<T extends Edited>(edited: T): T {
     const last = edited.history.done.at(-1);
     if (!last) return edited;
@@ -33,7 +33,7 @@ export function undo<T extends Edited>(edited: T): T {
     return { ...edited, document: withChanges(edited.document, inverse(last).changes), history };
 }
 
-/** Does the one that was taken back last once more. */
+/** Applies the transaction that was undone last. */
 export function redo<T extends Edited>(edited: T): T {
     const last = edited.history.undone.at(-1);
     if (!last) return edited;

@@ -1,50 +1,50 @@
 // SPDX-License-Identifier: MIT
-// Inverse kinematics: which angles bring a hand to a point, or a foot to a place with its sole as it shall be. Damped least
-// squares (Levenberg and Marquardt) over the joints between trunk and tip, within the joints' limits. Pure; a drag calls it at
-// every move of the mouse (0.1 ms a hand, 0.5 ms a foot).
+// Inverse kinematics: the joint angles that bring a hand to a point, or a foot to a place with its sole turned as wanted. Damped least
+// squares (Levenberg-Marquardt) over the joints between trunk and tip, within their limits. Pure. A drag calls it for every mouse move (0.1
+// ms for a hand, 0.5 ms for a foot).
 
 import type { Angles, Body, Joint, Link, Side } from './body.ts';
 import { STILL, add, cross, inverse, length, multiply, rotate, subtract, turn, within } from './space.ts';
 import type { Place, Quaternion, Vector } from './space.ts';
 
-/** What moves: the links from the trunk to a tip, and the point of the tip that is wanted somewhere. */
+/** The links from the trunk to a tip, and the point of the tip that has a target. */
 export interface Limb {
     readonly links: readonly { readonly link: Link; readonly joint: Joint | null }[];
     /** In the frame of the last link. */
     readonly point: Vector;
 }
 
-/** Where the point shall be, in the trunk's frame; `quat`: how the tip shall be turned. */
+/** Target of the point in the trunk's frame. `quat`: target orientation of the tip. */
 export interface Target {
     readonly pos: Vector;
     readonly quat?: Quaternion;
 }
 
 export interface Reach {
-    /** All angles that were given, with those of the limb replaced; within the joints' limits. */
+    /** All given angles, with those of the limb replaced, within the joints' limits. */
     readonly angles: Angles;
-    /** What is missing still. */
+    /** Remaining error. */
     readonly offM: number;
     readonly offRad: number;
 }
 
 const ROUNDS = 40;
-/** So many rounds in a row that gain less than this share end the search. */
+/** The search ends after this many consecutive rounds that each gain less than this share. */
 const IDLE_ROUNDS = 3;
 const IDLE_SHARE = 0.01;
 const NEAR_M = 2e-5;
-/** A radian counts as much as so many metres. */
+/** Metres that one radian of error weighs. */
 const RADIAN_M = 0.1;
-/** Farther off than this a limb is stuck, and other beginnings are tried; they must be better by the second figure. */
+/** Beyond the first distance a limb is stuck, and other start angles are tried. Their result must be nearer by the second. */
 const STUCK_M = 5e-5;
 const JUMP_M = 0.01;
-/** Beginnings for a point, which an arm reaches in several ways, and for a foot that shall be flat, which has one or none. */
+/** Number of start angles: an arm can reach a point in several ways, a flat foot has one way or none. */
 const SPREAD = { point: 10, flat: 2 };
-/** Kronecker's sequence: roots of primes fill a box evenly. */
+/** Kronecker sequence: square roots of primes fill a box evenly. */
 const ROOTS = [2, 3, 5, 7, 11, 13].map(prime => Math.sqrt(prime) % 1);
 const DAMPING = { first: 1e-3, least: 1e-7, most: 10 };
 
-/** The limb that ends in `link`. Throws RangeError when the body has no such link. */
+/** The limb that ends in `link`. Throws RangeError if the body has no such link. */
 export function limbTo(body: Body, link: string, point: Vector): Limb {
     const byName = new Map(body.links.map(one => [one.name, one]));
     const joints = new Map(body.joints.map(joint => [joint.body, joint]));
@@ -65,12 +65,12 @@ export function handLimb(body: Body, side: Side): Limb {
     return limbTo(body, `${side}_forearm`, point);
 }
 
-/** Of a capsule's two ends the one that hangs lower. */
+/** The sign of the capsule's lower end along its z axis. */
 function tipSign(quat: Quaternion): 1 | -1 {
     return rotate(quat, [0, 0, 1])[2] < 0 ? 1 : -1;
 }
 
-/** From hip to the ankle's axis. */
+/** From the hip to the ankle's axis. */
 export function footLimb(body: Body, side: Side): Limb {
     return limbTo(body, `${side}_foot`, [0, 0, 0]);
 }
@@ -78,7 +78,7 @@ export function footLimb(body: Body, side: Side): Limb {
 interface Moved {
     readonly tip: Place;
     readonly point: Vector;
-    /** Axis and a point on it of each joint, in the trunk's frame. */
+    /** Axis of each joint and a point on it, in the trunk's frame. */
     readonly axes: readonly { readonly axis: Vector; readonly at: Vector }[];
 }
 
@@ -94,7 +94,7 @@ function move(limb: Limb, angles: readonly number[]): Moved {
     return { tip: place, point: add(place.pos, rotate(place.quat, limb.point)), axes };
 }
 
-/** The rotation from one attitude to another as axis times angle, the short way. */
+/** The shortest rotation from one orientation to another, as axis times angle. */
 function turnBetween(from: Quaternion, to: Quaternion): Vector {
     const q = multiply(to, inverse(from));
     const sine = Math.hypot(q[1], q[2], q[3]);
@@ -108,7 +108,7 @@ function errorOf(moved: Moved, target: Target): number[] {
     return target.quat ? [...off, ...turnBetween(moved.tip.quat, target.quat).map(r => r * RADIAN_M)] : [...off];
 }
 
-/** One column a joint: how the error falls when it turns. */
+/** One column per joint: how the error decreases when the joint turns. */
 function columnsOf(moved: Moved, withTurn: boolean): number[][] {
     return moved.axes.map(({ axis, at }) => {
         const way = cross(axis, subtract(moved.point, at));
@@ -116,7 +116,7 @@ function columnsOf(moved: Moved, withTurn: boolean): number[][] {
     });
 }
 
-/** Solves A x = b by Gauss with pivots; A is symmetric, positive and small. */
+/** Solves A x = b by Gaussian elimination with pivoting. A is symmetric, positive definite and small. */
 function solve(matrix: readonly (readonly number[])[], right: readonly number[]): number[] {
     const n = right.length;
     const rows = matrix.map((row, i) => [...row, right[i] ?? 0]);
@@ -139,7 +139,7 @@ function solve(matrix: readonly (readonly number[])[], right: readonly number[])
     return x;
 }
 
-/** The change of each joint, (J'J + damping) d = J'e, without those that stand at a limit and would go farther. */
+/** The change of each joint from (J'J + damping) d = J'e. Joints that would move beyond their limit are left out. */
 function change(columns: readonly (readonly number[])[], error: readonly number[], free: readonly boolean[], damping: number): number[] {
     const dot = (a: readonly number[], b: readonly number[]): number => a.reduce((sum, value, i) => sum + value * (b[i] ?? 0), 0);
     const used = columns.map((column, i) => (free[i] ? column : column.map(() => 0)));
@@ -204,9 +204,9 @@ function step(
     return { angles: turned, moved: there, error: errorOf(there, target) };
 }
 
-/** Turns the joints of the limb so that its point comes as near to the target as they can. Begins at the angles given, so
- *  that a drag stays on its way; where that leads nowhere (a stretched limb cannot bend of itself, a limit stands in the
- *  way) also from other angles, which count only when they come nearer by a centimetre: no limb jumps for less. */
+/** Turns the limb's joints so that its point comes as near to the target as possible. Starts from the given angles, so that a drag moves
+ *  continuously. If that gets stuck (a stretched limb does not bend by itself, or a limit is in the way), it tries other start angles. A
+ *  result that does not reach the target must be nearer by a centimetre, so that no limb jumps for less. */
 export function reach(angles: Angles, limb: Limb, target: Target): Reach {
     const joints = limb.links.flatMap(({ joint }) => (joint ? [joint] : []));
     const now = joints.map(joint => angles.get(joint.servo) ?? 0);
@@ -226,7 +226,7 @@ export function reach(angles: Angles, limb: Limb, target: Target): Reach {
     };
 }
 
-/** First a little bent, then spread over the joints' ranges. */
+/** First slightly bent, then spread over the joints' ranges. */
 function otherStarts(joints: readonly Joint[], now: readonly number[], count: number): number[][] {
     const between = (joint: Joint, share: number): number => joint.low + share * (joint.high - joint.low);
     const bent = [0.25, 0.6].map(share => joints.map((joint, i) => (now[i] ?? 0) * (1 - share) + share * between(joint, 0.5)));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Where a remote's keys lead: from rest, and from a page that plays. Pure.
+// The pages that the keys of a remote lead to, from rest and from a playing page. Pure.
 
 import type { PageFormat } from './page-format.ts';
 import { readPage } from './page.ts';
 import type { PageView } from './page.ts';
 
 export interface KeyTarget {
-    /** call: from rest; linked: at the end of the page that plays; stop: its exit; then: its next page, without a key. */
+    /** call: from rest; linked: at the end of the playing page; stop: its exit page; then: its next page, without a key. */
     readonly kind: 'call' | 'linked' | 'stop' | 'then';
     /** The remote's code; 0 for `stop` and `then`. */
     readonly code: number;
@@ -24,7 +24,7 @@ function view(format: PageFormat, pages: RobotPages, page: number): PageView | n
     return read.steps.length > 0 ? read : null;
 }
 
-/** What each key, or keys together, start from rest: of pages with the same code the lowest. In order of the codes. */
+/** The pages that each key or chord starts from rest, ordered by code. If several pages have the same code, the lowest is used. */
 export function targetsFromRest(format: PageFormat, pages: RobotPages): KeyTarget[] {
     const calls = new Map<number, KeyTarget>();
     for (let page = pages.length - 1; page > 0; page--) {
@@ -34,7 +34,7 @@ export function targetsFromRest(format: PageFormat, pages: RobotPages): KeyTarge
     return [...calls.values()].sort((a, b) => a.code - b.code);
 }
 
-/** Where the page leads at its end: keys first, then what it does without one, then a stop. */
+/** Where the page leads at its end: first with keys, then without one, then on a stop. */
 export function targetsFrom(format: PageFormat, pages: RobotPages, page: number): KeyTarget[] {
     const bytes = pages[page];
     if (page === 0 || !bytes) return [];

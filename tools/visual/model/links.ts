@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which page leads to which, and what is odd about it: links that end nowhere, pages that nothing leads to, stops that never
-// stop. Pure.
+// The links between pages and their faults: links that lead nowhere, pages that cannot be reached, stops that never end. Pure.
 
 import { pageOf } from './document.ts';
 import type { MotionDocument } from './document.ts';
@@ -10,7 +9,7 @@ import { readPage } from './page.ts';
 
 export interface PageLink extends Lead {
     readonly from: number;
-    /** There is nothing to play where it leads. */
+    /** The target has nothing to play. */
     readonly isDead: boolean;
 }
 
@@ -18,9 +17,9 @@ export interface PageNode {
     readonly page: number;
     readonly name: string;
     readonly code: number;
-    /** No code calls it, and no page that is called leads to it. It can be played by its number only. */
+    /** No code calls it, and no called page leads to it. It can be played only by its number. */
     readonly isUnreachable: boolean;
-    /** Its exit links go round in a circle: a stop does not come to a page that ends. */
+    /** Its exit links form a circle, so a stop never reaches a page that ends. */
     readonly exitsRound: boolean;
 }
 
@@ -29,7 +28,7 @@ export interface LinkGraph {
     readonly links: readonly PageLink[];
 }
 
-/** The pages that hold a motion, and what leads from one to another. */
+/** The pages that hold a motion, and the links between them. */
 export function linkGraph(format: PageFormat, document: MotionDocument): LinkGraph {
     const views = new Map(
         document.pages.flatMap((bytes, page) =>

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT
-// The firmware's page checks and player (motion.wasm), with names and types. What each function means stands in
-// board/motion_api.h. Pure: the module's instance comes from outside.
+// The firmware's page checks and player (motion.wasm) with names and types. board/motion_api.h documents the functions. Pure: the instance
+// is passed in.
 
 import * as facts from './facts.ts';
 
 export const { PAGE_BYTES, PAGE_COUNT } = facts;
 export const JOINTS = facts.PAGE_JOINTS;
 export const TICKS_PER_SECOND = facts.PLAYER_TICKS_PER_SECOND;
-/** Of a servo: units 0..POSITION_MAX. */
+/** Servo positions are 0..POSITION_MAX. */
 export const POSITION_MAX = facts.PAGE_POS_MAX;
-/** Where a servo stands in the middle of its way. */
+/** Servo position in the middle of its range. */
 export const POSITION_MIDDLE = facts.PAGE_POS_MIDDLE;
-/** Of a battery of which nobody has told the voltage. */
+/** Battery voltage to assume if it is unknown. */
 export const NOMINAL_VOLTS = facts.PAGE_FACTS_BATTERY_DV / 10;
 
-/** A tick in Curve.marks. */
+/** Bytes per tick in Curve.marks. */
 export const MARK_BYTES = facts.MOTION_API_MARK_BYTES;
 
 export type Law = 'exact' | 'classic';
 export const LAW_OF: Readonly<Record<Law, number>> = { exact: facts.PLAYER_LAW_EXACT, classic: facts.PLAYER_LAW_CLASSIC };
 
-/** What is wrong with a page, by page_status_t. */
+/** Faults of a page, by page_status_t. */
 const PAGE_FAULTS = {
     [facts.PAGE_ERR_CHECKSUM]: 'checksum',
     [facts.PAGE_ERR_STEPS]: 'steps',
@@ -31,7 +31,7 @@ const PAGE_FAULTS = {
 export type PageFault = (typeof PAGE_FAULTS)[keyof typeof PAGE_FAULTS];
 const FAULT_OF: Readonly<Record<number, PageFault>> = PAGE_FAULTS;
 
-/** Where a page leads, by motion_api_lead_t: the links that a play follows, and the partners for blending. */
+/** Kinds of leads, by motion_api_lead_t: links that a play follows, and partners for blending. */
 const LEADS = {
     [facts.MOTION_API_LEAD_NEXT]: 'next',
     [facts.MOTION_API_LEAD_EXIT]: 'exit',
@@ -43,14 +43,14 @@ const LEADS = {
 export type LeadKind = (typeof LEADS)[keyof typeof LEADS];
 const LEAD_OF: Readonly<Record<number, LeadKind>> = LEADS;
 
-/** code: of the remote, that chooses it; 0: none is needed. */
+/** code: the remote's code that selects this lead; 0: none is needed. */
 export interface Lead {
     readonly kind: LeadKind;
     readonly to: number;
     readonly code: number;
 }
 
-/** How a play is shaped, in percent; blend: negative to the left. Ranges: SHAPE_RANGES. */
+/** Modifies a play, in percent. A negative blend is to the left. Ranges: SHAPE_RANGES. */
 export interface Shape {
     readonly rate: number;
     readonly amplitude: number;
@@ -64,7 +64,7 @@ export const SHAPE_RANGES: Readonly<Record<keyof Shape, readonly [least: number,
     blend: [-facts.SHAPE_BLEND_MAX, facts.SHAPE_BLEND_MAX],
 };
 
-/** A piece of a play: JOINTS goals a tick (servo units), and MARK_BYTES of each tick: page, step, events. */
+/** Part of a play. Each tick has JOINTS goals (servo units) and MARK_BYTES of marks: page, step, events. */
 export interface Curve {
     readonly ticks: number;
     readonly goals: Uint16Array;
@@ -72,7 +72,7 @@ export interface Curve {
     readonly ended: boolean;
 }
 
-/** What an instance of motion.wasm exports; it imports nothing. */
+/** The exports of motion.wasm. It has no imports. */
 export interface MotionExports {
     readonly memory: { readonly buffer: ArrayBuffer };
     _initialize(): void;
@@ -106,17 +106,17 @@ export interface MotionExports {
     motion_api_curve_marks(): number;
 }
 
-/** One motion area of 128 pages with a player on it. */
+/** A motion area of 128 pages and a player for it. */
 export class Motion {
     private readonly api: MotionExports;
 
-    /** Takes the exports of a new instance; nobody else may use it. */
+    /** Takes the exports of a new instance, which must not be used elsewhere. */
     constructor(api: MotionExports) {
         this.api = api;
         api._initialize();
     }
 
-    /** The 65,536 bytes of all pages, as they lie in flash; a view, good until the next call. */
+    /** The 65,536 bytes of all pages, as in flash. This is a view, valid until the next call. */
     get pages(): Uint8Array {
         return new Uint8Array(this.api.memory.buffer, this.api.motion_api_pages(), PAGE_BYTES * PAGE_COUNT);
     }
@@ -130,7 +130,7 @@ export class Motion {
         return this.pages.slice(this.place(page), this.place(page) + PAGE_BYTES);
     }
 
-    /** The first thing that is wrong with a page, or null. */
+    /** The first fault of a page, or null. */
     check(page: number): PageFault | null {
         const status = this.api.motion_api_check(this.number(page));
         return FAULT_OF[status] ?? null;
@@ -148,33 +148,32 @@ export class Motion {
         return this.api.motion_api_is_playable(this.number(page)) !== 0;
     }
 
-    /** The CRC-16 of a page. */
     crc(page: number): number {
         return this.api.motion_api_crc16(this.number(page));
     }
 
-    /** A position (servo units) as the joint on the other side has it. */
+    /** A position (servo units) mirrored to the joint on the other side. */
     mirrored(position: number): number {
         return this.api.motion_api_mirrored(position);
     }
 
-    /** A position half-way from a to b. */
+    /** The position half-way from a to b. */
     positionBetween(a: number, b: number): number {
         return this.api.motion_api_pos_between(a, b);
     }
 
-    /** What a step that is put in half-way takes of the time (0..255) of the step behind it, and what is left. */
+    /** Splits a step's time (0..255) for a new step half-way before it: the new step's share, and the rest. */
     timeSplit(time: number): { readonly share: number; readonly rest: number } {
         const both = this.api.motion_api_time_between(time);
         return { share: both & 0xff, rest: both >> 8 };
     }
 
-    /** The code that buttons of a remote give together (their bits); 0: none. */
+    /** The code of remote buttons pressed together (bits); 0: none. */
     remoteCode(buttons: number): number {
         return this.api.motion_api_remote_code(buttons);
     }
 
-    /** Where a page leads, as the firmware decides it; what it never follows is not there. */
+    /** Where a page leads, as the firmware decides it. Leads that it never follows are left out. */
     leads(page: number): Lead[] {
         const count = this.api.motion_api_leads(this.number(page));
         const rows = new Uint8Array(this.api.memory.buffer, this.api.motion_api_leads_table(), count * facts.MOTION_API_LEAD_BYTES);
@@ -184,39 +183,39 @@ export class Motion {
         });
     }
 
-    /** Pages that a play of `first` can come to, itself too; 0: of all pages that a code calls. In order. */
+    /** Pages that a play of `first` can reach, including itself, in order. first 0: the same for all pages that a code calls. */
     reach(first: number): number[] {
         const reached = new Uint8Array(this.api.memory.buffer, this.api.motion_api_reach(first), PAGE_COUNT);
         return Array.from(reached, (is, page) => (is ? page : 0)).filter(page => page !== 0);
     }
 
-    /** The exit links, from this page on, go round. */
+    /** The exit links from this page on form a circle. */
     exitsRound(page: number): boolean {
         return this.api.motion_api_exits_round(this.number(page)) !== 0;
     }
 
-    /** Links and partners of a page follow pages that have moved: from -> to, 0 where nothing is left. */
+    /** Updates the links and partners of a page after pages have moved: from -> to, 0 if nothing is left there. */
     relink(page: number, moved: ReadonlyMap<number, number>): void {
         const table = new Uint8Array(this.api.memory.buffer, this.api.motion_api_moved(), PAGE_COUNT);
         table.set(Array.from(table, (_, from) => moved.get(from) ?? from));
         this.api.motion_api_relink(this.number(page));
     }
 
-    /** Where step 1 of a page wants its joints; the others as in `from` (servo units). */
+    /** The pose of a page's step 1. Joints that it does not use stay as in `from` (servo units). */
     firstPose(page: number, from: ArrayLike<number>): Uint16Array {
         this.pose.set(from);
         this.api.motion_api_first_pose(this.number(page));
         return this.pose.slice();
     }
 
-    /** Where a page leaves the joints behind a step; those that it does not use, as in `from` (servo units). */
+    /** The pose after a step of a page. Joints that the page does not use stay as in `from` (servo units). */
     poseAfter(page: number, step: number, from: ArrayLike<number>): Uint16Array {
         this.pose.set(from);
         this.api.motion_api_pose_after(this.number(page), step);
         return this.pose.slice();
     }
 
-    /** Ticks of a step (0..6) of a good page and of the pause behind it; the joints stand as in `from` before the page. */
+    /** Ticks of a step (0..6) of a valid page and of the pause after it. `from`: the pose before the page. */
     stepTicks(page: number, step: number, from: ArrayLike<number>, law: Law = 'exact'): { move: number; pause: number } {
         this.pose.set(from);
         const number = this.number(page);
@@ -227,18 +226,18 @@ export class Motion {
         return { move, pause };
     }
 
-    /** How the plays that begin from now on are shaped. Throws RangeError when a number is out of its range. */
+    /** Shapes all plays that start from now on. Throws RangeError if a number is out of range. */
     setShape({ rate, amplitude, blend }: Shape): void {
         if (!this.api.motion_api_shape(rate, amplitude, blend)) throw new RangeError(`no shape: ${rate} ${amplitude} ${blend}`);
     }
 
-    /** The fastest that the firmware asks of an AX-12 when it shapes a motion: 90 % of what it can do at this voltage. Servo
-     *  units a tick. */
+    /** The highest speed that the firmware asks of an AX-12 when it shapes a motion: 90 % of the servo's limit at this voltage. Servo units
+     *  per tick. */
     topSpeed(volts: number): number {
         return this.api.motion_api_top_speed_q4_4(Math.round(volts * 10)) / 16;
     }
 
-    /** Begins a play from a pose (31 servo units). false: the page is damaged or has no action. */
+    /** Starts a play from a pose (31 servo units). false: the page is damaged or has no action. */
     start(page: number, pose: ArrayLike<number>, options: { law?: Law; code?: number; joints?: number } = {}): boolean {
         this.pose.set(pose);
         const law = LAW_OF[options.law ?? 'exact'];
@@ -246,12 +245,12 @@ export class Motion {
         return this.api.motion_api_start(this.number(page), law, 0, options.code ?? 0, joints) === 0;
     }
 
-    /** A code arrives (0 released, LINK_CODE_STOP); it counts at the next decision of a link, as in the robot. */
+    /** Passes a code (0 released, LINK_CODE_STOP). It takes effect at the next decision of a link, as in the robot. */
     code(code: number): void {
         this.api.motion_api_code(code);
     }
 
-    /** Plays on for at most so many ticks (MOTION_API_CURVE_TICKS at once). */
+    /** Continues the play for at most this many ticks (MOTION_API_CURVE_TICKS per call). */
     curve(ticks: number): Curve {
         const played = this.api.motion_api_curve(ticks);
         const memory = this.api.memory.buffer;

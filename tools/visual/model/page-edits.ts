@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Edits of whole pages and their headers, as values.
+// Edits of whole pages and their headers as values.
 
 import { isSamePage, pageOf, withChanges } from './document.ts';
 import type { MotionDocument } from './document.ts';
@@ -12,16 +12,16 @@ import { changePage, editable } from './step-edits.ts';
 import { transaction } from './transaction.ts';
 import type { Change, EditName, Transaction } from './transaction.ts';
 
-/** Behind the name of a copy. */
+/** Appended to the name of a copy. */
 const COPY_SIGN = ' 2';
 
-/** What the header holds besides the name. */
+/** The header except the name. */
 export type HeaderChange = Partial<Omit<PageView, 'name' | 'steps'>>;
 
 export interface PageTransfer {
-    /** Links of other pages to the page that moves lead to its new place. A page's links to itself always do. */
+    /** Links of other pages follow the moved page. A page's links to itself always do. */
     readonly linksFollow?: boolean;
-    /** The target may hold a page; it is lost (undo brings it back). */
+    /** The target may hold a page, which is replaced (undo restores it). */
     readonly replace?: boolean;
 }
 
@@ -38,7 +38,7 @@ export function setLink(format: PageFormat, document: MotionDocument, page: numb
     return changePage(format, 'set-link', document, page, () => ok({ [link]: target }));
 }
 
-/** Both are pages of motions, and the source has contents. */
+/** Checks that both are motion pages and that the source is not empty. */
 function sourceOf(format: PageFormat, document: MotionDocument, from: number, to: number): Result<Uint8Array> {
     if (to === 0) return refuse('trim-page');
     if (!document.pages[to]) return refuse('no-such-page', String(to));
@@ -61,7 +61,7 @@ export function copyPage(
     return ok(transaction('copy-page', [{ page: to, before, after: format.relinked(source.value, new Map([[from, to]])) }]));
 }
 
-/** A page of the library as one of one's own: in a free page, under a name of its own, and no key of the remote calls it. */
+/** Copies a library page to a free page, with a new name and without a remote code. */
 export function copyForEditing(
     format: PageFormat,
     document: MotionDocument,
@@ -100,7 +100,7 @@ export function movePage(
     return ok(transaction('move-page', rearranged(format, document, pages, options.linksFollow ? moved : null)));
 }
 
-/** The two exchange their places. */
+/** Exchanges two pages. */
 export function swapPages(
     format: PageFormat,
     document: MotionDocument,
@@ -125,7 +125,7 @@ export function swapPages(
     return ok(transaction('swap-pages', a === b ? [] : rearranged(format, document, pages, options.linksFollow ? moved : null)));
 }
 
-/** Changes that put these pages in; the links of all others follow `moved`. */
+/** Changes that insert these pages. If `moved` is given, the links of all other pages follow it. */
 function rearranged(
     format: PageFormat,
     document: MotionDocument,
@@ -138,12 +138,13 @@ function rearranged(
     });
 }
 
-/** Also a way out for a damaged page. */
+/** Also repairs a damaged page by emptying it. */
 export function clearPages(format: PageFormat, document: MotionDocument, pages: Iterable<number>): Result<Transaction> {
     return replacePages(format, document, new Map(Array.from(pages, page => [page, format.empty])), 'clear-page');
 }
 
-/** Puts whole pages in, whatever stood there: from a file, a robot, a backup. Page 0 too, unless it would be cleared: the trim of a robot. */
+/** Inserts whole pages from a file, robot or backup and replaces what is there. Page 0 is allowed too, except for clearing: it is a robot's
+ *  trim. */
 export function replacePages(
     format: PageFormat,
     document: MotionDocument,
@@ -161,9 +162,9 @@ export function replacePages(
     return ok(transaction(label, changes));
 }
 
-/** Where pages that come from elsewhere find room: each at its own number where that is free, else at the next free one; their links to
- *  each other follow, those to pages that did not come are cut. What is here already, with all that it leads to, is not taken twice.
- *  `placed`: number there -> number here. Refuses when there is no room. */
+/** Inserts pages from elsewhere, each at its own number if free, else at the next free one. Links between them follow; links to pages that
+ *  did not come are cut. A page that is already here, together with all pages it leads to, is not inserted again. `placed`: their number ->
+ *  our number. Refuses if there is no room. */
 export function adoptPages(
     format: PageFormat,
     document: MotionDocument,
@@ -188,7 +189,7 @@ export function adoptPages(
     return edit.ok ? ok({ edit: edit.value, placed }) : edit;
 }
 
-/** Those of the pages that stand here at their own number, and lead to nothing but such. */
+/** The pages that are already here at their own number and lead only to such pages. */
 function alreadyHere(format: PageFormat, document: MotionDocument, pages: ReadonlyMap<number, Uint8Array>): ReadonlySet<number> {
     const here = new Set([...pages].filter(([page, bytes]) => isSamePage(pageOf(document, page), bytes)).map(([page]) => page));
     for (let before = -1; before !== here.size; ) {
@@ -201,7 +202,7 @@ function alreadyHere(format: PageFormat, document: MotionDocument, pages: Readon
     return here;
 }
 
-/** The first page 1..127 with nothing in it, from `from` on and around; 0: all are in use. */
+/** The first empty page in 1..127, searched from `from` with wrap-around; 0: none is free. */
 export function freePage(format: PageFormat, document: MotionDocument, from = 1): number {
     const numbers = document.pages.map((_, i) => i).filter(page => page > 0);
     const ordered = [...numbers.filter(page => page >= from), ...numbers.filter(page => page < from)];

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Where things stand in a page, its empty form, its checksum, its checks and its links: all of it from motion/*.c, through facts.ts
-// and an instance of motion.wasm. Nothing of the format is written here.
+// Page layout, empty page, checksum, checks and links. All of it comes from motion/*.c through facts.ts and an instance of motion.wasm;
+// none of the format is repeated here.
 
 import * as facts from './facts.ts';
 import type { MotionDocument } from './document.ts';
 import type { Schedule, Step } from './page.ts';
 import type { Law, Lead, Motion, PageFault } from './motion.ts';
 
-/** `at...` are byte offsets, in a step from its beginning. */
+/** `at...` are byte offsets; in a step, from the step's start. */
 export const PAGE_LAYOUT = {
     pageBytes: facts.PAGE_BYTES,
     pageCount: facts.PAGE_COUNT,
@@ -41,21 +41,21 @@ export const PAGE_LAYOUT = {
     posTorqueOff: facts.PAGE_POS_TORQUE_OFF,
 } as const;
 
-/** The page that the C functions work on when they are asked about bytes. Any but 0 does. */
+/** The page number that the C functions use to examine given bytes. Any but 0 works. */
 const SCRATCH = 1;
 const ERASED = 0xff;
 
 export class PageFormat {
     readonly layout = PAGE_LAYOUT;
-    /** The empty page, sealed. Not to be written. */
+    /** The empty page, sealed. Must not be modified. */
     readonly empty: Uint8Array;
-    /** Flash that was never written. Not to be written. */
+    /** Flash that was never written. Must not be modified. */
     readonly erased: Uint8Array;
     private readonly motion: Motion;
-    /** The pages that the instance has. */
+    /** The pages that are loaded in the instance. */
     private readonly loaded: (Uint8Array | null)[] = [];
 
-    /** Takes an instance of motion.wasm for itself. */
+    /** Takes over an instance of motion.wasm. */
     constructor(motion: Motion) {
         this.motion = motion;
         motion.clear(SCRATCH);
@@ -63,56 +63,55 @@ export class PageFormat {
         this.erased = new Uint8Array(this.layout.pageBytes).fill(ERASED);
     }
 
-    /** A copy whose checksum is right. */
+    /** A copy with a correct checksum. */
     sealed(bytes: Uint8Array): Uint8Array {
         this.take(bytes).seal(SCRATCH);
         return this.motion.page(SCRATCH);
     }
 
-    /** The first thing that is wrong with a page, or null. Erased flash is a page without contents, not a damaged one. */
+    /** The first fault of a page, or null. Erased flash is an empty page, not a damaged one. */
     fault(bytes: Uint8Array): PageFault | null {
         if (this.isErased(bytes)) return null;
         return this.take(bytes).check(SCRATCH);
     }
 
-    /** Flash that was never written. */
     isErased(bytes: Uint8Array): boolean {
         return bytes.every(byte => byte === ERASED);
     }
 
-    /** Nothing is lost when it is overwritten. */
+    /** Overwriting it loses nothing. */
     isEmpty(bytes: Uint8Array): boolean {
         return this.isErased(bytes) || bytes.every((byte, i) => byte === this.empty[i]);
     }
 
-    /** The same bytes, or both nothing: erased flash and the empty page are the same to a robot. */
+    /** The bytes are the same, or both pages are empty: erased flash and the empty page mean the same to a robot. */
     isSame(a: Uint8Array, b: Uint8Array): boolean {
         return a === b || a.every((byte, i) => byte === b[i]) || (this.isEmpty(a) && this.isEmpty(b));
     }
 
-    /** It has an action: steps, and a play count that is not 0. */
+    /** It has an action: steps and a play count other than 0. */
     isPlayable(bytes: Uint8Array): boolean {
         if (this.fault(bytes) !== null || this.isErased(bytes)) return false;
         return this.take(bytes).isPlayable(SCRATCH);
     }
 
-    /** Ticks of 1/128 s of a step (0..6) and of the pause behind it. `from`: where the joints stand before the page (servo units). */
+    /** Ticks (1/128 s) of a step (0..6) and of the pause after it. `from`: the joints before the page (servo units). */
     stepTicks(bytes: Uint8Array, step: number, from: ArrayLike<number>, law: Law = 'exact'): { move: number; pause: number } {
         return this.take(bytes).stepTicks(SCRATCH, step, from, law);
     }
 
-    /** The CRC-16 of a page, as the robot tells it. */
+    /** The CRC-16 of a page, as the robot reports it. */
     crc(bytes: Uint8Array): number {
         return this.take(bytes).crc(SCRATCH);
     }
 
-    /** A position (servo units) as the joint on the other side has it. */
+    /** A position (servo units) mirrored to the joint on the other side. */
     mirrored(position: number): number {
         return this.motion.mirrored(position);
     }
 
-    /** The step half-way from one to the next, without a pause: a joint that one of them does not use stays unused. Its time is that share of
-     *  the next one's, in time base, which keeps the rest. */
+    /** A step half-way between two, without a pause. A joint that either step does not use stays unused. In schedule 'time' the next step's
+     *  time is split between them. */
     between(a: Step, b: Step, schedule: Schedule): readonly [between: Step, next: Step] {
         const positions = a.positions.map((from, id) => {
             const to = b.positions[id] ?? null;
@@ -126,48 +125,48 @@ export class PageFormat {
         ];
     }
 
-    /** The code that buttons of a remote give together (their bits); 0: none. */
+    /** The code of remote buttons pressed together (bits); 0: none. */
     remoteCode(buttons: number): number {
         return this.motion.remoteCode(buttons);
     }
 
-    /** Where a page leads; nowhere when it is damaged or has no steps. */
+    /** Where a page leads. Empty if it is damaged or has no steps. */
     leads(bytes: Uint8Array): Lead[] {
         return this.take(bytes).leads(SCRATCH);
     }
 
-    /** A page whose links follow pages that have moved (from -> to, 0: nothing is left there); the same object when nothing changes, as for
-     *  a damaged page. */
+    /** The page with its links updated after pages have moved (from -> to, 0: nothing is left there). Returns the same object if nothing
+     *  changes, as with a damaged page. */
     relinked(bytes: Uint8Array, moved: ReadonlyMap<number, number>): Uint8Array {
         this.take(bytes).relink(SCRATCH, moved);
         const after = this.motion.page(SCRATCH);
         return after.every((byte, i) => byte === bytes[i]) ? bytes : after;
     }
 
-    /** Pages that a play of `first` can come to, itself too, in order. None for the trim. */
+    /** Pages that a play of `first` can reach, including itself, in order. None for the trim. */
     reach(document: MotionDocument, first: number): number[] {
         return first === 0 ? [] : this.load(document).reach(first);
     }
 
-    /** Pages that a code of the remote calls, and all that those lead to. */
+    /** Pages that a remote code calls, and all pages that those reach. */
     reachByCode(document: MotionDocument): ReadonlySet<number> {
         return new Set(this.load(document).reach(0));
     }
 
-    /** Pages whose exit links go round. */
+    /** Pages whose exit links form a circle. */
     exitCircles(document: MotionDocument): ReadonlySet<number> {
         const motion = this.load(document);
         return new Set(document.pages.flatMap((_, page) => (motion.exitsRound(page) ? [page] : [])));
     }
 
-    /** The instance with these bytes in SCRATCH. */
+    /** Loads these bytes into SCRATCH. */
     private take(bytes: Uint8Array): Motion {
         this.loaded[SCRATCH] = null;
         this.motion.setPage(SCRATCH, bytes);
         return this.motion;
     }
 
-    /** The instance with all pages of a document. */
+    /** Loads all pages of a document. */
     private load(document: MotionDocument): Motion {
         for (const [page, bytes] of document.pages.entries()) {
             if (this.loaded[page] !== bytes) this.motion.setPage(page, bytes);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One page as names and numbers, and back. Reading never fails: of a damaged page it shows what can be read. Writing makes
-// new, sealed bytes and changes nothing else: flags, unused words and reserved bytes stay as they were found.
+// Converts one page to names and numbers and back. Reading never fails: of a damaged page it returns what can be read. Writing makes new,
+// sealed bytes and keeps all other flags, unused words and reserved bytes.
 
 import { POSITION_MIDDLE, TICKS_PER_SECOND } from './motion.ts';
 import type { Law } from './motion.ts';
@@ -23,7 +23,7 @@ export type Schedule = 'time' | 'speed';
 export interface PageView {
     readonly name: string;
     readonly steps: readonly Step[];
-    /** How many times it is played before its link is followed; 0: it has no action. */
+    /** How often the page plays before its link is followed; 0: it has no action. */
     readonly repetitions: number;
     readonly schedule: Schedule;
     /** 1..255, 32 is nominal. */
@@ -43,7 +43,7 @@ export interface PageView {
     readonly compliance: readonly number[];
 }
 
-/** The fields of one byte. */
+/** One-byte fields. */
 const BYTE_FIELDS = {
     repetitions: 'atPlayCount',
     speed: 'atSpeed',
@@ -62,7 +62,7 @@ export type ByteField = keyof typeof BYTE_FIELDS;
 export const LINK_FIELDS = ['next', 'exit', 'linked1', 'linked2'] as const;
 export const PARTNER_FIELDS = ['blendRight', 'blendLeft'] as const;
 export type LinkField = (typeof LINK_FIELDS)[number] | (typeof PARTNER_FIELDS)[number];
-/** What a field of one byte holds. */
+/** Largest value of a one-byte field. */
 export const BYTE_MAX = 0xff;
 const LINKS: readonly string[] = [...LINK_FIELDS, ...PARTNER_FIELDS];
 
@@ -86,7 +86,7 @@ function readPosition(format: PageFormat, found: number): number | null {
     return found & (posUnused | posTorqueOff) ? null : found;
 }
 
-/** Step 0..6, whether the page counts it or not. */
+/** Step 0..6, even beyond the page's step count. */
 export function readStep(format: PageFormat, bytes: Uint8Array, step: number): Step {
     const at = stepAt(format, step);
     const { joints, atStepPause, atStepTime } = format.layout;
@@ -115,7 +115,7 @@ export function readPage(format: PageFormat, found: Uint8Array): PageView {
     };
 }
 
-/** The bytes of `found` with these fields changed, sealed. Erased flash begins as the empty page. Refuses what the format cannot hold. */
+/** A sealed copy of `found` with these fields changed. Erased flash counts as the empty page. Refuses what the format cannot hold. */
 export function writePage(format: PageFormat, found: Uint8Array, change: Partial<PageView>): Result<Uint8Array> {
     const bytes = (format.isErased(found) ? format.empty : found).slice();
     const { layout } = format;
@@ -149,7 +149,7 @@ function writeName(format: PageFormat, bytes: Uint8Array, name: string): boolean
     return true;
 }
 
-/** Null: done. Steps that fall away become unused ones; those behind stay as they are. */
+/** Null: done. Removed steps are set to unused. Bytes after the old steps stay unchanged. */
 function writeSteps(format: PageFormat, bytes: Uint8Array, steps: readonly Step[]): Result<never> | null {
     const { layout } = format;
     if (steps.length > layout.stepsMax) return refuse('steps-full');
@@ -173,7 +173,7 @@ function writeStep(format: PageFormat, bytes: Uint8Array, index: number, step: S
     if (!isWhole(step.pause, 0, BYTE_MAX)) return refuse('bad-number', `pause ${step.pause}, not 0..${BYTE_MAX}`);
     if (step.positions.length !== layout.joints) return refuse('no-such-joint', `${step.positions.length} joints`);
     for (const [id, position] of step.positions.entries()) {
-        if (position === readPosition(format, word(bytes, at + 2 * id))) continue; // what a flag hides stays
+        if (position === readPosition(format, word(bytes, at + 2 * id))) continue; // keeps a value hidden by a flag
         if (position !== null && !isWhole(position, 0, layout.posMax))
             return refuse('bad-number', `position ${position}, not 0..${layout.posMax}`);
         const value = position ?? layout.posUnused;
@@ -185,7 +185,7 @@ function writeStep(format: PageFormat, bytes: Uint8Array, index: number, step: S
     return null;
 }
 
-/** Seconds of a step (0..) and of the pause behind it, as the firmware plays it. `from`: where the joints stand before the page. */
+/** Seconds of a step (0..) and of the pause after it, as the firmware plays it. `from`: the joints before the page. */
 export function stepSeconds(
     format: PageFormat,
     bytes: Uint8Array,
@@ -197,8 +197,8 @@ export function stepSeconds(
     return { move: move / TICKS_PER_SECOND, pause: pause / TICKS_PER_SECOND };
 }
 
-/** Seconds of a page with all its repetitions, without what follows it, as the firmware plays it: from its first pose, joints that
- *  no step has used yet in the middle. 0: it has no action or is damaged. */
+/** Seconds of a page with all repetitions, without the pages after it, as the firmware plays it. It starts from the first pose, with unused
+ *  joints in the middle. 0: the page has no action or is damaged. */
 export function pageSeconds(format: PageFormat, bytes: Uint8Array, law: Law = 'exact'): number {
     if (!format.isPlayable(bytes)) return 0;
     const { joints } = format.layout;

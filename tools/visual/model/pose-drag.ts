@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a drag in the picture means for the joints. A part of the body is one joint that turns, a hand or a foot that the rest
-// of its limb follows, or the trunk, which moves over feet that stay. Pure: places in, angles out.
+// Turns a drag in the picture into joint angles. A part of the body is one joint, a hand or foot that the limb follows, or the trunk, which
+// moves over fixed feet. Pure: places in, angles out.
 
 import { trunkOn } from './balance.ts';
 import { angleIn, placeLinks } from './body.ts';
@@ -10,7 +10,7 @@ import type { Reach, Target } from './ik.ts';
 import { add, carrying, cross, heading, inverse, rotate, scale, subtract, turn, within } from './space.ts';
 import type { Place, Vector } from './space.ts';
 
-/** The foot that stays where it is, and where that is. */
+/** The foot that stays fixed, and its place. */
 export interface Stance {
     readonly keep: Side;
     readonly at: Place;
@@ -22,12 +22,13 @@ export type Part =
     | { readonly kind: 'foot'; readonly side: Side }
     | { readonly kind: 'trunk' };
 
-/** How the robot stood when it was taken hold of. */
+/** The robot's pose when the drag began. */
 export interface Grab {
     readonly part: Part;
     readonly link: string;
-    /** Where on the link, in its frame, and in the room. */
+    /** The grabbed point in the link's frame. */
     readonly point: Vector;
+    /** The grabbed point in room coordinates. */
     readonly world: Vector;
     readonly angles: Angles;
     readonly stance: Stance;
@@ -40,7 +41,7 @@ const SIDES: readonly Side[] = ['right', 'left'];
 const REACHED_M = 0.0005;
 const LOWER = { stepM: 0.004, mostM: 0.04 };
 
-/** Which part a shape of the body belongs to. */
+/** The part that a shape of the body belongs to. */
 export function partOf(body: Body, shape: string | null, link: string): Part {
     for (const side of SIDES) {
         if (shape === `${side}_hand`) return { kind: 'hand', side };
@@ -50,7 +51,7 @@ export function partOf(body: Body, shape: string | null, link: string): Part {
     return joint ? { kind: 'joint', joint } : { kind: 'trunk' };
 }
 
-/** A hand takes hold. A foot that is moved cannot be the one that stays: then the other one does. */
+/** Begins a drag. If the fixed foot itself is dragged, the other foot becomes the fixed one. */
 export function grab(body: Body, shape: string | null, link: string, point: Vector, angles: Angles, stance: Stance): Grab {
     const part = partOf(body, shape, link);
     const trunk = trunkOn(body, stance.keep, angles, stance.at);
@@ -62,8 +63,8 @@ export function grab(body: Body, shape: string | null, link: string, point: Vect
     return { part, link, point, world: add(place.pos, rotate(place.quat, point)), angles, stance: kept, trunk, places };
 }
 
-/** The angles that bring the point to `target` (in the room), as near as the joints let it. soleFlat: a foot keeps its sole
- *  flat on the floor or parallel to it; otherwise it keeps how it was turned. */
+/** The angles that bring the point as near to `target` (room coordinates) as the joints allow. soleFlat: a foot keeps its sole parallel to
+ *  the floor; otherwise it keeps its orientation. */
 export function dragged(body: Body, held: Grab, target: Vector, soleFlat: boolean): Angles {
     switch (held.part.kind) {
         case 'joint':
@@ -83,19 +84,19 @@ function inTrunk(held: Grab, point: Vector): Vector {
     return rotate(inverse(held.trunk.quat), subtract(point, held.trunk.pos));
 }
 
-/** The place in the trunk's frame of what stands at `place` in the room. */
+/** Converts a place in the room to the trunk's frame. */
 function seenFrom(trunk: Place, place: Place): Target {
     const back = carrying(HERE, trunk);
     return within(back, place);
 }
 
-/** The axis of a joint and a point on it, in the room. */
+/** A joint's axis and a point on it, in room coordinates. */
 export function jointAxis(held: Pick<Grab, 'places'>, joint: Joint): { readonly axis: Vector; readonly at: Vector } {
     const place = held.places.get(joint.body) ?? HERE;
     return { axis: rotate(place.quat, joint.axis), at: place.pos };
 }
 
-/** One joint turns until the point is in the direction of the target, seen along the axis. */
+/** Turns one joint until the point is in the direction of the target, seen along the axis. */
 function turned(held: Grab, joint: Joint, target: Vector): Angles {
     const { axis, at } = jointAxis(held, joint);
     const flat = (point: Vector): Vector => {
@@ -117,7 +118,7 @@ function movedFoot(body: Body, held: Grab, side: Side, target: Vector, soleFlat:
     return reach(held.angles, footLimb(body, side), seenFrom(held.trunk, { pos, quat }));
 }
 
-/** Puts both feet at these places under this trunk, as well as they can; `off`: what is missing, in metres. */
+/** Brings both feet as near as possible to these places under this trunk. `off`: remaining error in metres. */
 function onFeet(body: Body, start: Angles, trunk: Place, feet: ReadonlyMap<Side, Place>): { angles: Angles; off: number } {
     let angles = start;
     let off = 0;
@@ -129,7 +130,7 @@ function onFeet(body: Body, start: Angles, trunk: Place, feet: ReadonlyMap<Side,
     return { angles, off };
 }
 
-/** Both feet stay where they are and as they are. Farther than the legs allow it goes as far as both reach. */
+/** Both feet keep place and orientation. If the trunk cannot move all the way, it moves the largest share that both legs reach. */
 function movedTrunk(body: Body, held: Grab, by: Vector): Angles {
     const feet = new Map(SIDES.map(side => [side, held.places.get(`${side}_foot`) ?? HERE]));
     for (const share of [1, 0.75, 0.5, 0.25]) {
@@ -139,8 +140,8 @@ function movedTrunk(body: Body, held: Grab, by: Vector): Angles {
     return held.angles;
 }
 
-/** Both soles flat on the floor under an upright trunk, where they are seen from above, their headings as they are. The trunk
- *  goes down as far as the legs need. */
+/** Puts both soles flat on the floor under an upright trunk. The feet keep their position seen from above and their heading. The trunk is
+ *  lowered as far as the legs need. */
 export function flattened(body: Body, angles: Angles, stance: Stance): Angles {
     const trunk = trunkOn(body, stance.keep, angles, stance.at);
     const places = placeLinks(body, trunk, angleIn(angles));

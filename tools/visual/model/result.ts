@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// A value, or why there is none. For what may be refused: an edit, a file. The sentences stand in view/texts/.
+// A value, or the reason why there is none, for actions that can be refused: an edit, a file. The messages are in view/texts/.
 
 export type RefusalCode =
     | 'no-such-page' // not 0..127
-    | 'trim-page' // page 0 holds the trim of a robot: no motion
-    | 'page-damaged' // its checksum or a field is wrong: repair it by putting another page there, or clear it
-    | 'page-in-use' // the target holds a page already
-    | 'page-empty' // there is nothing to take
+    | 'trim-page' // page 0 holds a robot's trim, not a motion
+    | 'page-damaged' // its checksum or a field is wrong; replace or clear it
+    | 'page-in-use' // the target already holds a page
+    | 'page-empty' // there is nothing to copy or move
     | 'no-room' // not enough free pages
     | 'no-such-step'
-    | 'steps-full' // seven steps are the most
-    | 'bad-name' // 13 ASCII characters at most
-    | 'bad-number' // out of its range: `words` tells which
+    | 'steps-full' // at most seven steps
+    | 'bad-name' // at most 13 ASCII characters
+    | 'bad-number' // out of range; `words` has the details
     | 'no-such-joint';
 
 export interface Refusal {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Vectors, rotations and places in space. Metres; quaternions as [w, x, y, z] of length 1, as MuJoCo has them.
+// Vectors, rotations and places. Metres; unit quaternions as [w, x, y, z], as in MuJoCo.
 
 export type Vector = readonly [number, number, number];
 export type Quaternion = readonly [number, number, number, number];
 
-/** Where something is and how it is turned. */
+/** A position and an orientation. */
 export interface Place {
     readonly pos: Vector;
     readonly quat: Quaternion;
@@ -51,29 +51,29 @@ export function rotate(q: Quaternion, v: Vector): Vector {
     return add(add(v, scale(t, q[0])), cross(u, t));
 }
 
-/** A turn about an axis of length 1. */
+/** A rotation about a unit axis. */
 export function turn(axis: Vector, angleRad: number): Quaternion {
     const s = Math.sin(angleRad / 2);
     return [Math.cos(angleRad / 2), axis[0] * s, axis[1] * s, axis[2] * s];
 }
 
-/** How far a rotation turns about the upright axis. */
+/** The rotation about the vertical axis. Radians. */
 export function heading(q: Quaternion): number {
     return Math.atan2(2 * (q[0] * q[3] + q[1] * q[2]), 1 - 2 * (q[2] * q[2] + q[3] * q[3]));
 }
 
-/** A place given in `outer`, as seen from outside. */
+/** Converts a place in the frame of `outer` to the frame in which `outer` is given. */
 export function within(outer: Place, inner: Place): Place {
     return { pos: add(outer.pos, rotate(outer.quat, inner.pos)), quat: multiply(outer.quat, inner.quat) };
 }
 
-/** The place that `outer` must have so that what is at `inner` in it is at `wanted`. */
+/** The place of `outer` for which a place `inner` within it is at `wanted`. */
 export function carrying(wanted: Place, inner: Place): Place {
     const quat = multiply(wanted.quat, inverse(inner.quat));
     return { pos: subtract(wanted.pos, rotate(quat, inner.pos)), quat };
 }
 
-/** A robot that lies: on its face, or on its back? trunk: x is ahead, as in the body file. */
+/** Whether a lying robot lies on its face, not its back. The trunk's x axis points ahead, as in the body file. */
 export function liesOnFace(trunk: Place): boolean {
     return rotate(trunk.quat, [1, 0, 0])[2] < 0;
 }

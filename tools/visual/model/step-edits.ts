@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Edits of a page's steps, as values. Steps are 0..6, joints are servo IDs 0..30.
+// Edits of a page's steps as values. Steps are 0..6, joints are servo IDs 0..30.
 
 import { pageOf } from './document.ts';
 import type { MotionDocument } from './document.ts';
@@ -11,11 +11,11 @@ import type { Result } from './result.ts';
 import { transaction } from './transaction.ts';
 import type { EditName, Transaction } from './transaction.ts';
 
-/** Servo IDs of a right joint and the left one that mirrors it. */
+/** Servo IDs of two joints that mirror each other. */
 export type JointPair = readonly [right: number, left: number];
 export type Side = 'right' | 'left';
 
-/** A page of motions that may be edited. */
+/** The bytes of an editable motion page. */
 export function editable(format: PageFormat, document: MotionDocument, page: number): Result<Uint8Array> {
     if (page === 0) return refuse('trim-page');
     if (!Number.isInteger(page) || page < 0 || page >= document.pages.length) return refuse('no-such-page', String(page));
@@ -23,7 +23,7 @@ export function editable(format: PageFormat, document: MotionDocument, page: num
     return format.fault(bytes) === null ? ok(bytes) : refuse('page-damaged', String(page));
 }
 
-/** Changes one page by what `make` says of it. */
+/** Changes one page with the result of `make`. */
 export function changePage(
     format: PageFormat,
     label: EditName,
@@ -39,7 +39,7 @@ export function changePage(
     return after.ok ? ok(transaction(label, [{ page, before: before.value, after: after.value }])) : after;
 }
 
-/** Replaces the chosen steps; refused when one of them is not there. */
+/** Replaces the chosen steps. Refused if one does not exist. */
 function eachStep(view: PageView, chosen: Iterable<number>, make: (step: Step) => Step): Result<Partial<PageView>> {
     const set = new Set(chosen);
     for (const index of set) if (!view.steps[index]) return refuse('no-such-step', String(index + 1));
@@ -52,7 +52,7 @@ function chosenOf(view: PageView, chosen: Iterable<number>): Result<number[]> {
     return missing === undefined ? ok(sorted) : refuse('no-such-step', String(missing + 1));
 }
 
-/** Positions of joints (null: not used) in one or several steps. */
+/** Sets positions of joints (null: not used) in one or several steps. */
 export function setJoints(
     format: PageFormat,
     document: MotionDocument,
@@ -69,7 +69,7 @@ export function setJoints(
     });
 }
 
-/** Puts steps in before step `at`; `at` = number of steps: behind the last. */
+/** Inserts steps before step `at`. The number of steps appends them. */
 export function insertSteps(
     format: PageFormat,
     document: MotionDocument,
@@ -91,7 +91,7 @@ export function deleteSteps(format: PageFormat, document: MotionDocument, page: 
     });
 }
 
-/** The copies stand together behind the last one chosen. */
+/** Inserts the copies as one block after the last chosen step. */
 export function duplicateSteps(format: PageFormat, document: MotionDocument, page: number, steps: Iterable<number>): Result<Transaction> {
     return changePage(format, 'duplicate-steps', document, page, view => {
         const chosen = chosenOf(view, steps);
@@ -101,7 +101,7 @@ export function duplicateSteps(format: PageFormat, document: MotionDocument, pag
     });
 }
 
-/** The chosen steps stand together before the step that was at `to`; `to` = number of steps: at the end. */
+/** Moves the chosen steps as one block before step `to`. The number of steps moves them to the end. */
 export function moveSteps(
     format: PageFormat,
     document: MotionDocument,
@@ -140,7 +140,7 @@ export function setPause(
     return changePage(format, 'set-pause', document, page, view => eachStep(view, steps, step => ({ ...step, pause })));
 }
 
-/** Makes one side look like the mirror image of the other. */
+/** Makes one side the mirror image of the other. */
 export function mirrorSteps(
     format: PageFormat,
     document: MotionDocument,
@@ -153,7 +153,7 @@ export function mirrorSteps(
     return takeMirrored(format, 'mirror-steps', document, page, steps, sources);
 }
 
-/** Left becomes right and right left: the pose as a mirror shows it. */
+/** Exchanges left and right, as in a mirror. */
 export function exchangeSteps(
     format: PageFormat,
     document: MotionDocument,
@@ -170,7 +170,7 @@ export function exchangeSteps(
     return takeMirrored(format, 'exchange-steps', document, page, steps, sources);
 }
 
-/** `sources`: for a joint, whose position it takes. */
+/** `sources`: joint -> the joint whose mirrored position it takes. */
 function takeMirrored(
     format: PageFormat,
     label: EditName,
@@ -191,7 +191,7 @@ function takeMirrored(
     );
 }
 
-/** Puts a step half-way between `step` and the one behind it; both halves together take as long as the way did. */
+/** Inserts a step half-way between `step` and the next. Both halves together take as long as before. */
 export function interpolate(format: PageFormat, document: MotionDocument, page: number, step: number): Result<Transaction> {
     return changePage(format, 'interpolate', document, page, view => {
         const a = view.steps[step];

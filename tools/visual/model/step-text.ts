@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Steps as text for the clipboard: lines as they stand in a .m512 file (tools/m512/FORMAT.md, "A step"), with plain ticks and
-// positions, so that they can be pasted there too. Read back is what is written here; a whole file opens as a file.
+// Steps as text for the clipboard: lines of a .m512 file (tools/m512/FORMAT.md, "A step") with plain ticks and positions, so that they can
+// be pasted there too. Only this form is read back; a whole file is opened as a file.
 //
 //     step 40 pause 8 | 1:600 2:424
 
@@ -30,7 +30,7 @@ function stepFrom(line: string): Step | null {
     return { positions, time: Number(time), pause: Number(pause ?? 0) };
 }
 
-/** null: it is no text of steps. Blank lines and indents do not count. */
+/** null: not a text of steps. Blank lines and indents are ignored. */
 export function stepsFromText(text: string): Step[] | null {
     const lines = text
         .split('\n')

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// An edit as a value: which pages it changes, from what to what. Its inverse swaps the two.
+// An edit as a value: the changed pages before and after. Its inverse swaps the two.
 
 import { isSamePage } from './document.ts';
 
-/** What kinds of edits there are; their names for people stand in view/texts/. */
+/** The kinds of edits. Their names for people are in view/texts/. */
 export const EDIT_NAMES = [
     'set-joints',
     'insert-step',
@@ -44,7 +44,7 @@ export function inverse(transaction: Transaction): Transaction {
     return { ...transaction, changes: transaction.changes.map(({ page, before, after }) => ({ page, before: after, after: before })) };
 }
 
-/** A transaction without the changes that change nothing. */
+/** Makes a transaction and drops changes without effect. */
 export function transaction(label: EditName, changes: readonly Change[]): Transaction {
     return { label, changes: changes.filter(({ before, after }) => !isSamePage(before, after)) };
 }

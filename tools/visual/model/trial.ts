@@ -1,36 +1,36 @@
 // SPDX-License-Identifier: MIT
-// What physics says of a motion: the record of one trial and the verdict on it, and limbs that meet. Pure; sim/trial.ts
-// makes the records.
+// What physics says of a motion: the record of one trial, the verdict on it, and limbs that touch. Pure. sim/trial.ts makes the records.
 
 import { JOINTS, MARK_BYTES, TICKS_PER_SECOND } from './motion.ts';
 import type { Curve, Law, Shape } from './motion.ts';
 
-/** Two links of the body, by name, in the order of the alphabet. */
+/** The names of two links of the body in alphabetical order. */
 export type LinkPair = readonly [string, string];
 
 export interface Touch {
     readonly links: LinkPair;
-    /** How far one would be in the other. Metres. */
+    /** How far one link would be inside the other. Metres. */
     readonly depthM: number;
 }
 
-/** One motion to be tried, from standing in its first pose. */
+/** A motion to try. The robot starts standing in the motion's first pose. */
 export interface TrialRequest {
-    /** 65,536 bytes, as they lie in flash. */
+    /** 65,536 bytes, as in flash. */
     readonly image: Uint8Array;
     readonly page: number;
     readonly law: Law;
     readonly shape: Shape;
-    /** Where the joints stand first: servo units by ID. */
+    /** Start positions of the joints: servo units by ID. */
     readonly pose: ArrayLike<number>;
-    /** Of 1/128 s, that are recorded. */
+    /** Number of ticks (1/128 s) to record. */
     readonly ticks: number;
-    /** What still plays then is told to stop, as by a remote, and looked at until it has; else it is broken off. */
+    /** What happens to a play that goes on after these ticks. true: it is stopped as by a remote and watched until it ends. false: it is
+     *  cut off. */
     readonly toTheEnd: boolean;
     readonly volts: number;
 }
 
-/** A moment of a play: tick since its beginning, page 1..127, step 0..6. */
+/** A moment of a play: tick since its start, page 1..127, step 0..6. */
 export interface TrialMoment {
     readonly tick: number;
     readonly page: number;
@@ -38,31 +38,31 @@ export interface TrialMoment {
 }
 
 export interface TrialRecord {
-    /** It stood in its first pose for a quarter of a second; if not, it was not played. */
+    /** It stood in its first pose for a quarter of a second. If not, it was not played. */
     readonly stood: boolean;
-    /** That were recorded. */
+    /** Number of recorded ticks. */
     readonly ticks: number;
-    /** Of each of these ticks, servo units by ID: JOINTS numbers. NaN: no such servo. */
+    /** For each recorded tick JOINTS servo positions by ID. NaN: no such servo. */
     readonly positions: Float32Array;
-    /** Pages that were played, in the order of their beginnings. */
+    /** The played pages in the order of their first play. */
     readonly pages: readonly number[];
-    /** When its trunk was tilted by more than 60 degrees for the first time. */
+    /** When the trunk first tilted by more than 60 degrees. */
     readonly fell: TrialMoment | null;
-    /** The play came to its end: by itself, or when it was told to. */
+    /** The play ended, by itself or because it was stopped. */
     readonly ended: boolean;
-    /** In the end it stood upright, and nothing but its soles touched the floor. */
+    /** At the end the robot is upright and touches the floor only with its soles. */
     readonly onFeet: boolean;
 }
 
-/** stands: on its feet. rises: was on the floor on the way, and is on its feet in the end. falls: stays on the floor.
- *  low: upright, but not on its soles alone in the end (sits, kneels, leans). no-start: does not stand in its first pose. */
+/** stands: on its feet. rises: was on the floor, but is on its feet at the end. falls: stays on the floor. low: upright at the end, but not
+ *  only on its soles (sits, kneels, leans). no-start: does not stand in its first pose. */
 export type VerdictKind = 'stands' | 'rises' | 'falls' | 'low' | 'no-start';
 
 export interface Verdict {
     readonly kind: VerdictKind;
-    /** Of the fall, or of going down; null where there was none. */
+    /** When it fell or went down; null if it did not. */
     readonly at: TrialMoment | null;
-    /** That it was played for. */
+    /** Recorded length. */
     readonly seconds: number;
 }
 
@@ -71,19 +71,19 @@ export function verdictOf({ stood, fell, ended, onFeet, ticks }: TrialRecord): V
     return { kind, at: fell, seconds: ticks / TICKS_PER_SECOND };
 }
 
-/** Less than this is brushing: the reach of a hand and the bend of a bracket are not known better. Metres. */
+/** Less than this is a light touch: the length of a hand and the bend of a bracket are not known more precisely. Metres. */
 export const BRUSH_M = 0.003;
 
-/** Limbs that meet in a step of a page, or on the way to it. */
+/** Limbs that touch in a step of a page or on the way to it. */
 export interface StepTouch extends Touch {
     /** 0..6 */
     readonly step: number;
 }
 
-/** Of the ticks of a curve every so many are looked at. */
+/** Only every so many ticks of a curve are checked. */
 export const TOUCH_STRIDE = 4;
 
-/** The poses of one page in its curve that are to be looked at: JOINTS numbers each, and the step of each. */
+/** The poses of one page of the curve to check, JOINTS numbers each, and the step of each. */
 export function posesOf({ ticks, goals, marks }: Curve, page: number): { readonly poses: Uint16Array; readonly steps: readonly number[] } {
     const seen = Array.from({ length: Math.ceil(ticks / TOUCH_STRIDE) }, (_, i) => i * TOUCH_STRIDE).filter(
         tick => marks[MARK_BYTES * tick] === page,
@@ -93,7 +93,7 @@ export function posesOf({ ticks, goals, marks }: Curve, page: number): { readonl
     return { poses, steps: seen.map(tick => (marks[MARK_BYTES * tick + 1] ?? 1) - 1) };
 }
 
-/** The deepest touch of each step. touches: of each pose, in the order of `steps`. */
+/** The deepest touch of each step. touches: for each pose, in the order of `steps`. */
 export function deepestTouches(steps: readonly number[], touches: readonly (readonly Touch[])[]): StepTouch[] {
     const worst = new Map<number, StepTouch>();
     for (const [i, found] of touches.entries()) {
