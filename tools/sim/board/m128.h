@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * m128.h - the parts of the ATmega128 that the board model overrules: register addresses (data space), bits, vectors,
- * times. Numbers from the ATmega128 data sheet (2467), sections named beside them. */
+ * m128.h - the parts of the ATmega128 that the board model overrides: register addresses (data space), bits, vectors,
+ * times. All numbers come from the ATmega128 data sheet (2467). */
 #ifndef SIM_M128_H
 #define SIM_M128_H
 
@@ -8,10 +8,10 @@
 #define M128_FLASH_BYTES 0x20000u
 #define M128_PAGE_BYTES 256u
 #define M128_PAGES (M128_FLASH_BYTES / M128_PAGE_BYTES)
-#define M128_NRWW_START 0x1E000u /* BOOTSZ = 00; the NRWW part is the same 8 KiB whatever BOOTSZ says */
+#define M128_NRWW_START 0x1E000u /* BOOTSZ = 00; the NRWW part is these 8 KiB for every BOOTSZ */
 #define M128_EEPROM_BYTES 4096u
 #define M128_RAM_START 0x0100u
-#define M128_RAM_END 0x1100u /* first address behind the SRAM */
+#define M128_RAM_END 0x1100u /* first address after the SRAM */
 #define M128_VECTOR_BYTES 4u
 
 /* Ports */
@@ -56,7 +56,7 @@ enum { UCSRB_TXB8 = 0x01, UCSRB_RXB8 = 0x02, UCSRB_UCSZ2 = 0x04, UCSRB_TXEN = 0x
     UCSRB_UDRIE = 0x20, UCSRB_TXCIE = 0x40, UCSRB_RXCIE = 0x80 };
 enum { UCSRC_8N1 = 0x06 };
 
-/* Interrupt vector numbers, 1 = the one behind reset */
+/* Interrupt vector numbers; 1 is the first after reset */
 enum {
     VECTOR_INT0 = 1, VECTOR_T2_COMP = 9, VECTOR_T2_OVF = 10, VECTOR_T1_CAPT = 11, VECTOR_T1_COMPA = 12,
     VECTOR_T1_COMPB = 13, VECTOR_T1_OVF = 14, VECTOR_T0_COMP = 15, VECTOR_T0_OVF = 16, VECTOR_USART0_RX = 18,
@@ -65,7 +65,7 @@ enum {
     VECTOR_USART1_RX = 30, VECTOR_USART1_UDRE = 31, VECTOR_USART1_TX = 32, VECTOR_SPM_READY = 34, VECTOR_COUNT = 35
 };
 
-/* Times in cycles of 16 MHz. The slow end where the data sheet gives a range, so that nobody relies on less. */
+/* Times in cycles of 16 MHz. Where the data sheet gives a range, the slow end, so that nothing relies on less. */
 #define M128_SPM_CYCLES 72000u         /* page erase, page write, lock bits: 3.7-4.5 ms */
 #define M128_EEPROM_CYCLES 136000u     /* one byte: 8.5 ms */
 #define M128_WATCHDOG_CYCLES 224000u   /* WDP = 0 at 5 V: 14.0 ms, doubled by each prescaler step */

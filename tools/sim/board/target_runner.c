@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * target_runner IMAGE.hex [SECONDS] - runs a Unity program of build/firmware/tests on the strict board, shows its console.
- * Exit status 0 only if the program said "target: done, 0 failed" and the board found nothing to object to;
- * 1: a test failed, or the program ended or hung without that line; 2: it could not be run. */
+ * target_runner IMAGE.hex [SECONDS] - runs a Unity program of build/firmware/tests on the strict board and shows its
+ * console. Exit status 0: the program printed "target: done, 0 failed" and the board found no violation; 1: a test
+ * failed, or the program ended or hung without that line; 2: it could not be run. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,7 +19,6 @@ static void show(void *context, uint64_t now_cycles, uint8_t byte, bool bad)
     putchar(bad ? '?' : byte);
 }
 
-/* Console output never ends in a zero byte; the copy makes it a string. */
 static bool said(const board_t *board, const char *text)
 {
     size_t count;

@@ -22,7 +22,7 @@ struct quick {
     uint16_t goal_pos[PAGE_JOINTS];
     uint16_t sent_pos[PAGE_JOINTS];
     uint64_t load_steps;
-    quick_load_t *sums; /* of torque and its square, not yet divided */
+    quick_load_t *sums; /* torque and its square are sums, not yet divided */
     int sums_count;
 };
 
@@ -85,7 +85,7 @@ static uint8_t slope(uint8_t nibble)
     return (uint8_t)(1u << (nibble >= 1 && nibble <= 7 ? nibble : DEFAULT_NIBBLE));
 }
 
-/* Slopes and goal, as the firmware's frames carry them: high nibble clockwise, low nibble counterclockwise. */
+/* Sends slopes and goal, as the firmware's frames do. High nibble: clockwise, low nibble: counterclockwise. */
 static void send_goals(quick_t *quick, uint32_t joints)
 {
     const uint8_t *compliance = quick->image + quick->player.now.page * PAGE_BYTES + PAGE_AT_COMPLIANCE;
@@ -172,7 +172,7 @@ static void count_goals(quick_t *quick)
     }
 }
 
-/* One step of the body; without a body the servos are brought up to the same moment. */
+/* One step of the body. Without a body, it updates the servos to the same moment. */
 static void pass_step(quick_t *quick)
 {
     quick->now_cycles += SERVO_STEP_CYCLES;

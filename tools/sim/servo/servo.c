@@ -6,7 +6,7 @@
 #include "servo_fault.h"
 #include "servo_motion.h"
 
-/* One writable item. Everything else in the table is read-only. */
+/* One writable item. The rest of the table is read-only. */
 typedef struct {
     uint8_t address, bytes;
     uint16_t low, high;
@@ -35,14 +35,14 @@ static const item_t items[] = {
     {SERVO_SPEED, 2, 0, 1023},
     {SERVO_TORQUE_LIMIT, 2, 0, 1023},
     {SERVO_REGISTERED, 1, 0, 1},
-    {SERVO_LOCK, 1, 1, 1}, /* once locked, only a power cycle unlocks */
+    {SERVO_LOCK, 1, 1, 1}, /* once locked, only a power cycle unlocks it */
     {SERVO_PUNCH, 2, 0, 1023},
 };
 
-#define BATTERY_V 9.6 /* the CM-5's battery: 8 cells of 1.2 V */
-#define STANDSTILL 1.0 /* units per second: slower is not called moving */
+#define BATTERY_V 9.6 /* battery of the CM-5: 8 cells of 1.2 V */
+#define STANDSTILL 1.0 /* units per second; a slower servo counts as not moving */
 #define WHEEL_SPEED_MAX 2047 /* endless turn: bit 10 is the direction */
-#define LOCK_OPEN_FIRST SERVO_TORQUE_ENABLE /* what a locked servo still lets write: addresses 24..35 */
+#define LOCK_OPEN_FIRST SERVO_TORQUE_ENABLE /* a locked servo still accepts writes to addresses 24..35 */
 #define LOCK_OPEN_LAST (SERVO_TORQUE_LIMIT + 1)
 
 static const uint8_t shipped_ax12[SERVO_EEPROM_BYTES] = {
@@ -71,7 +71,7 @@ static uint16_t present_position(const servo_t *servo)
     return (uint16_t)(position + 0.5);
 }
 
-/* RAM addresses as they are after power-on. */
+/* Sets the RAM addresses to their values after power-on. */
 static void start_ram(servo_t *servo)
 {
     memset(servo->table + SERVO_EEPROM_BYTES, 0, SERVO_TABLE_BYTES - SERVO_EEPROM_BYTES);
@@ -120,7 +120,7 @@ void servo_power(servo_t *servo, uint64_t now_cycles, bool on)
     servo_advance(servo, now_cycles);
 }
 
-/* Alarm bits now, and the shutdown they may call for. */
+/* Updates the alarm bits, and shuts down if one of them demands it. */
 static void update_alarms(servo_t *servo)
 {
     const double volts = servo->fault_v > 0 ? servo->fault_v : servo->supply_v;
@@ -155,18 +155,18 @@ static uint16_t magnitude_and_direction(double value, double unit)
     return (uint16_t)((size > 1023 ? 1023 : (uint16_t)size) | (value < 0 ? 1024 : 0));
 }
 
-/* The read-only registers from the physics. */
+/* Sets the read-only registers from the physics. */
 static void update_registers(servo_t *servo)
 {
     put(servo, SERVO_PRESENT, present_position(servo));
     put(servo, SERVO_PRESENT_SPEED,
         magnitude_and_direction(servo->velocity, SERVO_UNITS_PER_RPM * SERVO_SPEED_UNIT_RPM));
-    /* A motor that pushes towards larger positions (counterclockwise) is loaded counterclockwise: bit 10 clear. */
+    /* A motor pushing towards larger positions (counterclockwise) has a counterclockwise load: bit 10 clear. */
     put(servo, SERVO_PRESENT_LOAD, magnitude_and_direction(servo->output, 1.0 / 1023));
     servo->table[SERVO_MOVING] = servo->velocity > STANDSTILL || servo->velocity < -STANDSTILL;
 }
 
-/* The steps that are due, with the built-in body. */
+/* Makes the steps that are due, with the built-in body. */
 static void turn_alone(servo_t *servo, uint64_t now_cycles)
 {
     while (now_cycles >= servo->step_cycles + SERVO_STEP_CYCLES) {
@@ -215,7 +215,7 @@ uint8_t servo_check_write(const servo_t *servo, uint8_t address, const uint8_t *
     if (count == 0 || address + count > SERVO_TABLE_BYTES) {
         return SERVO_ERR_RANGE;
     }
-    uint8_t after[SERVO_TABLE_BYTES]; /* a value of two bytes is judged whole, also when only half of it is written */
+    uint8_t after[SERVO_TABLE_BYTES]; /* a two-byte value is checked as a whole, even if only half of it is written */
     memcpy(after, servo->table, sizeof after);
     memcpy(after + address, data, count);
     uint8_t errors = 0;
@@ -249,7 +249,7 @@ uint8_t servo_write(servo_t *servo, uint8_t address, const uint8_t *data, uint8_
         servo->overloaded = servo->shutdown = false;
         servo->stalled_steps = 0;
     }
-    /* A goal switches the torque on, as on the real servo: a limp joint must not be sent goals. */
+    /* A goal switches the torque on, as on the real servo. So a limp joint must not receive goals. */
     if (address <= SERVO_GOAL + 1 && last >= SERVO_GOAL && !servo->shutdown) {
         servo->table[SERVO_TORQUE_ENABLE] = 1;
     }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * servo.h - one virtual Dynamixel servo: control table, what writing a register does, alarms, power.
- * Knows no wire and no packet framing (servo_protocol.h) and no simavr. Time is counted in controller cycles
- * (16 MHz). Position moves lazily: servo_advance() brings the servo up to a moment, in fixed steps of 1/1024 s on the
- * absolute time axis, so the result does not depend on how often anyone looks. Where all servos move one body
- * (servo_body.h), the bus makes these steps instead, for all of them together.
- * Facts: DYNAMIXEL.md; start values and ranges are those of the public AX-12 manual. */
+ * servo.h - one virtual Dynamixel servo: control table, effects of register writes, alarms, power.
+ * Knows no wire, no packet framing (servo_protocol.h) and no simavr. Time is counted in controller cycles (16 MHz).
+ * The position is updated lazily: servo_advance() computes fixed steps of 1/1024 s on the absolute time axis, so the
+ * result does not depend on how often it is called. If all servos move one body (servo_body.h), the bus makes these
+ * steps for all of them together.
+ * Facts: DYNAMIXEL.md; start values and ranges come from the public AX-12 manual. */
 #ifndef SIM_SERVO_H
 #define SIM_SERVO_H
 
@@ -16,8 +16,8 @@
 #define SERVO_CYCLES_PER_US 16u
 #define SERVO_CYCLES_PER_MS 16000u
 #define SERVO_TABLE_BYTES 50
-#define SERVO_EEPROM_BYTES 24 /* addresses 0..23 are kept without power */
-#define SERVO_PACKET_MAX 143  /* AX-12 receive buffer: a longer instruction packet is lost */
+#define SERVO_EEPROM_BYTES 24 /* addresses 0..23 survive power-off */
+#define SERVO_PACKET_MAX 143  /* AX-12 receive buffer; a longer instruction packet is lost */
 #define SERVO_BROADCAST 254
 
 typedef enum { SERVO_AX12, SERVO_DX117, SERVO_AX18 } servo_model_t;
@@ -46,7 +46,7 @@ typedef struct {
     uint64_t last_end_cycles; /* end of the newest byte's stop bit */
 } servo_parser_t;
 
-/* What is being said by this servo: count bytes back to back from start_cycles on. */
+/* What this servo is sending: count bytes back to back from start_cycles on. */
 typedef struct {
     uint64_t start_cycles, byte_cycles;
     uint32_t rate_bps;
@@ -54,7 +54,7 @@ typedef struct {
     uint8_t bytes[SERVO_PACKET_MAX + 8];
 } servo_talk_t;
 
-/* Noise and mishaps noticed by this servo; counters never fall, but for servo_init(). */
+/* Noise and errors seen by this servo. Only servo_init() resets the counters. */
 typedef struct {
     uint32_t packets, answers, checksum_errors, framing_errors, gaps, oversize, deaf;
 } servo_stats_t;
@@ -63,20 +63,20 @@ typedef struct servo {
     servo_model_t model;
     bool powered;
     bool shutdown; /* an alarm has cut the torque; ends when torque limit and torque enable are written again */
-    bool held;     /* something blocks the horn: it cannot move */
+    bool held;     /* the horn is blocked and cannot move */
     uint8_t table[SERVO_TABLE_BYTES];
     uint8_t alarms;   /* live and latched SERVO_ERR_VOLTAGE | ANGLE | HEAT | OVERLOAD */
     bool overloaded;  /* latched until the torque limit is written or power is lost */
-    uint16_t skew_us; /* extra answer delay: how far this one's clock is off */
+    uint16_t skew_us; /* extra reply delay: clock error of this servo */
 
     /* Physics (servo_motion.h). Positions in servo units, 1024 = 300 degrees. */
     bool in_body;                /* a body turns the shaft, not servo_advance() */
     double position, velocity;   /* units, units per second */
     double output;               /* duty of the motor -1..1, positive towards larger positions */
-    double motor_nm;             /* its torque in the last step */
-    double governor;             /* duty that the moving speed leaves, 0..1 */
-    double held_at;              /* position in which it was blocked */
-    double outside_load;         /* -1..1 of stall torque at 12 V, what gravity or a hand does */
+    double motor_nm;             /* motor torque in the last step */
+    double governor;             /* upper limit of the duty for the moving speed, 0..1 */
+    double held_at;              /* position at which it was blocked */
+    double outside_load;         /* -1..1 of the stall torque at 12 V, from gravity or a hand */
     double temperature_c, ambient_c;
     double supply_v;
     uint32_t stalled_steps;
@@ -85,10 +85,11 @@ typedef struct servo {
     /* A registered write (REG WRITE). */
     uint8_t registered_address, registered_count, registered[SERVO_PACKET_MAX];
 
-    /* Faults (servo_fault.h): left[k] answers still to spoil, 0 = fault off, UINT32_MAX = until cleared. */
+    /* Faults (servo_fault.h): fault_left[k] is the number of replies still to spoil; 0: off, UINT32_MAX: until
+     * cleared. */
     uint32_t fault_left[16];
     uint32_t noise_state; /* pseudo-random generator of noise bytes, never 0 */
-    uint32_t late_us;     /* how late a late answer is */
+    uint32_t late_us;     /* delay of a late reply */
     double fault_v, fault_c; /* forced supply and temperature; 0 = none */
 
     servo_parser_t parser;
@@ -96,21 +97,21 @@ typedef struct servo {
     servo_stats_t stats;
 } servo_t;
 
-/* A new servo as shipped, but for ID and rate; it stands at 512 without power. rate_bps must be 2,000,000 / (n + 1),
- * n = 0..254 (rounded); it ends up in address 4. */
+/* Makes a new servo with factory values except ID and rate, at position 512, without power. rate_bps must be 2,000,000
+ * / (n + 1), rounded, n = 0..254; n is stored at address 4. */
 void servo_init(servo_t *servo, uint8_t id, servo_model_t model, uint32_t rate_bps);
 
-/* Switches the supply. RAM addresses take their start values at switching on, and torque is off; the horn keeps its
- * place. Switching to the state it already has does nothing. */
+/* Switches the supply. Power-on sets the RAM addresses to their start values, with torque off. The horn keeps its
+ * position. Does nothing if the supply already has this state. */
 void servo_power(servo_t *servo, uint64_t now_cycles, bool on);
 
-/* The RESET instruction: EEPROM as shipped (ID 1, factory rate), RAM from it. */
+/* The RESET instruction: sets EEPROM to factory values (ID 1, factory rate) and RAM from it. */
 void servo_factory_reset(servo_t *servo);
 
-/* Brings position, temperature, alarms and the read-only registers up to now. Time never runs backwards. */
+/* Updates position, temperature, alarms and the read-only registers to now. Time never runs backwards. */
 void servo_advance(servo_t *servo, uint64_t now_cycles);
 
-/* One register of one or two bytes, as of the last servo_advance(). */
+/* Reads a register of one or two bytes, as of the last servo_advance(). */
 static inline uint16_t servo_table_get(const uint8_t *table, uint8_t address, uint8_t bytes)
 {
     return (uint16_t)(table[address] | (bytes == 2 ? table[address + 1] << 8 : 0));
@@ -121,19 +122,19 @@ static inline uint16_t servo_get(const servo_t *servo, uint8_t address, uint8_t 
     return servo_table_get(servo->table, address, bytes);
 }
 
-/* Writes registers as a packet would (call servo_advance() first). Returns error bits:
- * SERVO_ERR_RANGE : outside the table, read-only, locked or a value out of its range; nothing was written
- * SERVO_ERR_ANGLE : the goal lies outside the angle limits; it was written, motion ends at the limit */
+/* Writes registers as a packet would. Call servo_advance() first. Returns error bits:
+ * SERVO_ERR_RANGE : outside the table, read-only, locked, or a value out of range; nothing was written
+ * SERVO_ERR_ANGLE : the goal is outside the angle limits; it was written, motion ends at the limit */
 uint8_t servo_write(servo_t *servo, uint8_t address, const uint8_t *data, uint8_t count);
 
-/* The same checks, and nothing is written. */
+/* Makes the same checks without writing. */
 uint8_t servo_check_write(const servo_t *servo, uint8_t address, const uint8_t *data, uint8_t count);
 
-/* Rate of address 4, bits per second. */
+/* Rate set at address 4, bits per second. */
 uint32_t servo_rate_bps(const servo_t *servo);
 
-/* A hand turns the horn (servo units, clamped to 0..1023). With torque on the servo pulls back. Does nothing in a body:
- * there a hand pushes (outside_load). */
+/* Turns the horn by hand (servo units, clamped to 0..1023). With torque on, the servo pulls back. Does nothing in a
+ * body, where a hand pushes instead (outside_load). */
 void servo_push_to(servo_t *servo, uint64_t now_cycles, double position);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * servo_bus.c - time on the bus: bytes pass, servos hear and answer, the body is stepped. */
+ * servo_bus.c - time on the bus: bytes pass, servos receive and reply, the body is stepped. */
 #include "servo_bus.h"
 
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "servo_protocol.h"
 #include "servo_wire.h"
 
-#define PROCESS_US 16u /* the least time between a packet and its answer, also with return delay 0 */
+#define PROCESS_US 16u /* least time between a packet and its reply, even with return delay 0 */
 
 /* ---- answering ---- */
 
@@ -20,7 +20,7 @@ static void say(servo_talk_t *talk, uint64_t start_cycles, uint32_t rate_bps)
     talk->sent = 0;
 }
 
-/* Puts a status packet on its way, spoiled by whatever faults are on. */
+/* Schedules a status packet, spoiled by the active faults. */
 static void answer(servo_t *servo, uint64_t now_cycles, const uint8_t *packet, uint8_t count, uint32_t rate_bps,
                    uint32_t delay_us)
 {
@@ -49,7 +49,7 @@ static void answer(servo_t *servo, uint64_t now_cycles, const uint8_t *packet, u
     servo->stats.answers++;
 }
 
-/* The "two talkers" fault: a question to somebody else is answered with our own ID and no error. */
+/* The "two talkers" fault: replies to a request for another servo, with its own ID and no error. */
 static void talk_over(servo_t *servo, uint64_t now_cycles, const uint8_t *packet)
 {
     const bool question = packet[2] != SERVO_BROADCAST && (packet[4] == SERVO_PING || packet[4] == SERVO_READ);
@@ -92,14 +92,14 @@ static void take_packet(servo_t *servo, uint64_t now_cycles)
 
 /* ---- hearing ---- */
 
-/* A UART still reads a byte right when the rates differ by less than half a bit in ten: 4 % is safe. */
+/* A UART still reads a byte correctly if the rates differ by less than half a bit in ten. 4 % is safe. */
 static bool rates_match(uint32_t a, uint32_t b)
 {
     const uint32_t difference = a > b ? a - b : b - a;
     return (uint64_t)difference * 100 <= (uint64_t)b * 4;
 }
 
-/* The plain case stands first, because the division costs a tenth of all simulated time. */
+/* The common case comes first: the division would cost a tenth of all simulated time. */
 static bool hears_rate(const servo_t *servo, uint32_t rate_bps)
 {
     return (rate_bps == 1000000u && servo->table[SERVO_BAUD] == 1) || rates_match(rate_bps, servo_rate_bps(servo));
@@ -134,7 +134,8 @@ static void hear_all(servo_bus_t *bus, const servo_talk_t *talker, uint64_t star
     }
 }
 
-/* One byte of a servo or of the noise has passed. Of talkers at once the one who began first is heard, spoiled. */
+/* A byte of a servo or of the noise has passed. Of simultaneous senders, only the first to begin is received,
+ * spoiled. */
 static void pass_byte(servo_bus_t *bus, servo_talk_t *talk)
 {
     const uint64_t end = servo_wire_byte_end(talk), start = end - talk->byte_cycles;
@@ -276,7 +277,7 @@ static bool is_quiet(const servo_talk_t *talk, uint64_t since_cycles)
     return talk->count == 0 || servo_wire_talk_end(talk) <= since_cycles;
 }
 
-/* Whether everybody hears the packet whole, as the first thing since the last one. */
+/* Whether every servo receives the packet whole, with no other byte since the last one. */
 static bool is_plain(const servo_bus_t *bus, uint64_t start, const uint8_t *packet, uint8_t count, uint32_t rate_bps)
 {
     bool plain = count >= 6 && count <= SERVO_PACKET_MAX && packet[0] == 0xFF && packet[1] == 0xFF && packet[2] != 0xFF &&

@@ -5,8 +5,8 @@
 
 #define WHEEL_UNITS (360.0 * 1024 / 300) /* one turn */
 #define CENTRE 512.0
-#define GOVERNOR_PER_S 20.0              /* how fast the moving speed gives duty: settles in 0.1 s */
-#define HOLD_NM_PER_RADIAN 100.0         /* a blocked horn in a physical body: 1 N m bends it by 0.6 degrees */
+#define GOVERNOR_PER_S 20.0              /* gain of the speed governor: settles in 0.1 s */
+#define HOLD_NM_PER_RADIAN 100.0         /* a blocked horn in a physical body; 1 N m bends it by 0.6 degrees */
 #define HOLD_NM_S 0.5
 
 static const servo_motor_t motors[] = {
@@ -36,7 +36,7 @@ static double top_speed(const servo_t *servo)
     return servo_motor_top_speed(motor_of(servo), volts_of(servo)) * SERVO_UNITS_PER_RADIAN;
 }
 
-/* The moving speed in units per second; as fast as it can: INFINITY. */
+/* The moving speed in units per second; INFINITY: no limit. */
 static double moving_speed(const servo_t *servo)
 {
     const uint16_t units = servo_get(servo, SERVO_SPEED, 2) & 1023;
@@ -58,7 +58,7 @@ static bool has_torque(const servo_t *servo)
     return servo->powered && servo->table[SERVO_TORQUE_ENABLE] && servo_get(servo, SERVO_TORQUE_LIMIT, 2) > 0;
 }
 
-/* Duty -1..1 that the compliance curve (servo_motion.h) asks for. */
+/* Duty -1..1 from the compliance curve (servo_motion.h). */
 static double wanted_duty(const servo_t *servo)
 {
     if (!has_torque(servo)) {
@@ -81,8 +81,8 @@ static double wanted_duty(const servo_t *servo)
     return up ? duty : -duty;
 }
 
-/* Bounds the duty so that the shaft turns at the moving speed at most: begins with what turns the unloaded shaft that fast,
- * then follows the load. */
+/* Limits the duty so that the shaft does not exceed the moving speed. Starts with the duty that turns the unloaded
+ * shaft that fast, then follows the load. */
 static double governed(servo_t *servo, double duty)
 {
     const double top = top_speed(servo), limit = moving_speed(servo);
@@ -101,7 +101,7 @@ double servo_motion_torque(servo_t *servo)
 {
     const double speed = servo->velocity / SERVO_UNITS_PER_RADIAN;
     servo->output = governed(servo, wanted_duty(servo));
-    /* Without torque the bridge is open and the motor neither drives nor brakes. */
+    /* Without torque the bridge is open: the motor neither drives nor brakes. */
     servo->motor_nm = has_torque(servo) ? servo_motor_torque(motor_of(servo), servo->output, volts_of(servo), speed) : 0;
     const double outside = servo->outside_load * motor_of(servo)->stall_nm;
     if (!servo->held) {
@@ -137,7 +137,7 @@ void servo_motion_turned(servo_t *servo, double angle_rad, double speed_rad_s)
     shaft_turned(servo);
 }
 
-/* Speed after a step of this torque; the gears' friction takes from it, but never turns it round. */
+/* Speed after a step with this torque. Friction in the gears reduces it, but never reverses it. */
 static double speed_after(const servo_t *servo, double torque_nm)
 {
     const double free = servo->velocity + torque_nm / SERVO_ROTOR_KGM2 * SERVO_STEP_S * SERVO_UNITS_PER_RADIAN;

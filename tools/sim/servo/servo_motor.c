@@ -5,13 +5,13 @@
 
 #define RAD_S_PER_RPM (2 * 3.14159265358979323846 / 60)
 
-/* What the motor itself gives at a standstill and 12 V: the gears take their part before the shaft. */
+/* Torque of the motor itself at a standstill and 12 V, before the gears take their part. */
 static double own_stall(const servo_motor_t *motor)
 {
     return motor->stall_nm + SERVO_SHEET_FRICTION_NM;
 }
 
-/* B above, N m s: at no load the motor gives just what the gears take. */
+/* B above, N m s. Without load, the motor gives exactly what the gears take. */
 static double drop(const servo_motor_t *motor)
 {
     return motor->stall_nm / (motor->no_load_rpm * RAD_S_PER_RPM);
@@ -34,7 +34,7 @@ double servo_motor_current(const servo_motor_t *motor, double torque_nm)
 
 double servo_motor_heat(const servo_motor_t *motor, double torque_nm, double celsius, double ambient_c, double seconds)
 {
-    const double part = servo_motor_current(motor, torque_nm) / motor->stall_a; /* heat goes with its square */
+    const double part = servo_motor_current(motor, torque_nm) / motor->stall_a; /* heat is proportional to its square */
     const double final = ambient_c + SERVO_HEAT_RISE_C * part * part;
     return final + (celsius - final) * exp(-seconds / SERVO_HEAT_TAU_S);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * servo_mujoco.h - a MuJoCo model as the servos' body. Knows no header of MuJoCo: whoever loaded the model (Python) gives
- * the address of mj_step and of the arrays, and keeps them alive. The model's time step must be 1/1024 s. */
+ * servo_mujoco.h - a MuJoCo model as the servos' body. Needs no MuJoCo header: the owner of the model (Python) passes
+ * the addresses of mj_step and the arrays, and keeps them alive. The model's time step must be 1/1024 s. */
 #ifndef SIM_SERVO_MUJOCO_H
 #define SIM_SERVO_MUJOCO_H
 
@@ -8,10 +8,10 @@
 
 /* One joint with a servo. */
 typedef struct {
-    double *angle, *speed, *torque; /* its places in qpos, qvel and ctrl */
+    double *angle, *speed, *torque; /* places in qpos, qvel and ctrl */
     double direction;               /* +1 or -1: shaft = direction * joint */
-    double offset_rad;              /* the joint's angle at shaft angle 0: how the servo's zero is off */
-    int32_t id;                     /* of the servo that moves it */
+    double offset_rad;              /* the joint's angle at shaft angle 0: zero error of the servo */
+    int32_t id;                     /* ID of the servo that moves it */
 } servo_mujoco_joint_t;
 
 typedef struct {
@@ -22,7 +22,7 @@ typedef struct {
     int32_t count;
 } servo_mujoco_t;
 
-/* The seam. A servo without a joint turns freely: it stays where it is. A joint without a servo is limp. */
+/* Returns the interface to the body. A servo without a joint stays where it is. A joint without a servo is limp. */
 servo_body_t servo_mujoco_body(servo_mujoco_t *body);
 
 #endif

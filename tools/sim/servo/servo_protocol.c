@@ -3,13 +3,13 @@
 
 #include <string.h>
 
-/* Places in a packet: FF FF ID LEN INST params... SUM. */
+/* Offsets in a packet: FF FF ID LEN INST params... SUM. */
 enum { AT_ID = 2, AT_LENGTH = 3, AT_INSTRUCTION = 4, AT_PARAMS = 5, FRAME_BYTES = 4, STATUS_BYTES = 6 };
 
-/* What happened to one packet. */
+/* Result of one packet. */
 typedef struct {
     uint8_t errors;
-    bool answers; /* this instruction is answered at all */
+    bool answers; /* this instruction has a reply */
     uint8_t first, count; /* READ: part of the table to send */
 } outcome_t;
 
@@ -47,7 +47,7 @@ bool servo_parser_byte(servo_parser_t *parser, servo_stats_t *stats, uint64_t st
         return false;
     }
     if (parser->count == AT_ID && byte == 0xFF) {
-        return false; /* one more FF before the ID */
+        return false; /* an extra FF before the ID */
     }
     parser->bytes[parser->count++] = byte;
     if (parser->count == AT_LENGTH + 1 && (byte < 2 || byte + FRAME_BYTES > SERVO_PACKET_MAX)) {
@@ -97,7 +97,7 @@ static void obey_action(servo_t *servo, outcome_t *outcome)
     servo->registered_count = 0;
 }
 
-/* ADDR L (ID data[L])...: the servo takes what stands behind its own ID. */
+/* ADDR L (ID data[L])...: the servo takes the data after its own ID. */
 static void obey_sync_write(servo_t *servo, const uint8_t *params, uint8_t count)
 {
     if (servo->model == SERVO_DX117 || count < 4) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * servo_set.c - the servos that are plugged in: their number, their supply, their faults. */
+ * servo_set.c - the servos on the bus: adding, supply, faults. */
 #include "servo_bus.h"
 
 #include <stdlib.h>
@@ -96,7 +96,7 @@ static void set_fault(servo_bus_t *bus, servo_t *servo, servo_fault_t fault, uin
     servo_advance(servo, bus->now_cycles);
 }
 
-/* The twin of a duplicate ID stays plugged in; without the fault it is dead. */
+/* The twin of a duplicate ID stays on the bus; without the fault it is dead. */
 static void set_twin(servo_bus_t *bus, const servo_t *servo, bool on)
 {
     const uint8_t id = servo->table[SERVO_ID];

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * servo_wire.c - the level of the wire: the AND of all talkers, and what a receiver samples of it. */
+ * servo_wire.c - the level of the wire (the AND of all senders), and what a receiver samples. */
 #include "servo_wire.h"
 
-/* Level that one talker puts on the wire. */
+/* Level that one sender puts on the wire. */
 static unsigned level_of(const servo_talk_t *talk, uint64_t at_cycles)
 {
     if (talk->count == 0 || at_cycles < talk->start_cycles || at_cycles >= servo_wire_talk_end(talk)) {
@@ -31,7 +31,7 @@ static bool overlaps(const servo_talk_t *talk, uint64_t start_cycles, uint64_t e
 bool servo_wire_is_shared(const servo_bus_t *bus, const servo_talk_t *self, uint64_t start, uint64_t end, bool *first)
 {
     bool shared = self != &bus->host && overlaps(&bus->host, start, end);
-    bool self_seen = false; /* of those who began at the same time the first in this order counts */
+    bool self_seen = false; /* of senders that began together, the first in this order wins */
     *first = true;
     for (int i = -1; i < bus->count; i++) {
         const servo_talk_t *talk = i < 0 ? &bus->noise : &bus->servos[i]->talk;

@@ -10,7 +10,7 @@
 #include "power.h"
 #include "reset.h"
 
-/* In the order of their needs. false: no memory. */
+/* In the order of dependency. false: out of memory. */
 static bool init_parts(board_t *board, board_kind_t kind, uint32_t seed)
 {
     machine_t *machine = &board->cpu.machine;
@@ -104,7 +104,7 @@ board_stop_t board_run(board_t *board, uint64_t cycles)
         return BOARD_STOP_VIOLATION;
     }
     board->cpu.machine.stopped = false;
-    bus_wire_follow(&board->wire); /* somebody may have put something on the bus meanwhile */
+    bus_wire_follow(&board->wire); /* a caller may have put something on the bus since the last run */
     event_at(&board->cpu.machine.events, EVENT_LIMIT, board->cpu.machine.avr->cycle + cycles);
     cpu_run(&board->cpu);
     event_at(&board->cpu.machine.events, EVENT_LIMIT, NEVER);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * board_struct.h - the board with all its parts. Only the files of this folder see it. */
+ * board_struct.h - the board with all its parts. Private to this folder. */
 #ifndef SIM_BOARD_STRUCT_H
 #define SIM_BOARD_STRUCT_H
 
@@ -30,7 +30,7 @@ struct board {
     trace_t trace;
     bool bootrst;
     char error[256];
-    avr_io_t io; /* how simavr's core asks us about SPM and WDR */
+    avr_io_t io; /* through it simavr's core passes on SPM and WDR */
     /* reset.c */
     uint8_t mcucsr;
     uint32_t resets;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * power.h - the supply, and cuts of it. */
+ * power.h - the supply and its cuts. */
 #ifndef SIM_POWER_H
 #define SIM_POWER_H
 

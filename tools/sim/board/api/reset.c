@@ -14,7 +14,7 @@ static void watchdog_bites(void *context, uint64_t now)
     }
 }
 
-/* The cause flags are cleared by writing zeros. */
+/* Writing zeros clears the cause flags. */
 static void write_mcucsr(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param)
 {
     board_t *board = param;

@@ -3,7 +3,7 @@
 
 #include <gelf.h>
 
-#define FLASH_LIMIT 0x800000u /* the linker puts the data space, EEPROM, fuses and lock bits above */
+#define FLASH_LIMIT 0x800000u /* the linker puts the data space, EEPROM, fuses and lock bits at or above this address */
 
 static image_status_t take_segment(Elf *elf, const GElf_Phdr *segment, image_t *image)
 {

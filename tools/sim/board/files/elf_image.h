@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * elf_image.h - the loadable segments of an AVR ELF file into an image, at their load (flash) addresses. RAM-only and
- * EEPROM, fuse and lock segments are left out. */
+ * elf_image.h - reads the loadable segments of an AVR ELF file into an image, at their load (flash) addresses. Leaves
+ * out RAM-only, EEPROM, fuse and lock segments. */
 #ifndef SIM_ELF_IMAGE_H
 #define SIM_ELF_IMAGE_H
 

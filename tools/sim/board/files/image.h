@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * image.h - the contents of a flash image, as the readers of its files fill it. */
+ * image.h - the contents of a flash image, filled by the file readers. */
 #ifndef SIM_IMAGE_H
 #define SIM_IMAGE_H
 
@@ -13,19 +13,19 @@ typedef enum {
     IMAGE_SYNTAX,   /* HEX: not hex, wrong length, unknown record; ELF: not for the AVR */
     IMAGE_CHECKSUM, /* of a HEX record */
     IMAGE_RANGE,    /* outside 0..size-1 */
-    IMAGE_NO_END    /* HEX without an end record: the file is cut off */
+    IMAGE_NO_END    /* HEX without an end record: truncated file */
 } image_status_t;
 
-/* Where the bytes go: used[] tells which ones the file gives. Both have size places. */
+/* Destination of the bytes: used[] marks those that the file contains. Both arrays have size elements. */
 typedef struct {
     uint8_t *bytes;
     bool *used;
     size_t size;
 } image_t;
 
-const char *image_text(image_status_t status); /* behind the name of the file */
+const char *image_text(image_status_t status); /* to print after the file name */
 
-/* Puts count bytes at address. false: outside. */
+/* Puts count bytes at address. false: out of range. */
 bool image_put(image_t *image, uint32_t address, const uint8_t *data, size_t count);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "image.h"
 
-/* Reads path by its name: *.hex, *.elf, or binary to address. used[] is cleared first. */
+/* Reads path; the suffix selects *.hex, *.elf, or binary at address. Clears used[] first. */
 image_status_t image_file_read(const char *path, uint32_t address, image_t *image);
 
 #endif

@@ -12,7 +12,7 @@ static int digit(char c)
     return c >= '0' && c <= '9' ? c - '0' : c >= 'A' && c <= 'F' ? c - 'A' + 10 : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-/* The bytes of one line behind the colon; -1 if it is not hex. */
+/* Decodes the rest of a line after the colon. Returns the number of bytes, -1 if it is not hex. */
 static int decode(const char *line, uint8_t record[RECORD_MAX])
 {
     int count = 0;
@@ -36,7 +36,7 @@ static image_status_t take(reader_t *reader, const uint8_t *record, int count)
         return IMAGE_CHECKSUM;
     }
     uint32_t offset = (uint32_t)(record[1] << 8 | record[2]);
-    uint32_t value = (uint32_t)(record[4] << 8 | record[5]); /* of the address records */
+    uint32_t value = (uint32_t)(record[4] << 8 | record[5]); /* in address records */
     switch (record[3]) {
     case 0:
         return image_put(reader->image, reader->base + offset, record + 4, record[0]) ? IMAGE_OK : IMAGE_RANGE;
@@ -51,7 +51,7 @@ static image_status_t take(reader_t *reader, const uint8_t *record, int count)
         return IMAGE_OK;
     case 3:
     case 5:
-        return IMAGE_OK; /* start address: of no use here */
+        return IMAGE_OK; /* start address: not needed */
     default:
         return IMAGE_SYNTAX;
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * intel_hex.h - Intel HEX into an image: checksums, ranges and record types are checked. */
+ * intel_hex.h - reads Intel HEX into an image, and checks checksums, ranges and record types. */
 #ifndef SIM_INTEL_HEX_H
 #define SIM_INTEL_HEX_H
 

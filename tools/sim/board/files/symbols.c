@@ -46,7 +46,7 @@ static void add(symbols_t *symbols, symbol_t symbol)
     }
 }
 
-/* Newer assemblers leave theirs in the file: .L4, .Loc.3, L0 with a control character. */
+/* Newer assemblers keep local labels in the file: .L4, .Loc.3, L0 with a control character. */
 static bool is_local_label(const char *name) { return name[0] == '.' || strchr(name, '\001'); }
 
 static void take_symbol(symbols_t *symbols, const char *name, const GElf_Sym *raw, bool boot)
@@ -138,8 +138,8 @@ const symbol_t *symbols_find(const symbols_t *symbols, const char *name, bool fu
     return found;
 }
 
-/* The nearest one at or before the address: start-up code has labels without a size. Of several at one place the
- * one with a size (a function) is the better name. */
+/* Takes the nearest function at or before the address, because labels in start-up code have no size. Of several at one
+ * address, the one with a size (a function) is the better name. */
 const symbol_t *symbols_at(const symbols_t *symbols, uint32_t flash_address)
 {
     const symbol_t *found = NULL;

@@ -41,7 +41,7 @@ static bool refuse_opcode(machine_t *machine, uint32_t pc, uint16_t opcode)
     return true;
 }
 
-/* Everything about an instruction that has a note. true: it is done or must not be executed. */
+/* Handles an instruction that has a note. true: it is done, or must not be executed. */
 static bool before(cpu_t *cpu, uint32_t pc, unsigned note)
 {
     machine_t *machine = &cpu->machine;
@@ -56,7 +56,7 @@ static bool before(cpu_t *cpu, uint32_t pc, unsigned note)
         probe_leave(&cpu->probes, pc);
     }
     if ((note & NOTE_SWEEP) && sweep_enter(&cpu->sweeps, pc)) {
-        return true; /* once more: an interrupt may come first */
+        return true; /* loop again: an interrupt may come first */
     }
     if (note & NOTE_PROBE) {
         probe_enter(&cpu->probes, pc);
@@ -91,7 +91,7 @@ static void run_one(cpu_t *cpu)
     if ((note & NOTE_BEFORE) && before(cpu, pc, note)) {
         return;
     }
-    avr->run_cycle_count = 1; /* or avr_run_one() runs on by itself */
+    avr->run_cycle_count = 1; /* otherwise avr_run_one() goes on by itself */
     avr->pc = avr_run_one(avr);
     if (note & NOTE_STACK) {
         stack_moved(&cpu->stack, pc, opcode_is_push(avr->flash[pc + 1]));
@@ -104,7 +104,7 @@ static void run_one(cpu_t *cpu)
     }
 }
 
-/* simavr's own timers set flags in the data space; interrupt.c looks there, so simavr's queue is thrown away. */
+/* simavr's timers set flags in the data space, where interrupt.c reads them. So simavr's own queue is discarded. */
 static void run_timers(avr_t *avr)
 {
     avr_cycle_timer_process(avr);
@@ -130,7 +130,7 @@ static void skip_to(cpu_t *cpu, uint64_t limit)
     }
 }
 
-/* Stands still as long as GDB wants it to; only board_stop(), from another thread, ends that. */
+/* Blocks while GDB has stopped the chip. Only board_stop() from another thread ends that. */
 static void wait_for_gdb(const machine_t *machine)
 {
     avr_t *avr = machine->avr;
@@ -164,7 +164,7 @@ static void run_due_timers(cpu_t *cpu)
     }
 }
 
-/* Takes an interrupt, or skips to the next thing that can happen when no instruction is executed now. false: neither. */
+/* Takes an interrupt, or skips to the next event while the CPU executes nothing. false: neither. */
 static inline bool stands_still(cpu_t *cpu, bool is_due)
 {
     const machine_t *machine = &cpu->machine;
@@ -198,7 +198,7 @@ static inline void execute(cpu_t *cpu)
     }
 }
 
-/* Quick, for it is asked before most instructions: false means surely not. */
+/* A quick test, made before most instructions. false: certainly none. */
 static inline bool interrupt_is_due(const machine_t *machine)
 {
     const uint8_t *data = machine->avr->data;
@@ -207,8 +207,8 @@ static inline bool interrupt_is_due(const machine_t *machine)
             (data[M128_EIFR] & data[M128_EIMSK]) || (data[M128_ADCSRA] & ADCSRA_ADIE));
 }
 
-/* Runs instructions that only compute, up to one with a note or the next thing that can happen: nothing that cpu_run()
- * looks at changes meanwhile. Looking costs as much as executing. false: there is none. */
+/* Runs instructions that only compute, up to one with a note or the next event. Nothing that cpu_run() checks can
+ * change meanwhile, and checking costs as much as executing. false: there was none. */
 static bool run_plain(cpu_t *cpu)
 {
     machine_t *machine = &cpu->machine;
@@ -285,7 +285,7 @@ void cpu_stop_at(cpu_t *cpu, uint32_t flash_address)
     }
 }
 
-/* avr_reset() sets the clock to 0 and the stack pointer to the end of the SRAM; the chip does neither. */
+/* avr_reset() sets the clock to 0 and the stack pointer to the end of the SRAM. The chip does neither. */
 void cpu_reset(cpu_t *cpu, uint32_t pc)
 {
     machine_t *machine = &cpu->machine;

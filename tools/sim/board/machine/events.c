@@ -34,7 +34,7 @@ void event_at(events_t *events, event_t event, uint64_t when)
 
 void events_run(events_t *events, uint64_t now)
 {
-    while (events->next <= now) { /* also when one of them ended the run: time has passed for all */
+    while (events->next <= now) { /* even if one of them ended the run: the time has passed for all */
         uint64_t due = events->next;
         for (int i = 0; i < EVENT_COUNT; i++) {
             if (events->when[i] == due) {

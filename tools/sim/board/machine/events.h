@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * events.h - what happens at a moment of simulated time, one slot each. Events are handled between two instructions, in the
- * order of their time; simavr's own cycle timers do not survive avr_reset(). */
+ * events.h - events at a point of simulated time, one slot each. They are handled between two instructions, in the
+ * order of their time. simavr's own cycle timers do not survive avr_reset(). */
 #ifndef SIM_EVENTS_H
 #define SIM_EVENTS_H
 
@@ -8,7 +8,7 @@
 
 #define NEVER UINT64_MAX
 
-/* Ties are settled in this order: what arrives comes before what is sent, the end of the run last. */
+/* Order of simultaneous events: arrivals before transmissions, the end of the run last. */
 typedef enum {
     EVENT_POWER, EVENT_BUS, EVENT_CONSOLE, EVENT_UART0, EVENT_UART1, EVENT_SPM, EVENT_EEPROM, EVENT_WATCHDOG, EVENT_CHARGER,
     EVENT_TIMER1, EVENT_TIMER3, EVENT_LIMIT, EVENT_COUNT
@@ -24,8 +24,8 @@ typedef struct {
 void events_init(events_t *events); /* all NEVER */
 void events_handle(events_t *events, event_t event, event_fn run, void *context);
 
-/* when: a cycle, or NEVER. One that is due already is handled before the next instruction. */
+/* when: a cycle, or NEVER. An event that is already due is handled before the next instruction. */
 void event_at(events_t *events, event_t event, uint64_t when);
-void events_run(events_t *events, uint64_t now); /* everything that is due by now */
+void events_run(events_t *events, uint64_t now); /* handles everything that is due by now */
 
 #endif

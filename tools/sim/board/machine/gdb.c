@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * gdb.c - simavr's GDB server, reachable from this computer only.
- * simavr binds its listening socket to every interface and offers no choice. So it gets any free port (0), and a socket
- * of ours, bound to 127.0.0.1 and the port that was asked for, takes the place of that one under the same descriptor. */
+ * gdb.c - restricts simavr's GDB server to this computer. simavr binds its listening socket to every interface. So it
+ * gets any free port (0), and our socket, bound to 127.0.0.1 and the requested port, replaces it under the same
+ * descriptor. */
 
 #include "gdb.h"
 
@@ -15,7 +15,7 @@
 
 enum { FDS_MAX = 1024 };
 
-/* A socket that listens on 127.0.0.1:port, or -1. */
+/* Returns a socket that listens on 127.0.0.1:port, or -1. */
 static int listen_here(int port)
 {
     struct sockaddr_in address = {.sin_family = AF_INET, .sin_port = htons((uint16_t)port)};
@@ -40,7 +40,7 @@ static bool is_listening(int fd)
     return getsockopt(fd, SOL_SOCKET, SO_ACCEPTCONN, &listening, &size) == 0 && listening != 0;
 }
 
-/* The listening socket among the descriptors that were closed before, or -1. */
+/* Returns the listening socket among the descriptors that were not open before, or -1. */
 static int new_listener(const bool was_open[FDS_MAX])
 {
     for (int fd = 0; fd < FDS_MAX; fd++) {
@@ -51,7 +51,7 @@ static int new_listener(const bool was_open[FDS_MAX])
     return -1;
 }
 
-/* Starts simavr's server; the descriptor it listens on, or -1. */
+/* Starts simavr's server. Returns the descriptor it listens on, or -1. */
 static int start_server(avr_t *avr)
 {
     bool was_open[FDS_MAX];

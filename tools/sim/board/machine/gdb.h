@@ -6,7 +6,7 @@
 #include <simavr/sim_avr.h>
 #include <stdbool.h>
 
-/* On 127.0.0.1:port; the next run waits for it if wait is true. false: the port cannot be opened. */
+/* Serves on 127.0.0.1:port. If wait is true, the next run waits for GDB. false: the port cannot be opened. */
 bool gdb_start(avr_t *avr, int port, bool wait);
 
 #endif

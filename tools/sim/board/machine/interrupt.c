@@ -4,9 +4,9 @@
 #include <simavr/sim_core.h>
 #include <string.h>
 
-#define RESPONSE_CYCLES 4u /* push of the program counter; the JMP in the vector comes on top (data sheet: Interrupt
-                             Response Time) */
-#define WAKE_CYCLES 4u     /* more, out of sleep */
+#define RESPONSE_CYCLES 4u /* push of the program counter; the JMP in the vector is extra (data sheet: Interrupt
+                            * Response Time) */
+#define WAKE_CYCLES 4u     /* extra, out of sleep */
 
 /* Bits of ETIFR by vector. */
 static const uint8_t extended_mask[VECTOR_COUNT] = {
@@ -14,7 +14,7 @@ static const uint8_t extended_mask[VECTOR_COUNT] = {
     [VECTOR_T3_COMPB] = 0x08, [VECTOR_T3_COMPA] = 0x10, [VECTOR_T3_CAPT] = 0x20
 };
 
-/* Requests are levels, flag AND mask, as in the chip; simavr forgets an interrupt whose mask is set after its flag. */
+/* Requests are levels (flag AND mask), as in the chip. simavr loses an interrupt whose mask is set after its flag. */
 static uint64_t requests(const machine_t *machine)
 {
     static const uint8_t extended[6] = { VECTOR_T1_COMPC, VECTOR_T3_COMPC, VECTOR_T3_OVF, VECTOR_T3_COMPB,
@@ -36,7 +36,7 @@ static uint64_t requests(const machine_t *machine)
     return wanted;
 }
 
-/* Flags that the chip clears when it enters the vector. The others follow their cause. */
+/* Clears the flag that the chip clears on entry to the vector. The other flags follow their cause. */
 static void acknowledge(machine_t *machine, int vector)
 {
     uint8_t *data = machine->avr->data;

@@ -8,7 +8,7 @@
 
 #include "opcode.h"
 
-/* What libsimavr would print is told by violations, better. */
+/* Violations report more than the log of libsimavr. */
 static void no_log(struct avr_t *avr, const int level, const char *format, va_list arguments)
 {
     (void)avr;
@@ -17,8 +17,8 @@ static void no_log(struct avr_t *avr, const int level, const char *format, va_li
     (void)arguments;
 }
 
-/* simavr notices a store beyond the SRAM, and then does it: room for all that a 16-bit pointer reaches, and a word more,
- * keeps the rest of the process whole until the run has ended with VIOLATION_ADDRESS. */
+/* simavr detects a store beyond the SRAM, but executes it. Space for every address of a 16-bit pointer, and one more
+ * word, protects the process until the run has ended with VIOLATION_ADDRESS. */
 static bool widen_data_space(avr_t *avr)
 {
     uint8_t *data = realloc(avr->data, 0x10000u + 2u);
@@ -52,7 +52,7 @@ static void time_is_over(void *context, uint64_t now)
 bool machine_init(machine_t *machine, uint32_t seed)
 {
     machine->avr = make_chip();
-    machine->random = seed * 2654435761u + 1; /* never 0 for neighbours of 0; xorshift must not start there */
+    machine->random = seed * 2654435761u + 1; /* xorshift must not start at 0 */
     if (machine->random == 0) {
         machine->random = 1;
     }
@@ -97,7 +97,7 @@ void machine_io(machine_t *machine, uint16_t address, avr_io_read_t read, avr_io
     avr->io[io].w.param = param;
 }
 
-/* Cycles of the instructions that can write a register and can be part of a timed sequence: OUT 1, the others 2. */
+/* Cycles of the instructions that can write a register in a timed sequence: OUT 1, the others 2. */
 uint64_t machine_instruction_end(const machine_t *machine)
 {
     const uint8_t *at = &machine->avr->flash[machine->avr->pc];
@@ -121,7 +121,7 @@ static uint16_t word_at(const machine_t *machine, uint32_t word)
     return (uint16_t)(at[0] | at[1] << 8);
 }
 
-/* From the word before: its operand may have changed. */
+/* Begins at the word before, whose operand may have changed. */
 void machine_code_changed(machine_t *machine, uint32_t address, uint32_t count)
 {
     for (uint32_t word = address < 2 ? 0 : address / 2 - 1; word < (address + count + 1) / 2; word++) {

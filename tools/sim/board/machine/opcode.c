@@ -8,8 +8,8 @@
 enum { IO_PINE = 0x01, IO_UCSR0A = 0x0B, IO_PIND = 0x10, IO_EECR = 0x1C, IO_TCNT1L = 0x2C, IO_TCNT1H = 0x2D, IO_SPL = 0x3D,
        IO_SREG = 0x3F, UCSR1A = 0x9B };
 
-/* 0x9000-0x91FF loads, 0x9200-0x93FF stores: the low nibble says which. 4-7 are (E)LPM as loads, and the exchange
- * instructions of XMEGA as stores. */
+/* 0x9000-0x91FF are loads, 0x9200-0x93FF stores; the low nibble selects the kind. 4-7 are (E)LPM among the loads and
+ * the XMEGA exchange instructions among the stores. */
 static bool load_store_is_legal(uint16_t opcode)
 {
     unsigned nibble = opcode & 0xFu;
@@ -54,10 +54,10 @@ static bool moves_stack(uint16_t opcode)
            || (opcode & 0xF000u) == 0xD000u  /* RCALL */
            || (opcode & 0xFE0Eu) == 0x940Eu  /* CALL */
            || opcode == 0x9509              /* ICALL */
-           || (opcode & 0xFE0Fu) == 0xBE0Du; /* OUT SPL: the second half of setting the stack pointer */
+           || (opcode & 0xFE0Fu) == 0xBE0Du; /* OUT SPL: second half of setting the stack pointer */
 }
 
-/* Of the instructions that move the stack pointer only the OUT begins with 0xBx. */
+/* Of the instructions that move the stack pointer, only OUT begins with 0xB. */
 bool opcode_is_push(uint8_t high_byte) { return (high_byte & 0xF0u) != 0xB0u; }
 
 static bool reads_or_writes_flash(uint16_t opcode)
@@ -84,14 +84,15 @@ static bool jumps_back(uint16_t opcode)
            || (opcode & 0xF800u) == 0xC800u;  /* RJMP */
 }
 
-/* Reading has no effect, and the value changes with an event, or at a time that waits.c knows. */
+/* A read has no side effect, and the value changes only with an event or at a time that waits.c knows. */
 static bool is_harmless_io(unsigned io)
 {
     return io == IO_PINE || io == IO_UCSR0A || io == IO_PIND || io == IO_EECR || io == IO_TCNT1L || io == IO_TCNT1H ||
            (io >= IO_SPL && io <= IO_SREG);
 }
 
-/* Whether an instruction reads or writes what changes by itself or has effects: registers of devices, memory by pointer. */
+/* Whether an instruction accesses device registers or memory by pointer, that is, what changes by itself or has side
+ * effects. */
 static bool touches(uint16_t opcode, uint16_t operand)
 {
     if ((opcode & 0xF800u) == 0xB000u) { /* IN */
@@ -106,7 +107,7 @@ static bool touches(uint16_t opcode, uint16_t operand)
     if ((opcode & 0xFD00u) == 0x9900u) { /* SBIC, SBIS */
         return !is_harmless_io(opcode >> 3 & 0x1Fu);
     }
-    if ((opcode & 0xFC00u) == 0x9000u) { /* loads and stores, but for PUSH and POP */
+    if ((opcode & 0xFC00u) == 0x9000u) { /* loads and stores except PUSH and POP */
         return (opcode & 0xFu) != 0xFu;
     }
     return (opcode & 0xF800u) == 0xB800u                      /* OUT */

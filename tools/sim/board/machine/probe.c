@@ -14,7 +14,7 @@ void probe_enter(probes_t *probes, uint32_t pc)
         if (probes->entries[i].address != pc || probes->open == PROBE_CALLS || sp + 2u >= M128_RAM_END) {
             continue;
         }
-        uint32_t back = (uint32_t)(avr->data[sp + 1] << 8 | avr->data[sp + 2]) * 2; /* high byte on top */
+        uint32_t back = (uint32_t)(avr->data[sp + 1] << 8 | avr->data[sp + 2]) * 2; /* high byte first */
         probes->calls[probes->open].probe = i;
         probes->calls[probes->open].back = back;
         probes->calls[probes->open].sp = sp;
@@ -41,7 +41,7 @@ static void note_result(probe_t *result, uint64_t now, uint64_t total, uint64_t 
     }
 }
 
-/* A call is over when its return address is reached with the stack as it was before the call. */
+/* A call is over when its return address is reached with the stack as before the call. */
 void probe_leave(probes_t *probes, uint32_t pc)
 {
     const avr_t *avr = probes->machine->avr;
@@ -50,7 +50,7 @@ void probe_leave(probes_t *probes, uint32_t pc)
         probes->open--;
         uint64_t total = avr->cycle - probes->calls[probes->open].since;
         uint64_t interrupts = interrupt_cycles(probes->interrupts) - probes->calls[probes->open].interrupts;
-        bool inside = probes->interrupts->depth != 0; /* of an interrupt itself: nothing to take out */
+        bool inside = probes->interrupts->depth != 0; /* called inside an interrupt: nothing to subtract */
         note_result(&probes->entries[probes->calls[probes->open].probe].result, avr->cycle, total,
                     inside ? total : total - interrupts);
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * probe.h - the cycles of a function, from its first instruction to its return. */
+ * probe.h - measures the cycles of a function, from its first instruction to its return. */
 #ifndef SIM_PROBE_H
 #define SIM_PROBE_H
 
@@ -7,7 +7,7 @@
 #include "interrupt.h"
 
 #define PROBES 32
-#define PROBE_CALLS 32 /* calls of probed functions that may be open at once */
+#define PROBE_CALLS 32 /* open calls of probed functions */
 
 typedef struct {
     machine_t *machine;
@@ -21,7 +21,7 @@ void probe_reset(probes_t *probes);
 void probe_enter(probes_t *probes, uint32_t pc);
 void probe_leave(probes_t *probes, uint32_t pc);
 
-/* For board_probe() and its like; address UINT32_MAX: there is no such function. */
+/* For board_probe() and the like. address UINT32_MAX: no such function. */
 bool probe_add(probes_t *probes, const char *function, uint32_t address);
 const probe_t *probe_result(const probes_t *probes, const char *function);
 void probe_clear(probes_t *probes);

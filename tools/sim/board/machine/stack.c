@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "stack.h"
 
-/* The guard belongs to the image that set the stack pointer to the end of the SRAM last (its start-up code does):
- * a loader function called by the application goes on using the application's stack. */
+/* The guard belongs to the image that last set the stack pointer to the end of the SRAM, in its start-up code. A loader
+ * function called by the application continues on the application's stack. */
 static void set_up(stack_guard_t *stack, uint32_t pc)
 {
     uint32_t end = stack->machine->symbols.variables_end[pc >= M128_NRWW_START];
@@ -20,8 +20,8 @@ void stack_reset(stack_guard_t *stack)
     stack->limit = M128_RAM_START;
 }
 
-/* pushed: by a push, a call or an interrupt; else by an OUT to SPL. Start-up code and function prologues write SPH
- * first; of others, that write SPL first, the half set pointer is passed over here and a push looks again. */
+/* Start-up code and function prologues write SPH first. Other code may write SPL first: then a half set pointer is
+ * ignored here, and the next push checks again. */
 void stack_moved(stack_guard_t *stack, uint32_t pc, bool pushed)
 {
     uint16_t sp = stack_pointer(stack->machine->avr);

@@ -13,14 +13,15 @@ typedef struct {
 
 void stack_reset(stack_guard_t *stack);
 
-/* The stack pointer has changed: pushed by a push, a call or an interrupt; else by an OUT to SPL. pc: who did it. */
+/* Called after a change of the stack pointer. pushed: by a push, a call or an interrupt; otherwise by an OUT to SPL.
+ * pc: address of the instruction. */
 void stack_moved(stack_guard_t *stack, uint32_t pc, bool pushed);
 
 /* For board_stack_low() and board_stack_headroom(). */
 uint32_t stack_low(const stack_guard_t *stack);
 uint32_t stack_headroom(const stack_guard_t *stack);
 
-/* Where the chip's stack pointer points to now. */
+/* Current stack pointer of the chip. */
 uint16_t stack_pointer(const avr_t *avr);
 
 #endif

@@ -17,7 +17,7 @@ bool sweep_enter(sweeps_t *sweeps, uint32_t pc)
             sweeps->is_raised = false;
             sweeps->depth = sweeps->interrupts->depth;
             sweeps->sp = sp;
-            sweeps->back = (uint32_t)(avr->data[sp + 1] << 8 | avr->data[sp + 2]) * 2; /* high byte on top */
+            sweeps->back = (uint32_t)(avr->data[sp + 1] << 8 | avr->data[sp + 2]) * 2; /* high byte first */
             sweeps->passed = 0;
             return true;
         }
@@ -25,7 +25,7 @@ bool sweep_enter(sweeps_t *sweeps, uint32_t pc)
     return false;
 }
 
-/* The next call is interrupted one place further; behind the last one, the next begins again. */
+/* The next call is interrupted one place further on. After the last place, a new round begins. */
 static void close_call(sweeps_t *sweeps)
 {
     const sweep_entry_t *entry = &sweeps->entries[sweeps->current];

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * A firmware that waits goes round in a loop, and one round is like the other until something happens. When a jump back
- * finds registers, flags, stack and SRAM as the one before it did, and the round in between has looked at nothing else but
- * the count of timer 1, the buttons, and the state of UARTs, flash and EEPROM, the rounds up to the next event or count
- * would be the same: their cycles are added. The run stays the same to the cycle (tests/sim/test_board_waits.py). */
+ * Waiting firmware runs in a loop whose rounds are identical until something happens. waits_passed() compares the state
+ * at successive jumps back. If registers, flags, stack and SRAM are the same, and the round in between read nothing but
+ * the count of timer 1, the buttons, and the state of UARTs, flash and EEPROM, then all rounds up to the next event or
+ * count are the same. Their cycles are added without execution. The run stays the same to the cycle
+ * (tests/sim/test_board_waits.py). */
 #include "waits.h"
 
 #include <string.h>
@@ -17,7 +18,7 @@ void waits_skip(waits_t *waits, bool on)
 
 void waits_disturbed(waits_t *waits) { waits->touched = true; }
 
-/* The first cycle behind `from` at which a round can find something changed: an event, one of simavr's timers, a count. */
+/* The first cycle after `from` at which a round can see a change: an event, a simavr timer, a count. */
 static uint64_t next_change(const machine_t *machine, uint64_t from)
 {
     const avr_t *avr = machine->avr;
@@ -33,7 +34,7 @@ static uint64_t next_change(const machine_t *machine, uint64_t from)
     return machine->unsettled_until >= from ? from : next;
 }
 
-/* A watchdog that the loop feeds has to be fed once more before its time. */
+/* A loop that feeds the watchdog must feed it once more in time. */
 static void skip(const waits_t *waits)
 {
     machine_t *machine = waits->machine;
@@ -53,7 +54,7 @@ static void note_state(const avr_t *avr, uint8_t state[WAITS_STATE_BYTES])
     state[45] = avr->data[M128_SPH];
 }
 
-/* Whether the SRAM is as it was at the last jump back; then takes it as it is now. */
+/* Whether the SRAM is as at the last jump back. Then stores its present contents. */
 static bool ram_is_same(waits_t *waits)
 {
     const uint8_t *ram = waits->machine->avr->data + M128_RAM_START;

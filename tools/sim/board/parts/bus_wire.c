@@ -65,7 +65,7 @@ static void sent(void *line, uint64_t now, uint8_t byte, uint32_t rate_bps)
     }
 }
 
-/* A byte whose start bit passed before the board listened is garbage: the receiver takes some later edge for it. */
+/* A byte whose start bit passed before the board listened is garbage: the receiver mistakes a later edge for it. */
 static void from_servo(void *context, uint64_t now, uint8_t byte, uint32_t rate_bps, bool bad)
 {
     bus_wire_t *wire = context;

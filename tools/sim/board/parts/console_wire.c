@@ -10,7 +10,7 @@
 #define CYCLES_PER_US (M128_HZ / 1000000u)
 #define GATE_PC 0x20u     /* PD5, CM-5 */
 #define GATE_REMOTE 0x40u /* PD6 */
-enum { ITEM_PAUSE = 2 };  /* behind console_sender_t */
+enum { ITEM_PAUSE = 2 };  /* the value after console_sender_t */
 
 static bool gate_is_open(const console_wire_t *console, uint8_t sender)
 {
@@ -53,7 +53,7 @@ static void item_is_over(void *context, uint64_t now)
     begin_item(console, now);
 }
 
-/* The queue moves down when half of it has left, and grows otherwise. */
+/* Moves the queue down when more than half of its space is free at the front; otherwise enlarges it. */
 static bool make_room(console_wire_t *console)
 {
     if (console->head + console->count < console->room) {

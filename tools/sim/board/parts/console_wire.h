@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
- * console_wire.h - the line between UART1 and the PC or the remote. */
+ * console_wire.h - the line from the PC and the remote to UART1. */
 #ifndef SIM_CONSOLE_WIRE_H
 #define SIM_CONSOLE_WIRE_H
 
 #include "uart.h"
 
-/* One byte (kind: its console_sender_t, value: bits per second) or a pause (value: microseconds). Eight bytes, because
- * a fuzz test may queue millions. */
+/* One byte (kind: its console_sender_t, value: bits per second) or a pause (value: microseconds). Only eight bytes
+ * long, because a fuzz test may queue millions. */
 typedef struct { uint8_t byte, kind; uint32_t value; } console_item_t;
 
 typedef struct {

@@ -48,7 +48,7 @@ static void read_byte(eeprom_t *eeprom)
     }
 }
 
-/* SBI and CBI read and write the whole register, so EEWE may come back as it is read. */
+/* SBI and CBI read and write the whole register, so they may write back the EEWE that they read. */
 static void write_eecr(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param)
 {
     eeprom_t *eeprom = param;
@@ -101,7 +101,7 @@ static void write_is_over(void *context, uint64_t now)
     operation_is_done(eeprom->operations, OPERATION_EEPROM, eeprom->address);
 }
 
-/* A byte is erased, then programmed: cut in between it may be anything from the old value over 0xFF to the new. */
+/* A write erases the byte, then programs it. A cut may leave anything from the old value over 0xFF to the new value. */
 void eeprom_tear(eeprom_t *eeprom, uint32_t tear)
 {
     if (!eeprom->operations->eeprom_busy) {
@@ -116,7 +116,7 @@ void eeprom_tear(eeprom_t *eeprom, uint32_t tear)
     event_at(&eeprom->machine->events, EVENT_EEPROM, NEVER);
 }
 
-/* A write in progress goes on over a reset, as long as there is power (data sheet: EEPROM Write, note on reset). */
+/* A write in progress continues through a reset while there is power (data sheet: EEPROM Write, note on reset). */
 void eeprom_reset(eeprom_t *eeprom)
 {
     eeprom->ready_enabled = false;

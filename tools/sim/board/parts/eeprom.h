@@ -19,7 +19,7 @@ typedef struct {
 void eeprom_init(eeprom_t *eeprom, machine_t *machine, operations_t *operations);
 void eeprom_reset(eeprom_t *eeprom);
 
-/* Ends a write in progress in its middle; tear picks how. */
+/* Interrupts a write in progress; tear selects the result. */
 void eeprom_tear(eeprom_t *eeprom, uint32_t tear);
 
 #endif

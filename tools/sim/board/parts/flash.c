@@ -91,7 +91,7 @@ static void begin(flash_t *flash, operation_kind_t kind)
     uint32_t page = z & ~(M128_PAGE_BYTES - 1);
     bool boot = page >= M128_NRWW_START;
     if (!(flash->lock & (boot ? LOCK_BOOT_NO_SPM : LOCK_APP_NO_SPM))) {
-        flash->control &= SPMCSR_SPMIE; /* the chip does nothing, and says nothing */
+        flash->control &= SPMCSR_SPMIE; /* the chip ignores it silently */
         return;
     }
     if (kind == OPERATION_WRITE && (z & (M128_PAGE_BYTES - 2)) &&
@@ -165,7 +165,7 @@ void flash_spm(flash_t *flash)
     flash->control &= SPMCSR_SPMIE;
 }
 
-/* (E)LPM done by hand, when it does not read the flash: into rd, Z+ included. */
+/* Executes an (E)LPM that does not read the flash: puts value into rd and increments Z for Z+. */
 static bool lpm_gives(flash_t *flash, uint16_t opcode, uint8_t value)
 {
     avr_t *avr = flash->machine->avr;
@@ -185,14 +185,15 @@ static bool lpm_gives(flash_t *flash, uint16_t opcode, uint8_t value)
     return true;
 }
 
-/* LPM within three cycles after SPMEN with BLBSET reads lock bits and fuses: low, lock, extended, high for Z 0..3. */
+/* LPM soon after SPMEN with BLBSET (three cycles on the chip) reads lock bits and fuses: low, lock, extended, high for
+ * Z 0..3. */
 static uint8_t lock_or_fuse(const flash_t *flash)
 {
     const uint8_t bytes[4] = { flash->fuses[0], flash->lock, flash->fuses[2], flash->fuses[1] };
     return bytes[flash->machine->avr->data[30] & 3];
 }
 
-/* Before an LPM, ELPM or SPM. true: it was done here, or must not be executed. */
+/* Called before an LPM, ELPM or SPM. true: it was done here, or must not be executed. */
 static bool before_lpm(void *context, uint32_t pc, uint16_t opcode)
 {
     flash_t *flash = context;
@@ -262,8 +263,8 @@ static void operation_is_over(void *context, uint64_t now)
     operation_is_done(flash->operations, flash->operation, flash->address);
 }
 
-/* What is left when an operation stops in the middle: by tear, few, half or most of the bits have changed, or the
- * first part of the page is done and the rest untouched. */
+/* Leaves an operation half done. tear selects: few, half or most of the bits have changed, or only the first part of
+ * the page. */
 void flash_tear(flash_t *flash, uint32_t tear)
 {
     if (!flash->operations->flash_busy || flash->locking) {
@@ -301,7 +302,7 @@ void flash_reset(flash_t *flash)
     update_line(flash);
 }
 
-/* RAMPZ of this chip is one bit wide; simavr reads beyond its flash with more. */
+/* RAMPZ of this chip has one bit. With more, simavr reads beyond its flash. */
 static void write_rampz(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param)
 {
     (void)param;
@@ -316,7 +317,7 @@ void flash_init(flash_t *flash, machine_t *machine, operations_t *operations)
     machine->before_lpm_context = flash;
     events_handle(&machine->events, EVENT_SPM, operation_is_over, flash);
     flash->lock = 0xFF;
-    flash->fuses[0] = 0x1F; /* external crystal, slow start, brown-out at 4.0 V on (BOARD.md, Fuses) */
+    flash->fuses[0] = 0x1F; /* external crystal, slow start, brown-out detection at 4.0 V (BOARD.md, Fuses) */
     flash->fuses[1] = 0xC0;
     flash->fuses[2] = 0xFF;
     memset(flash->machine->avr->flash, 0xFF, M128_FLASH_BYTES);

@@ -22,9 +22,9 @@ typedef struct {
 
 void flash_init(flash_t *flash, machine_t *machine, operations_t *operations);
 void flash_reset(flash_t *flash);
-void flash_spm(flash_t *flash); /* an SPM instruction is being executed */
+void flash_spm(flash_t *flash); /* executes an SPM instruction */
 
-/* Ends an operation in progress in its middle; tear picks how. */
+/* Interrupts an operation in progress; tear selects the result. */
 void flash_tear(flash_t *flash, uint32_t tear);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "operations.h"
 
-/* Power goes inside an event, never inside an instruction: simavr's core would go on with its own. */
+/* Power is cut in an event, never inside an instruction, which simavr's core would go on to finish. */
 static void cut_at(operations_t *operations, uint64_t when)
 {
     event_at(&operations->machine->events, EVENT_POWER, when);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * operations.h - the count and log of flash and EEPROM operations, which of the two memories is being written, and the
- * power cut that is planned for one of them. */
+ * operations.h - the count and log of flash and EEPROM operations, which of the two memories is busy, and the power cut
+ * planned at one of them. */
 #ifndef SIM_OPERATIONS_H
 #define SIM_OPERATIONS_H
 
@@ -10,7 +10,7 @@
 #define OPERATION_LOG 65536u
 typedef struct {
     machine_t *machine;
-    bool flash_busy, eeprom_busy; /* the chip lets one wait for the other */
+    bool flash_busy, eeprom_busy; /* the chip allows only one at a time */
     uint64_t count;
     struct { uint8_t kind; uint32_t address; } log[OPERATION_LOG]; /* a ring */
     uint64_t cut_operation;
@@ -20,7 +20,7 @@ typedef struct {
     void *done_context;
 } operations_t;
 
-/* Every operation on flash or EEPROM says when it begins and when it has ended. */
+/* Every flash or EEPROM operation reports its start and its end. */
 void operation_begins(operations_t *operations, operation_kind_t kind, uint32_t address);
 void operation_is_done(operations_t *operations, operation_kind_t kind, uint32_t address);
 

@@ -74,7 +74,7 @@ static void write_port(avr_t *avr, avr_io_addr_t address, uint8_t value, void *p
     check_fight(panel);
 }
 
-/* Bits that the instruction being executed looks at: one for SBIC and SBIS, all for IN. */
+/* Bits that the current instruction reads: one for SBIC and SBIS, all for IN. */
 static uint8_t bits_looked_at(const panel_t *panel)
 {
     const uint8_t *at = &panel->machine->avr->flash[panel->machine->avr->pc];
@@ -82,7 +82,7 @@ static uint8_t bits_looked_at(const panel_t *panel)
     return skip ? (uint8_t)(1u << (at[0] & 7)) : 0xFF;
 }
 
-/* The buttons whose contact is open instead of closed just now, or the other way round. */
+/* The buttons that read inverted at this moment because of contact bounce. */
 static uint8_t bouncing(const panel_t *panel)
 {
     uint8_t inverted = 0;
@@ -90,7 +90,7 @@ static uint8_t bouncing(const panel_t *panel)
         uint64_t now = panel->machine->avr->cycle, until = panel->bounces_until[button];
         if (now < until && now + panel->bounce >= until + BOUNCE_SLICE_CYCLES) {
             uint64_t noise = (until ^ (uint64_t)button << 60) + (until - now) / BOUNCE_SLICE_CYCLES * 0x9E3779B97F4A7C15u;
-            noise = (noise ^ noise >> 30) * 0xBF58476D1CE4E5B9u; /* any good mixture does */
+            noise = (noise ^ noise >> 30) * 0xBF58476D1CE4E5B9u; /* any good mixing function will do */
             inverted |= (uint8_t)((noise >> 40 & 1u) << button);
         }
     }

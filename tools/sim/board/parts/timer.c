@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Timers 1 and 3, which the firmware's time stands on. (Timers 0 and 2 are simavr's.) Counted lazily: registers are
- * brought up to date when somebody looks, and an event waits only for a flag whose interrupt is enabled. */
+ * Timers 1 and 3, on which the firmware's time base depends. (Timers 0 and 2 are simavr's.) They count lazily:
+ * registers are updated when read or written, and an event is scheduled only for a flag whose interrupt is enabled. */
 #include "timer.h"
 
 #define SOURCES 4 /* compare A, B, C, overflow */
@@ -8,8 +8,8 @@
 enum { WGM_NORMAL = 0, WGM_CTC_OCR = 4, WGM_CTC_ICR = 12 };
 
 typedef struct {
-    uint16_t control_a, control_b, tcnt, ocr[3], icr; /* addresses; of the pairs, the low byte */
-    struct { uint16_t flags; uint8_t mask; } source[SOURCES]; /* the interrupt mask register follows the flags */
+    uint16_t control_a, control_b, tcnt, ocr[3], icr; /* addresses; for a pair, the low byte */
+    struct { uint16_t flags; uint8_t mask; } source[SOURCES]; /* the mask register follows the flags */
 } place_t;
 
 static const place_t places[2] = {
@@ -26,12 +26,12 @@ static uint32_t top_of(const timer16_t *timer)
     return timer->mode == WGM_CTC_OCR ? timer->ocr[0] : timer->mode == WGM_CTC_ICR ? timer->icr : 0xFFFF;
 }
 
-/* Ticks until a source's flag is set: one after the match, when the count goes on or returns to 0. A count above the
- * top (OCR was written too low) runs on to 0xFFFF, as in the chip. */
+/* Ticks until a source sets its flag: one after the match, when the count continues or returns to 0. A count above the
+ * top (OCR was set too low) runs on to 0xFFFF, as in the chip. */
 static uint64_t ticks_to(const timer16_t *timer, int source)
 {
     uint32_t count = timer->count, top = top_of(timer);
-    uint32_t end = count > top ? 0xFFFF : top; /* of this turn */
+    uint32_t end = count > top ? 0xFFFF : top; /* last count of this turn */
     if (source == SOURCES - 1) {
         return end == 0xFFFF ? 0x10000u - count : NO_TICK;
     }
@@ -50,7 +50,7 @@ static uint16_t count_after(const timer16_t *timer, uint64_t ticks)
     return (uint16_t)(ticks <= left ? timer->count + ticks : (ticks - left - 1) % (top + 1u));
 }
 
-/* Brings count and flags up to now. The prescaler runs through, whatever the timers do. */
+/* Updates count and flags to now. The prescaler always runs. */
 static void sync(timer16_t *timer, uint64_t now)
 {
     uint8_t *data = timer->machine->avr->data;
@@ -107,7 +107,7 @@ static uint8_t read_flags(avr_t *avr, avr_io_addr_t address, void *param)
 
 static void write_flags(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param)
 {
-    flags_changed(param); /* what is due by now is set, then cleared */
+    flags_changed(param); /* sets the flags that are due before clearing */
     avr->data[address] &= (uint8_t)~value;
     flags_changed(param);
 }
@@ -139,7 +139,7 @@ static uint16_t *pair_at(timer16_t *timer, avr_io_addr_t low)
                                   : &timer->icr;
 }
 
-/* 16-bit registers: the high byte waits in TEMP, the low byte takes both over. */
+/* 16-bit registers: the high byte waits in TEMP until the low byte is written. */
 static void write_pair(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param)
 {
     timer16_t *timer = param;

@@ -9,7 +9,7 @@ typedef struct {
     machine_t *machine;
     uint8_t index, mode, temp; /* index 0: timer 1, 1: timer 3 */
     uint16_t count, ocr[3], icr, prescale;
-    uint64_t at; /* count is as of this cycle */
+    uint64_t at; /* count is valid at this cycle */
 } timer16_t;
 
 typedef struct {

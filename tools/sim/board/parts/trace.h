@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * trace.h - keeps the instruction packets that the board sends to the servos. */
+ * trace.h - records the instruction packets that the board sends to the servos. */
 #ifndef SIM_TRACE_H
 #define SIM_TRACE_H
 
@@ -11,7 +11,7 @@ typedef struct {
     size_t count, room;
 } trace_t;
 
-void trace_start(trace_t *trace, servo_bus_t *bus); /* what was kept before is dropped */
+void trace_start(trace_t *trace, servo_bus_t *bus); /* drops earlier records */
 void trace_free(trace_t *trace);
 
 #endif

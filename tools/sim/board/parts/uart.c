@@ -2,8 +2,8 @@
 #include "uart.h"
 
 #define BITS 10u            /* start, 8 data, stop */
-#define TOLERANCE_PERCENT 3 /* what a receiver takes without fail (data sheet: double speed, 8 bits) */
-#define SHIFT_REGISTER 2u   /* place in fifo[] */
+#define TOLERANCE_PERCENT 3 /* always received correctly (data sheet: double speed, 8 bits) */
+#define SHIFT_REGISTER 2u   /* index in fifo[] */
 
 typedef struct { uint16_t udr, a, b, c, ubrrh, ubrrl; uint8_t vector; } place_t;
 static const place_t places[2] = {
@@ -11,8 +11,8 @@ static const place_t places[2] = {
     { 0x9C, 0x9B, 0x9A, 0x9D, 0x98, 0x99, VECTOR_USART1_RX },
 };
 
-/* A character for an empty shift register leaves UDR with the next bit of the transmitter's clock, which runs all the time.
- * Here that takes as long as it can: a whole bit. (It begins to leave the chip at once.) */
+/* A character for an empty shift register leaves UDR at the next bit of the transmitter clock, which runs freely. The
+ * model always takes the longest time, a whole bit. (The character starts on the line at once.) */
 static bool is_full(const uart_t *uart) { return uart->waiting || uart->moving; }
 
 static void at(uart_t *uart, uint64_t when)
@@ -22,7 +22,7 @@ static void at(uart_t *uart, uint64_t when)
 
 static void update_lines(uart_t *uart)
 {
-    int vector = places[uart->index].vector; /* RX, UDRE, TX follow each other */
+    int vector = places[uart->index].vector; /* RX, UDRE and TX are consecutive */
     machine_line(uart->machine, vector, (uart->b & UCSRB_RXCIE) && uart->fill);
     machine_line(uart->machine, vector + 1, (uart->b & UCSRB_UDRIE) && !is_full(uart));
     machine_line(uart->machine, vector + 2, (uart->b & UCSRB_TXCIE) && (uart->a & UCSRA_TXC));
@@ -137,8 +137,8 @@ static void overrun(uart_t *uart)
                    "UART%u overrun: a third character waits and a fourth has come", uart->index);
 }
 
-/* A fourth character takes the place of the third, which waits in the shift register for room in the buffer. It is
- * lost at the start bit of the fourth, even if room is made while that arrives. */
+/* A fourth character replaces the third, which waits in the shift register for space in the buffer. The third is lost
+ * at the start bit of the fourth, even if space becomes free before the fourth is complete. */
 void uart_receive(uart_t *uart, uint64_t start, uint8_t byte, uint32_t rate_bps, bool bad)
 {
     uint8_t seen, flags = 0;
@@ -173,7 +173,7 @@ static uint8_t read_a(avr_t *avr, avr_io_addr_t address, void *param)
     return (uint8_t)value;
 }
 
-/* A character has just come in whole; or the one being sent, if any, has left. */
+/* Completes the reception of a character, or the transmission of the current one, if any. */
 static void raise_interrupt(void *context, int vector, uint8_t byte)
 {
     uart_t *uart = context;
@@ -224,7 +224,7 @@ static void write_b(avr_t *avr, avr_io_addr_t address, uint8_t value, void *para
         violation_note(uart->machine, VIOLATION_UART_FORMAT, "UART%u with 9 data bits", uart->index);
     }
     if (!(value & UCSRB_RXEN)) {
-        uart->fill = 0; /* the buffer is flushed */
+        uart->fill = 0; /* disabling the receiver flushes the buffer */
         uart->freed_at = 0;
     } else if (!(uart->b & UCSRB_RXEN)) {
         uart->enabled_at = avr->cycle;

@@ -13,8 +13,8 @@ static void restart(watchdog_t *watchdog, uint64_t since)
     event_at(&watchdog->machine->events, EVENT_WATCHDOG, is_running(watchdog) ? since + period(watchdog) : NEVER);
 }
 
-/* Safety level 1 (M103C and WDTON unprogrammed): the watchdog may be started by one write, but stopped or given
- * another time only within 4 cycles after WDCE and WDE were written together. */
+/* Safety level 1 (M103C and WDTON unprogrammed): one write starts the watchdog. Stopping it or changing its period
+ * works only within 4 cycles after a write of WDCE and WDE together. */
 static void write_wdtcr(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param)
 {
     watchdog_t *watchdog = param;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * watchdog.h - the watchdog and its timed sequence. What it does when it bites is the board's (EVENT_WATCHDOG). */
+ * watchdog.h - the watchdog and its timed sequence. The board handles its time-out (EVENT_WATCHDOG). */
 #ifndef SIM_WATCHDOG_H
 #define SIM_WATCHDOG_H
 
@@ -13,6 +13,6 @@ typedef struct {
 
 void watchdog_init(watchdog_t *watchdog, machine_t *machine);
 void watchdog_reset(watchdog_t *watchdog);
-void watchdog_feed(watchdog_t *watchdog); /* a WDR instruction is being executed */
+void watchdog_feed(watchdog_t *watchdog); /* executes a WDR instruction */
 
 #endif
