@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""A plugin for pytest: a run that left cases out ends with 77, which ctest shows as skipped (m512_pytest). A run that failed has failed."""
+"""A plugin for pytest: a run with skipped cases exits with 77, which ctest reports as skipped (m512_pytest). A failed run fails."""
 
 SKIPPED = 77
-PASSED, NONE_LEFT = 0, 5  # 5: a whole file was left out
+PASSED, NONE_LEFT = 0, 5  # 5: a whole file was skipped
 
 
 def pytest_sessionfinish(session, exitstatus):

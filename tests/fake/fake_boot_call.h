@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT
- * fake_boot_call.h - a boot section behind hal/boot_call.h and the reading half of hal/flash.h: notes who was called. */
+ * fake_boot_call.h - a fake boot section for hal/boot_call.h and the reading half of hal/flash.h. Records the calls. */
 #ifndef FAKE_BOOT_CALL_H
 #define FAKE_BOOT_CALL_H
 
 #include "boot_call.h"
 
-/* Erased flash, no calls, answers BOOT_OK. */
+/* Erased flash, no calls, every call returns BOOT_OK. */
 void fake_boot_call_reset(void);
 
 /* The 128 KiB that flash_read sees. */
 uint8_t *fake_boot_call_flash(void);
 
-/* What the next calls answer. */
+/* Result of all further calls. */
 void fake_boot_call_answer(uint8_t result);
 
 /* The last call. */

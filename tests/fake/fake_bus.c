@@ -24,7 +24,7 @@ static bus_answer_t last;
 static uint8_t answer_params[FAKE_BUS_TABLE_BYTES];
 static uint8_t asked_params, tries;
 static uint8_t pending_size;
-static uint8_t pending[BUS_PACKET_BYTES];   /* the packet whose answer is awaited */
+static uint8_t pending[BUS_PACKET_BYTES];   /* the packet that awaits its answer */
 static bool through_adapter, lost;
 static uint32_t waited;
 static bus_counts_t counters;
@@ -165,7 +165,8 @@ static void action(fake_servo_t *servo)
     }
 }
 
-/* One servo takes one instruction; its answer's parameters go to answer_params. Returns whether it answers. */
+/* Lets one servo execute one instruction. Puts the answer's parameters into answer_params. Returns whether it
+ * answers. */
 static bool execute(fake_servo_t *servo, const uint8_t *packet, uint8_t params)
 {
     uint8_t level = servo->table[DXL_AT_RETURN_LEVEL];
@@ -241,7 +242,7 @@ static bus_status_t answer_of(fake_servo_t *servo, bool answers)
     return last.count == asked_params ? BUS_OK : BUS_ERR_LENGTH;
 }
 
-/* Sends the packet once; the log takes it. */
+/* Sends the packet once and logs it. */
 static bus_status_t send_once(uint8_t size)
 {
     logged_t *entry = &packets[sent++ % LOG_PACKETS];
@@ -334,7 +335,7 @@ bool bus_was_lost(void)
     return was_lost;
 }
 
-/* A packet without an answer leaves while one is awaited. */
+/* Sends a packet without answer while an answer is pending. */
 static bus_status_t send_between(uint8_t size)
 {
     const uint8_t asked = asked_params;

@@ -48,7 +48,7 @@ void fake_console_type_bytes(const void *bytes, size_t count)
 
 void fake_console_lose(uint8_t count)
 {
-    ASSERT(holes == 0 || hole_at == rx.head);   /* one place at a time is enough for the tests */
+    ASSERT(holes == 0 || hole_at == rx.head);   /* the tests need no second place */
     hole_at = rx.head;
     holes = (uint8_t)(holes > 0xFFu - count ? 0xFFu : holes + count);
 }

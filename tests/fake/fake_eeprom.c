@@ -51,7 +51,7 @@ void fake_eeprom_cut(uint32_t operation, int torn_value, jmp_buf *where)
     busy_left = 0;
 }
 
-/* The cell changes at once, the device stays busy: nobody can read it before it is done. */
+/* Changes the cell at once and leaves the device busy: nobody can read the cell before the write is done. */
 static void write_cell(uint16_t address, uint8_t byte)
 {
     writes++;

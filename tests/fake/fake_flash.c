@@ -66,7 +66,7 @@ static uint8_t random_byte(void)
     return (uint8_t)(flash.random >> 24);
 }
 
-/* Moves one page to `wanted`, bit by bit only as far as the power lasts. */
+/* Changes one page to `wanted`, only partly if the power is cut. */
 static void operate(uint16_t page, const uint8_t wanted[FLASH_PAGE_BYTES])
 {
     if (flash.hook != NULL) {

@@ -21,7 +21,7 @@ static struct {
         uint64_t at;
         uint16_t count;
         uint8_t bytes[PACKET_BYTES];
-    } under_way[UNDER_WAY];   /* to the program, oldest first */
+    } under_way[UNDER_WAY];   /* answers and echoes to the program, oldest first */
     uint8_t count;
 } bus;
 
@@ -56,7 +56,7 @@ void fake_machine_pass(uint32_t half_us)
 void machine_wait(uint64_t until)
 {
     const uint64_t next = bus.count > 0 && bus.under_way[0].at < until ? bus.under_way[0].at : until;
-    now = next > now ? next : now + 2u;   /* asking takes a microsecond, so that a loop that asks in vain ends */
+    now = next > now ? next : now + 2u;   /* a read of the clock takes 1 us, so that a loop that waits in vain ends */
 }
 
 /* ---- the bus ---- */
@@ -224,7 +224,7 @@ static bool by_chance(void)
     return (memory.random >> 31) != 0;
 }
 
-/* What was not sure is old or new, byte by byte. */
+/* Each byte that is not yet durable becomes the old or the new one. */
 static void cut(void)
 {
     for (uint32_t which = 0; which < MACHINE_MEMORIES; which++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * fake_system.h - the reset side of the board, behind system.h. system_restart does longjmp to where the test says (abort
- * when it says nothing). */
+ * fake_system.h - the reset side of the board for system.h. system_restart jumps to the test's jmp_buf and aborts if
+ * there is none. */
 #ifndef FAKE_SYSTEM_H
 #define FAKE_SYSTEM_H
 
@@ -14,7 +14,7 @@ void fake_system_on_restart(jmp_buf *where);
 uint32_t fake_system_kicks(void);                 /* system_kick calls */
 bool fake_system_watchdog(void);                  /* whether it is on */
 uint32_t fake_system_sleeps(void);
-/* system_is_asked_to_end says so; system_end then does what system_restart does. */
+/* system_is_asked_to_end returns true from now on; system_end then does what system_restart does. */
 void fake_system_ask_to_end(void);
 
 #endif

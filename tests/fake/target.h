@@ -1,3 +1,3 @@
 /* SPDX-License-Identifier: MIT
- * target.h - unit tests have the numbers of the board. */
+ * target.h - gives unit tests the constants of the board. */
 #include "../../hal/avr/target.h"

@@ -38,11 +38,11 @@ def set_rate(port, rate):
 
 
 LATE_S = 0.01  # servos answer within 1 ms
-ANSWER_S = 0.02  # a packet waits so long for the answer to the one before: this program and the servos' may be held up, the line was not
+ANSWER_S = 0.02  # longest wait of a packet for the answer to the one before, in case this process or the servos' is held up
 
 
 class Way:
-    """One direction: what has come waits for its time."""
+    """One direction: packets wait here until they are due."""
 
     def __init__(self, asked, chance, jitter):
         self.asked, self.chance, self.jitter = asked, chance, jitter
@@ -61,17 +61,17 @@ class Way:
         self.waiting.append((self.last, data, rate))
 
     def due(self):
-        """(bytes, rate) of what has waited long enough."""
+        """Yields (bytes, rate) of each packet that is due."""
         while self.waiting and self.next() <= time.monotonic():
             yield self.waiting.popleft()[1:]
 
     def next(self):
-        """When the first of them may leave."""
+        """Time at which the first packet may leave."""
         return max(self.waiting[0][0], self.free)
 
 
 def packets(data):
-    """The whole packets in `data`, and what is left of it."""
+    """The complete packets in `data`, and the rest of it."""
     found = []
     while len(data) >= 4:
         size = data[3] + 4
@@ -94,7 +94,7 @@ class Adapter:
         self.out, self.back = Way(asked, chance, min(asked.jitter, 1)), Way(asked, chance, asked.jitter)
         self.log = open(asked.log, "a", encoding="ascii", buffering=1) if asked.log else None  # noqa: SIM115 (until the end)
         self.master, self.begun, self.heard, self.wanted = -1, b"", b"", True
-        self.asked_at = {}  # servo: when the first packet that it has not answered yet was passed on
+        self.asked_at = {}  # servo: when the oldest unanswered packet was passed on
         signal.signal(signal.SIGUSR1, lambda *_: self.want(False))
         signal.signal(signal.SIGUSR2, lambda *_: self.want(True))
 
@@ -126,7 +126,7 @@ class Adapter:
     def from_program(self):
         try:
             data = os.read(self.master, 4096)
-        except OSError:  # nobody has it open now
+        except OSError:  # no program has it open
             time.sleep(0.005)
             return
         found, self.begun = packets(self.begun + data)
@@ -150,7 +150,7 @@ class Adapter:
             found, self.heard = packets(self.heard + data)
             if any(time.monotonic() - self.asked_at.pop(packet[2], now) > LATE_S for packet in found):
                 self.say("late")
-            if found:  # not before the answer is whole: the next packet would meet the rest of it on the line
+            if found:  # only after a complete answer: the next packet would collide with the rest of it
                 self.out.free = 0.0
         if self.master in ready:
             self.from_program()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Robots of a test, and a second try for a test that other work on this computer has disturbed."""
+"""Robots for a test. Repeats a test that other load on this computer has disturbed."""
 
 import threading
 import time
@@ -8,11 +8,11 @@ import pytest
 from _pytest.runner import runtestprotocol
 
 TRIES = 5
-HELD_UP_S = 0.05  # a thread that sleeps for 10 ms comes back that late
+HELD_UP_S = 0.05  # a 10 ms sleep that takes this long
 
 
 class Watch(threading.Thread):
-    """Notices that this computer holds its programs up."""
+    """Notices when this computer holds its programs up."""
 
     def __init__(self):
         super().__init__(daemon=True)
@@ -33,7 +33,7 @@ def pytest_sessionstart():
 
 
 def pytest_runtest_protocol(item, nextitem):
-    """A test that fails is repeated if programs were held up meanwhile: it shows nothing then. The last try counts."""
+    """Repeats a failed test if programs were held up meanwhile, because its result means nothing then. The last try counts."""
     for left in reversed(range(TRIES)):
         watch.held_up = False
         reports = runtestprotocol(item, log=False, nextitem=nextitem)
@@ -50,7 +50,7 @@ def pytest_runtest_protocol(item, nextitem):
 
 @pytest.fixture
 def make(tmp_path):
-    """Makes robots that end with the test."""
+    """Makes robots that live until the test ends."""
     from tests.host.pc_robot import Robot
 
     robots = []

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Play or Edit as a program of this PC, with simulated servos behind an adapter (bad_adapter.py), for test_*.py.
 
-Processes that take their time: whoever waits here waits for a text or a state, and gives up after minutes only.
+The programs run in real time: every wait is for a text or a state, and times out only after minutes.
 """
 
 import os
@@ -19,7 +19,7 @@ PROGRAMS = BUILD / "host" / "firmware"
 CM5SIM = TOP / "tools" / "sim" / "cm5sim"
 PATIENCE_S = 120
 SYNC_WRITE, GOAL, READ = 0x83, 30, 2
-LATE = b"The computer came 0.1 s late"  # the program has broken its play off, as it should
+LATE = b"The computer came 0.1 s late"  # the program has aborted its play, as it should
 
 
 def program(image):
@@ -27,7 +27,7 @@ def program(image):
 
 
 class Disturbed(Exception):
-    """Other work on this computer has held up the program: the test cannot say anything (conftest.py repeats it)."""
+    """Other load on this computer has held up the program, so the test has no result (conftest.py repeats it)."""
 
 
 def until(condition, what):
@@ -55,13 +55,13 @@ class Robot:
     def start(*command):
         process = subprocess.Popen([str(word) for word in command], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         try:
-            os.sched_setscheduler(process.pid, os.SCHED_RR, os.sched_param(2))  # as punctual as hardware, where this is allowed
+            os.sched_setscheduler(process.pid, os.SCHED_RR, os.sched_param(2))  # as punctual as hardware, where permitted
         except PermissionError:
             pass
         return process
 
     def run(self, *more):
-        """Starts the program; returns when its console has a port."""
+        """Starts the program and waits for the port of its console."""
         command = [program(self.image), "--robot", self.folder / "robot", "--pty", *self.arguments, *more]
         command += ["--motions", self.motions] if self.motions else []
         self.said, self.console = b"", b""
@@ -71,7 +71,7 @@ class Robot:
         return self
 
     def told(self, pattern):
-        """Waits until the program has told this on its standard error; returns the first group."""
+        """Waits for this on the program's standard error; returns the first group."""
 
         def look():
             if select.select([self.process.stderr], [], [], 0)[0]:
@@ -93,7 +93,7 @@ class Robot:
             raise Disturbed(self.console.decode())
 
     def expect(self, text, start=0):
-        """Waits for a text behind `start`; returns the place behind it."""
+        """Waits for a text after position `start`; returns the position after the text."""
 
         def look():
             self.take()
@@ -117,12 +117,12 @@ class Robot:
         return [packet for packet in sent if instruction is None or packet[4] == instruction]
 
     def frames(self):
-        """Goals that were sent: a dict each."""
+        """The goals of each frame sent, as a dict per frame."""
         goals = [packet[7:-1] for packet in self.packets(SYNC_WRITE) if packet[5] == GOAL]
         return [{data[at]: data[at + 1] | data[at + 2] << 8 for at in range(0, len(data), 3)} for data in goals]
 
     def was_late(self):
-        """Adapter or servos were held up for longer than a real one takes to answer."""
+        """Whether adapter or servos were held up for longer than real ones take to answer."""
         return self.log.exists() and "late" in self.log.read_text().splitlines()
 
     def pull(self):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Play on a PC, through adapters that are slow, noisy, repeat what they are sent, or are pulled out.
+"""Play on a PC, through adapters that are slow, noisy, echo what they are sent, or are pulled out.
 
-The verdicts are counts and states. What must come is the same as on the board: its frames are those of play-cm5.hex.
+The tests check counts and states only. The frames must be those that play-cm5.hex sends on the board.
 """
 
 import itertools
@@ -17,7 +17,7 @@ SECONDS = 5
 
 
 def motions():
-    """Page 1 stands, page 2 swings all joints for some seconds, page 3 for hours."""
+    """Page 1 stands, page 2 swings all joints for some seconds, page 3 does so for hours."""
     image = Image.empty()
     image[1] = page("stand", [(40, {joint: 512 for joint in JOINTS})])
     left, right = ({joint: 512 + way * (20 + 5 * joint) for joint in JOINTS} for way in (1, -1))
@@ -34,7 +34,7 @@ def files(tmp_path):
 
 
 def distinct(frames):
-    """Without repetitions in a row: in a session of a person the robot stands for as long as that person takes."""
+    """Drops consecutive repetitions: in interactive use the robot stands still for as long as the user takes."""
     return [frame for frame, _ in itertools.groupby(frames)]
 
 
@@ -52,7 +52,7 @@ def of_the_board():
 
 
 def play(robot):
-    """That session."""
+    """Runs that session."""
     at = robot.expect("18 servos: 1-18")
     for line in ("play 1", "play 2"):
         robot.send(line + "\r")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""m512 doctor -p bus:...: first contact with servos that nobody knows. Facts of registers and rates: hal/DYNAMIXEL.md."""
+"""m512 doctor -p bus:...: first contact with unknown servos. Source of the registers and rates: hal/DYNAMIXEL.md."""
 
 import json
 import os
@@ -28,7 +28,7 @@ def of(found, what):
 
 
 def written(robot):
-    """(ID, address, value) of each WRITE that was sent."""
+    """(ID, address, value) of each WRITE sent."""
     return [(packet[2], packet[5], packet[6]) for packet in robot.packets(WRITE)]
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How the programs begin and end, what they keep, and whom they keep out."""
+"""Start and end of the programs, what they store, and exclusive use of port and folder."""
 
 import os
 import pty
@@ -47,7 +47,7 @@ def test_nothing_moves_and_no_torque_is_switched_before_a_person_says_so(make, f
 
 
 def steps(frames):
-    """The longest way of a joint in each frame."""
+    """The largest change of a joint in each frame."""
     return [max(abs(after[joint] - before[joint]) for joint in before) for before, after in zip(frames, frames[1:])]
 
 
@@ -60,8 +60,8 @@ def test_ctrl_c_slows_down_first_and_leaves_torque_as_it_was_unless_told(make, f
     assert robot.stop() == 0
     ways = steps(robot.frames()[begun:])
     fastest = max(ways)
-    assert fastest > 3 and ways[-1] <= 1  # it moved, and stands
-    assert max(abs(after - before) for before, after in zip(ways, ways[1:])) < fastest / 2  # softly
+    assert fastest > 3 and ways[-1] <= 1  # it moved, then stopped
+    assert max(abs(after - before) for before, after in zip(ways, ways[1:])) < fastest / 2  # without a jolt
     switched = [packet for packet in robot.packets(WRITE) if packet[5] == TORQUE and packet[6] == 0]
     assert [packet[2] for packet in switched] == ([EVERYBODY] * 2 if off else [])
     assert ("is off" if off else "go on holding it") in robot.said.decode()
@@ -94,7 +94,7 @@ def test_a_file_is_not_replaced_by_a_link_to_the_console(make, files):
 
 
 def without_privilege(*command):
-    """A superuser's program may open a port that is somebody's alone, so it runs without that privilege."""
+    """The command without the privilege that lets root open a port in exclusive use."""
     return (["setpriv", "--bounding-set=-sys_admin"] if os.geteuid() == 0 else []) + [str(word) for word in command]
 
 
@@ -153,7 +153,7 @@ def test_a_file_that_is_not_ours_is_named_and_left_alone(make, files, tmp_path):
 
 
 class Terminal:
-    """The program on a terminal of its own."""
+    """The program on its own terminal."""
 
     def __init__(self, robot, image="play"):
         self.master, self.slave = pty.openpty()
@@ -218,7 +218,7 @@ def test_the_terminal_is_as_before_after_a_crash(terminal):
 
 
 def test_keys_are_buttons_of_the_panel(terminal):
-    """START stops what plays; an arrow calls its code, which no page here has."""
+    """START stops the play; an arrow calls its code, which no page here has."""
     terminal.expect("] ")
     terminal.send(b"\x14\x1b[A")
     terminal.expect("code 1")
@@ -243,11 +243,11 @@ def test_the_first_ctrl_c_is_for_edit_and_the_second_ends_it(editor, tmp_path):
     editor.send(b"page 99\r")
     editor.send(b"name host\r")
     editor.expect("* unsaved")
-    editor.send(b"nonsense\x03")  # on a board it leaves the line
+    editor.send(b"nonsense\x03")  # on a board Ctrl-C leaves the line
     editor.expect("Ctrl-C again within 2 s ends the program: unsaved edits are lost")
     editor.send(b"save\r")
     until(lambda: from_bytes((tmp_path / "robot" / "pages.bin").read_bytes())[99].name == b"host", lambda: f"not saved: {editor.shown!r}")
-    time.sleep(2.5)  # the next Ctrl-C is a first one again
+    time.sleep(2.5)  # the next Ctrl-C counts as a first one again
     editor.send(b"\x03\x03")
     assert editor.ended() == 0
     assert termios.tcgetattr(editor.slave) == editor.before

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""m512 -p bus:...: the commands of m512 with a program of this PC where a board would be."""
+"""m512 -p bus:...: the commands of m512 with a program of this PC in place of a board."""
 
 import os
 import subprocess
@@ -24,7 +24,7 @@ def motions(tmp_path):
 
 @pytest.fixture
 def m512(make, tmp_path):
-    """m512("pose") -> what it printed; the adapter's servos are those of `make`."""
+    """m512("pose") returns its output; the adapter's servos are those of `make`."""
     robot = make()
     environment = dict(os.environ, M512_ROBOT=str(tmp_path / "robot"))
 
@@ -54,7 +54,7 @@ def test_pages_go_in_and_come_back_and_play(m512, motions, tmp_path):
     whole = motions.read_bytes()
     assert back.read_bytes()[512 : len(whole)] == whole[512:]  # a PC has more pages than a board
     said = m512("play", "bow", "-p", "BUS")
-    assert "idle" in said and "go on holding it" in said and "m512 torque off" in said  # what it says is read behind m512, too
+    assert "idle" in said and "go on holding it" in said and "m512 torque off" in said  # m512 passes the program's messages on
     assert m512.robot.frames()[-1] == {joint: 512 for joint in range(1, 19)}
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""256 pages, all that a link can name: the loops over them end, the last one plays and is linked to, and who has fewer says what does not fit."""
+"""256 pages, all that a link can address: loops over pages end, the last page plays and can be linked to, a smaller board reports a misfit.
+"""
 
 import os
 import subprocess
@@ -15,7 +16,7 @@ LAST = 255
 
 @pytest.fixture
 def files(tmp_path):
-    """Page 1 leads to the last page, which leads to page 200."""
+    """Page 1 links to the last page, which links to page 200."""
     image = Image.empty(256)
     image[1] = page("first", [(30, {1: 540})], next=LAST)
     image[LAST] = page("last", [(30, {1: 484})], next=200, code=16)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""An adapter that is pulled out, and lines that lose bytes and change bits."""
+"""An adapter that is unplugged, and lines that lose bytes and flip bits."""
 
 import pytest
 
@@ -37,7 +37,7 @@ def test_a_plug_that_comes_back_goes_on_only_after_on(make, files):
     at = robot.expect("Broken off in page 2", at)
     robot.plug()
     robot.told("the servo adapter is back")
-    at = robot.expect("Servo 18 answers again", at)  # the health poll goes on
+    at = robot.expect("Servo 18 answers again", at)  # health polling continues
     assert "Nothing is playing" in robot.ask("status")
     refused = robot.ask("play 2")
     assert "OK" not in refused and "on" in refused.split()
@@ -98,4 +98,4 @@ def test_lost_and_false_bytes_lose_no_servo_and_make_no_leap(make, files, tmp_pa
     robot.expect("Stopped after page 1", at)
     assert "does not answer" not in robot.console.decode()
     ways = [max(abs(after[joint] - before[joint]) for joint in before) for before, after in zip(robot.frames(), robot.frames()[1:])]
-    assert max(ways) <= 12  # the page's own speed: 176 units in 64 ticks, and its acceleration
+    assert max(ways) <= 12  # the page's own speed: 176 units in 64 ticks, plus acceleration

@@ -23,7 +23,7 @@ performer_t the_performer;
 settings_t the_settings;
 settings_store_t the_settings_store;
 
-/* ---- page_service.h: our loader is there; fake_flash writes ---- */
+/* ---- page_service.h: our loader is installed; fake_flash does the writes ---- */
 
 page_service_kind_t page_service_kind(void)
 {

@@ -10,13 +10,13 @@ typedef struct {
     unsigned reads;
 } image_t;
 
-/* A source over `image`; check() judges the page anew each time. */
+/* A source over `image`. Every check() validates the page again. */
 page_source_t image_source(image_t *image);
 
 /* All pages empty. */
 void image_clear(image_t *image);
 
-/* Loads a file of pages, `first` of the file at page 0. false: there is no such file, or it is shorter. */
+/* Loads a file of pages; page `first` of the file becomes page 0. Returns false if the file is missing or too short. */
 bool image_load(image_t *image, const char *path, unsigned first);
 
 #endif

@@ -15,7 +15,7 @@ settings_t settings;
 char told[128];
 uint8_t start_status, partner;
 
-/* ---- the performer and the page store, as far as inputs know them ---- */
+/* ---- performer and page store, as far as inputs uses them ---- */
 
 static void note(const char *word, int a, int b)
 {
@@ -94,7 +94,7 @@ void setUp(void)
     partner = 0;
     start_status = PERFORMER_OK;
     inputs_init(&inputs, &performer, &pages, &settings);
-    ticks(INPUTS_SILENCE_TICKS);   /* nothing was held at the start */
+    ticks(INPUTS_SILENCE_TICKS);   /* no button is held at the start */
 }
 
 void tearDown(void) {}

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * inputs_stage.h - what the tests of Play's inputs share: a performer that only writes down what it is told, a remote, and
- * time. Page 2 has code 1, page 5 code 16. setUp and tearDown are here. */
+ * inputs_stage.h - fixture for the tests of Play's inputs: a performer that only logs its calls, a remote, and time.
+ * Page 2 has code 1, page 5 code 16. Contains setUp and tearDown. */
 #ifndef INPUTS_STAGE_H
 #define INPUTS_STAGE_H
 
@@ -10,14 +10,14 @@ extern inputs_t inputs;
 extern performer_t performer;
 extern page_store_t pages;
 extern settings_t settings;
-extern char told[128];         /* what the performer was told: "start 5 16;" */
-extern uint8_t start_status;   /* what it answers to a start */
-extern uint8_t partner;        /* of the page that plays, to the right; 0: none */
+extern char told[128];         /* log of the performer's calls: "start 5 16;" */
+extern uint8_t start_status;   /* what the performer returns for a start */
+extern uint8_t partner;        /* right partner of the playing page; 0: none */
 
-/* The remote sends a packet, which is taken. */
+/* Sends a packet of the remote to the inputs. */
 void remote(uint16_t buttons);
 
-/* Ticks, with the main loop going round between them. */
+/* Runs ticks and the main loop between them. */
 void ticks(uint8_t count);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * layers_stage.h - what the tests of layers share: a main play over sparse pages with layers over it, all joints at 512. */
+ * layers_stage.h - fixture for the tests of layers: a main play over sparse pages, layers on top, all joints at 512. */
 #ifndef LAYERS_STAGE_H
 #define LAYERS_STAGE_H
 
@@ -14,10 +14,10 @@ extern uint16_t goal_pos[PAGE_JOINTS];
 extern link_t l;
 extern layers_t layers;
 
-/* For setUp: no play, no layer, no joint is anybody's. */
+/* For setUp: no play, no layer, no joint owned. */
 void layers_stage_reset(void);
 
-/* Starts the main play at `page`, bound to the layers as they are. */
+/* Starts the main play at `page`, bound to the current layers. */
 void layers_stage_start(uint8_t page, player_law_t law);
 
 #endif

@@ -43,7 +43,7 @@ void setUp(void)
         page_clear(pages[page]);
     }
     make_page(1, 612, 0, 0);
-    make_page(2, 612, 2, 3); /* for ever, until a stop */
+    make_page(2, 612, 2, 3); /* loops until a stop */
     make_page(3, 412, 0, 0);
     memset(&settings, 0, sizeof settings);
     settings.approach_deg_s = 60;

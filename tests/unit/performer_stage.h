@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * performer_stage.h - what the tests of the performer share: three servos that only remember, eight pages, and time.
+ * performer_stage.h - fixture for the performer tests: three fake servos, eight pages, and time.
  *
- * Page 1: joint 1 to 612 in 64 ticks. Page 2: the same for ever, a stop leads to page 3. Page 3: to 412. The others have no
- * action. Approach at 60 degrees/s, battery low below 10.0 V, hot from 70 degrees on. setUp and tearDown are here. */
+ * Page 1: joint 1 to 612 in 64 ticks. Page 2: the same in a loop; a stop leads to page 3. Page 3: to 412. The others
+ * have no action. Approach at 60 degrees/s, battery low below 10.0 V, hot from 70 degrees C. Contains setUp and
+ * tearDown. */
 #ifndef PERFORMER_STAGE_H
 #define PERFORMER_STAGE_H
 
@@ -19,23 +20,23 @@ extern settings_t settings;
 extern performer_t performer;
 extern layers_t layers;
 
-/* A page with one step of 64 ticks in which joint 1 goes to `pos`; links to `next`, on stop to `exit`. */
+/* A page with one step of 64 ticks that moves joint 1 to `pos`. Next link `next`, exit link `exit`. */
 void make_page(uint8_t page, uint16_t pos, uint8_t next, uint8_t exit);
 
-/* Ticks, with the main loop going round between them. */
+/* Runs ticks and the main loop between them. */
 void ticks(uint16_t count);
 
-/* Ticks until the state is reached. */
+/* Runs ticks until this state. */
 void reach(uint8_t state);
 
-/* Starts and expects no refusal. */
+/* Starts a page and expects success. */
 void start(uint8_t page, uint8_t code);
 
-/* The next event of this kind; others are dropped. Fails when there is none. */
+/* Returns the next event of this kind and drops others. Fails if there is none. */
 performer_event_t expect_event(uint8_t kind);
 bool has_event(uint8_t kind);
 
-/* PERFORMER_END_... of the next end. */
+/* PERFORMER_END_... reason of the next end event. */
 uint8_t end_reason(void);
 
 #endif

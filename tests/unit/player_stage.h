@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * player_stage.h - what the tests of the player share: a player over sparse pages, all joints at 512. setUp and tearDown are
- * here. */
+ * player_stage.h - fixture for the player tests: a player over sparse pages, all joints at 512. Contains setUp and
+ * tearDown. */
 #ifndef PLAYER_STAGE_H
 #define PLAYER_STAGE_H
 
@@ -15,9 +15,9 @@ extern link_t l;
 extern uint16_t pose[PAGE_JOINTS];
 
 void start_law(uint8_t page, player_law_t law);
-void start(uint8_t page); /* exact */
+void start(uint8_t page); /* with the exact law */
 
-/* Ticks until one of `events`; that tick's events in *seen. */
+/* Ticks until one of `events` occurs. Returns the ticks; *seen gets the events of the last one. */
 uint16_t run_until(uint8_t events, uint8_t *seen);
 uint16_t run_to_end(void);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * servo_link_stage.h - what the tests of servo_link share: joints on the fake bus, and ticks. setUp and tearDown are
- * here. */
+ * servo_link_stage.h - fixture for the servo_link tests: joints on the fake bus, and ticks. Contains setUp and
+ * tearDown. */
 #ifndef SERVO_LINK_STAGE_H
 #define SERVO_LINK_STAGE_H
 
@@ -9,17 +9,17 @@
 #include "servo_link.h"
 
 extern servo_link_t servos;
-extern uint16_t goals[SERVO_LINK_JOINTS]; /* 300 + ID at first */
+extern uint16_t goals[SERVO_LINK_JOINTS]; /* initially 300 + ID */
 
-/* A robot of `count` servos from ID 1 on, searched, torque on, log empty. */
+/* Makes a robot with servos 1..count, found, torque on, and an empty log. */
 void robot(uint8_t count);
 
-/* The rest of a tick: the main loop goes round often. */
+/* Runs the main loop for the rest of a tick. */
 void rest_of_tick(void);
 void tick_with_goals(uint32_t joints);
 void idle_ticks(uint8_t count);
 
-/* Packets in the log with this instruction, and the last of them. */
+/* Number of packets in the log with this instruction; *last gets the last of them. */
 uint16_t logged(uint8_t instruction, const uint8_t **last);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * servo_wire.h - for the servo tests: a bus, a controller that sends bytes at line rate, and what it heard. */
+ * servo_wire.h - for the servo tests: a bus, and a controller that sends bytes at line rate and records what it
+ * receives. */
 #ifndef SERVO_WIRE_H
 #define SERVO_WIRE_H
 
@@ -25,7 +26,7 @@ static inline void wire_heard(void *context, uint64_t now, uint8_t byte, uint32_
     wire_t *wire = context;
     wire->heard[wire->count] = byte;
     wire->heard_at[wire->count++] = now;
-    wire->bad += bad || rate_bps * 25 > wire->rate_bps * 26 || rate_bps * 25 < wire->rate_bps * 24; /* 4 % off */
+    wire->bad += bad || rate_bps * 25 > wire->rate_bps * 26 || rate_bps * 25 < wire->rate_bps * 24; /* over 4 % off */
 }
 
 static inline void wire_open(wire_t *wire)
@@ -48,7 +49,7 @@ static inline void wire_wait(wire_t *wire, uint64_t cycles)
     servo_bus_advance(wire->bus, wire->now);
 }
 
-/* Sends bytes back to back, beginning now; wire->now ends with the last stop bit. */
+/* Sends bytes back to back, starting now. wire->now is the end of the last stop bit afterwards. */
 static inline void wire_send(wire_t *wire, const uint8_t *bytes, int count)
 {
     for (int i = 0; i < count; i++) {
@@ -57,7 +58,7 @@ static inline void wire_send(wire_t *wire, const uint8_t *bytes, int count)
     }
 }
 
-/* Sends and listens for 5 ms; what was heard before is forgotten. */
+/* Forgets earlier input, sends, and listens for 5 ms. */
 static inline void wire_ask(wire_t *wire, const uint8_t *bytes, int count)
 {
     wire->count = wire->bad = 0;

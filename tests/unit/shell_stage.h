@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * shell_stage.h - what the tests of the line shell share: a shell of 20 characters with a history of 24 bytes, and what it
- * prints. Its ranges: 1 "Page" 1..127, 2 "Rate" 10..400, 3 "Blend" -100..100. setUp and tearDown are here. */
+ * shell_stage.h - fixture for the line shell tests: a shell of 20 characters with a history of 24 bytes, and its
+ * output. Its ranges: 1 "Page" 1..127, 2 "Rate" 10..400, 3 "Blend" -100..100. Contains setUp and tearDown. */
 #ifndef SHELL_STAGE_H
 #define SHELL_STAGE_H
 
@@ -13,14 +13,14 @@
 extern shell_t shell;
 extern char line[LINE_BYTES];
 
-/* What was printed since setUp or clear_out. */
+/* Output since setUp or clear_out. */
 extern char out[256];
 void clear_out(void);
 
-/* Types bytes. Returns what the last one completed. */
+/* Types bytes. Returns the event of the last byte. */
 shell_event_t keys(const char *bytes);
 
-/* Types a line and CR, and expects that the shell takes it. Returns its words. */
+/* Types a line and CR, expects the shell to accept it, and returns its words. */
 shell_args_t enter(const char *text);
 
 #endif

@@ -22,7 +22,7 @@ typedef struct {
 extern sparse_page_t sparse_pages[SPARSE_PAGES];
 extern const page_source_t sparse_source;
 
-/* All pages: count 1, time base, no steps, speed 32, accel 32, no links. */
+/* Resets all pages: count 1, time base, no steps, speed 32, accel 32, no links. */
 void sparse_clear(void);
 
 /* Appends a step to page `page` with all four joints at pos. */

@@ -17,7 +17,7 @@ void setUp(void)
 
 void tearDown(void) {}
 
-/* The answer to the last of `count` bytes; all before it must ask for more. */
+/* Feeds `count` bytes and returns the last status. All earlier ones must ask for more. */
 static frame_status_t feed(const uint8_t *from, unsigned count)
 {
     for (unsigned i = 0; i + 1 < count; i++) {
@@ -26,7 +26,7 @@ static frame_status_t feed(const uint8_t *from, unsigned count)
     return frame_feed(&frame, from[count - 1]);
 }
 
-/* A frame of `words` body words into `to`; its length. */
+/* Builds a frame with `words` body words in `to`. Returns its length. */
 static unsigned make(uint8_t *to, uint8_t command, uint8_t words)
 {
     unsigned body = 2u * words;
@@ -76,7 +76,7 @@ static void test_every_single_bit_error_is_found(void)
 {
     uint8_t raw[300];
     unsigned count = make(raw, 4, 10);
-    for (unsigned bit = 8 * 4; bit < 8 * count; bit++) { /* behind the count, which changes the length */
+    for (unsigned bit = 8 * 4; bit < 8 * count; bit++) { /* starts after the count, which would change the length */
         raw[bit / 8] ^= (uint8_t)(1u << bit % 8);
         TEST_ASSERT_EQUAL(FRAME_BAD, feed(raw, count));
         raw[bit / 8] ^= (uint8_t)(1u << bit % 8);

@@ -54,7 +54,7 @@ static void test_every_character_from_space_to_slash_and_tab_separates(void)
     }
 }
 
-/* Who holds # at the start has some of them before the first word. */
+/* A user who holds # at the start may leave some of them in front of the first word. */
 static void test_hashes_before_a_word_are_blanks(void)
 {
     const char *lines[] = {"#check", "#####check", " # check", "# #\tcheck"};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The half-duplex engine with the test as UART, wire and clock. Times from DYNAMIXEL.md: 10 us a character at 1 Mbps,
+ * The half-duplex engine; the test plays UART, wire and clock. Times from DYNAMIXEL.md: 10 us a character at 1 Mbps,
  * return delay up to 508 us. */
 #include "bus_core.h"
 #include "bus_port.h"
@@ -49,7 +49,7 @@ static bus_status_t poll_after_us(uint16_t us)
     return bus_core_poll(&core, now, &answer);
 }
 
-/* Submits a READ of two bytes and lets it leave. */
+/* Submits a READ of two bytes and lets the packet start. */
 static void ask(uint8_t id, uint8_t tries)
 {
     static const uint8_t params[2] = { DXL_AT_PRESENT, 2 };
@@ -169,7 +169,7 @@ static void test_retry_waits_until_the_line_is_quiet(void)
     hear(bad, sizeof bad);
     TEST_ASSERT_EQUAL(BUS_PENDING, poll_after_us(60));
     hear(good_answer, 2);
-    TEST_ASSERT_EQUAL(BUS_PENDING, poll_after_us(90));   /* still somebody talking */
+    TEST_ASSERT_EQUAL(BUS_PENDING, poll_after_us(90));   /* the line is still busy */
     TEST_ASSERT_EQUAL(1, sends);
     TEST_ASSERT_EQUAL(BUS_PENDING, poll_after_us(90));
     TEST_ASSERT_EQUAL(1, sends);
@@ -194,7 +194,7 @@ static void test_retry_after_half_an_answer_starts_afresh(void)
     TEST_ASSERT_EQUAL(BUS_OK, poll_after_us(80));
 }
 
-/* The first try is spoilt on the wire, the second one meets silence: each is named by what happened to it. */
+/* Noise spoils the first try, the second gets no answer. Each try must report its own error. */
 static void test_retry_forgets_what_spoilt_the_try_before(void)
 {
     ask(3, 2);
@@ -226,7 +226,7 @@ static void test_wrong_id_and_wrong_length_are_named(void)
     TEST_ASSERT_EQUAL(1, core.counts.lengths);
 }
 
-/* FF FF 03 02 error sum: what a servo with ID 3 answers to a WRITE. */
+/* FF FF 03 02 error sum: the answer of servo 3 to a WRITE. */
 static void hear_status(uint8_t error)
 {
     const uint8_t status[] = { 0xFF, 0xFF, 0x03, 0x02, error, (uint8_t)~(0x03 + 0x02 + error) };
@@ -241,7 +241,7 @@ static void write_goal(uint8_t tries)
     leave();
 }
 
-/* DYNAMIXEL.md: bits 3 range, 4 checksum, 6 instruction. The servo has done nothing. */
+/* DYNAMIXEL.md: bits 3 range, 4 checksum, 6 instruction mean that the servo did not execute the packet. */
 static void test_rejected_write_is_a_failed_try(void)
 {
     const uint8_t errors[] = { 1 << 3, 1 << 4, 1 << 6, 1 << 4 | 1 << 5 };
@@ -263,7 +263,7 @@ static void test_rejected_write_is_a_failed_try(void)
     }
 }
 
-/* Bits 0 voltage, 1 angle limit, 2 overheating, 5 overload tell the servo's state: it has obeyed. */
+/* Bits 0 voltage, 1 angle limit, 2 overheating, 5 overload report the servo's state; it has executed the WRITE. */
 static void test_write_to_a_servo_in_trouble_is_done(void)
 {
     const uint8_t errors[] = { 0, 1 << 0, 1 << 1, 1 << 2, 1 << 5 };

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The receive state of the programs' channel. CRCs are those of
- * CRC-16/IBM-3740 (PROTOCOL.md), calculated elsewhere. */
+ * The receive state of the channel. CRCs are CRC-16/IBM-3740 (PROTOCOL.md), calculated independently. */
 #include "channel.h"
 #include "shell.h"
 #include "text.h"
@@ -33,7 +32,7 @@ static void put(char character)
 
 void setUp(void)
 {
-    now_ticks = 0xFFF0;   /* the ticks wrap soon */
+    now_ticks = 0xFFF0;   /* the tick counter wraps soon */
     out_count = 0;
     memset(out, 0, sizeof out);
     text_init(put);
@@ -44,7 +43,7 @@ void tearDown(void)
 {
 }
 
-/* Gives all bytes; returns what the last one was. */
+/* Feeds all bytes and returns the event of the last one. */
 static channel_event_t give(const char *bytes)
 {
     channel_event_t event = CHANNEL_NONE;
@@ -54,7 +53,7 @@ static channel_event_t give(const char *bytes)
     return event;
 }
 
-/* The request that has ended is this one. */
+/* Checks the request that has just ended. */
 static void expect_taken(const char *line, uint8_t fault)
 {
     uint8_t found;
@@ -73,7 +72,7 @@ static void test_a_persons_bytes_are_not_taken(void)
     TEST_ASSERT_FALSE(channel_is_open());
 }
 
-/* A refusal shows the request: an XOFF, an ESC or a byte above ASCII from a bad line must not reach the terminal. */
+/* A refusal prints the request. An XOFF, an ESC or a byte above ASCII from a bad line must not reach the terminal. */
 static void test_what_is_no_text_is_left_out(void)
 {
     TEST_ASSERT_EQUAL_UINT8(CHANNEL_LINE, give("\x1e@v\x13""e\x1b\x80r\x7f \x1e\xff\x01""5F4A\r"));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_classic_math.c - the arithmetic of the classic law against the expressions of LAWS.md section 1, over all that
- * it may be given. */
+ * test_classic_math.c - the arithmetic of the classic law against the expressions of LAWS.md section 1, over its whole
+ * input range. */
 #include <stdlib.h>
 #include "classic_math.h"
 #include "unity.h"
@@ -74,7 +74,7 @@ static void check_speed(uint32_t size, uint16_t divisor)
     TEST_ASSERT_EQUAL_UINT16((uint16_t)(size / divisor), divide_speed(size, divisor, fix_recip32(divisor)));
 }
 
-/* |K - 2 w A| <= 218240 + 2046 A, over 4 (A + 1) and more, or over 1 or 4 where there is no ramp. */
+/* |K - 2 w A| <= 218240 + 2046 A, divided by 4 (A + 1) and more, or by 1 or 4 without a ramp. */
 static void test_speed_for_every_kind_of_divisor(void)
 {
     for (uint32_t divisor = 8; divisor <= 65535; divisor += 1 + divisor / 50) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Dynamixel frames. Known answers are the worked examples of the AX-12 manual and sums made by hand. */
+ * Dynamixel frames. Known answers: the worked examples of the AX-12 manual, and sums made by hand. */
 #include "dxl_packet.h"
 #include "unity.h"
 
@@ -18,7 +18,7 @@ void tearDown(void)
 {
 }
 
-/* The bytes arrive one by one; the result after the last. Before it there is never one. */
+/* Feeds the bytes one by one and returns the last result. There must be none before it. */
 static dxl_result_t feed(const uint8_t *bytes, uint8_t count)
 {
     for (uint8_t i = 0; i < count; i++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * The words of the editor: which there are, how they and their numbers are read; edit/ORIGINAL.md sections 5 and 6
- * with the differences of issue 3. */
+ * The words of the editor and how it reads them and their numbers; edit/ORIGINAL.md sections 5 and 6 with the
+ * differences of issue 3. */
 #include "editor_stage.h"
 #include "unity.h"
 
@@ -13,7 +13,7 @@ static const char *page_number(void)
     return shown(2, 76, 4);
 }
 
-/* Types a line; what the editor says behind it. */
+/* Types a line and returns the editor's answer. */
 static const char *answer(const char *line)
 {
     static char text[100];
@@ -172,7 +172,7 @@ static void test_help_of_each_command_fits_into_the_row(void)
 
 /* ---- the gate ---- */
 
-/* What changes nothing that a play uses, by the page of the spec: looking, the cursor, and letting go. */
+/* The commands that, according to the spec, change nothing a play uses: viewing, the cursor, and release. */
 static bool is_harmless(const char *word)
 {
     static const char *const words[] = {"off", "take", "pairs", "monitor", "goto", "list",

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The editor's keys and modes: questions before edits are lost, keys on the table and in a line, and what stops a play;
+ * The editor's keys and modes: questions before edits are lost, keys in the table and in a line, and what stops a play;
  * edit/ORIGINAL.md section 4. */
 #include "editor_stage.h"
 #include "unity.h"
@@ -147,7 +147,7 @@ static void note_operation(void)
     operations_on_a_busy_bus += bus_has_news();
 }
 
-/* Answers take longer than the tick, so that at most moments one is on its way. */
+/* Answers take longer than a tick, so that an answer is pending most of the time. */
 static void test_save_waits_until_the_bus_is_quiet(void)
 {
     fake_bus_set_latency(30);
@@ -165,7 +165,7 @@ static void test_save_waits_until_the_bus_is_quiet(void)
     }
 }
 
-/* ---- keys on the table ---- */
+/* ---- keys in the table ---- */
 
 static void test_arrows_move_the_cursor_and_stop_at_the_edge(void)
 {
@@ -181,17 +181,17 @@ static void test_arrows_move_the_cursor_and_stop_at_the_edge(void)
     TEST_ASSERT_EQUAL_UINT8(32, the_session.y);
 }
 
-/* The table of a short terminal leaves out joints that are not there; the header beside it leaves out nothing. */
+/* On a short terminal the table omits missing joints; the header next to it keeps all rows. */
 static void test_arrows_in_the_header_know_no_missing_joints(void)
 {
-    type("rows 24\r");   /* servos 1 to 3 are there */
+    type("rows 24\r");   /* servos 1 to 3 are present */
     type("goto 9 7\r" RIGHT);
     TEST_ASSERT_EQUAL_UINT8(9, the_session.x);
     TEST_ASSERT_EQUAL_UINT8(7, the_session.y);
     type(UP UP DOWN);
     TEST_ASSERT_EQUAL_UINT8(6, the_session.y);
     type(LEFT);
-    TEST_ASSERT_EQUAL_UINT8(3, the_session.y);   /* the last joint above */
+    TEST_ASSERT_EQUAL_UINT8(3, the_session.y);   /* the last present joint above */
 }
 
 static void test_home_end_and_pages_of_rows_move_the_cursor_far(void)
@@ -206,7 +206,7 @@ static void test_home_end_and_pages_of_rows_move_the_cursor_far(void)
     type("\033[6~\033[6~");
     TEST_ASSERT_EQUAL_UINT8(32, the_session.y);
     type("\033[4~");
-    TEST_ASSERT_EQUAL_UINT8(7, the_session.x);   /* no softness in the row of speeds */
+    TEST_ASSERT_EQUAL_UINT8(7, the_session.x);   /* the row of speeds has no softness cell */
     type("\033[5~");
     TEST_ASSERT_EQUAL_UINT8(24, the_session.y);
     type("\033[5~\033[5~\033[5~\033[1~");

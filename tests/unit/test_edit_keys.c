@@ -13,7 +13,7 @@ void tearDown(void)
 {
 }
 
-/* The key of the last byte of `text`; all before it must give none. */
+/* Returns the key that the last byte of `text` completes. Earlier bytes must complete none. */
 static uint8_t type(const char *text)
 {
     uint8_t key = KEY_NONE;

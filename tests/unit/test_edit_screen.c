@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The screen as a terminal shows it: the frame of edit/ORIGINAL.md section 3, and that only what changed is sent, when the
+ * The screen as a terminal shows it: the frame of edit/ORIGINAL.md section 3. Only changes are sent, and only when the
  * console has room. */
 #include "editor_stage.h"
 #include "unity.h"
@@ -7,7 +7,7 @@
 #include <string.h>
 #include "console.h"
 
-/* How many places of the screen were written in these columns, command row left out. */
+/* Number of screen positions written in these columns, without the command row. */
 static uint16_t written_in(uint8_t first_column, uint8_t last_column)
 {
     uint16_t count = 0;
@@ -86,7 +86,7 @@ static void test_cursor_rests_on_its_cell(void)
 
 /* ---- what is sent ---- */
 
-/* Pages 1 and 2 differ in STP0 of joint 3, page speed, name, number and address. */
+/* Pages 1 and 2 differ only in STP0 of joint 3, page speed, name, number and address. */
 static void test_page_change_sends_the_cells_that_differ_and_no_other(void)
 {
     type("page 2\r");
@@ -147,7 +147,7 @@ static void test_limp_joint_shows_where_it_is_moved_by_hand(void)
 
 /* ---- room ---- */
 
-/* A line that takes nothing: keys still count, and what changed twice is sent once. */
+/* While the line accepts nothing, keys still take effect, and a cell that changes twice is sent once. */
 static void test_keys_do_not_wait_for_the_screen(void)
 {
     type("goto 1 3\r");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The session over the fake flash: opening, editing, undoing; which cells are marked. */
+ * The session over the fake flash: opening, editing, undo, and which cells are marked. */
 #include "fake_flash.h"
 #include "memory_map.h"
 #include "session.h"
@@ -14,7 +14,7 @@ static uint8_t *flash_page(uint8_t page)
     return fake_flash_bytes() + MEM_MOTION_START + 512u * page;
 }
 
-/* A page with three steps of 18 joints, as edit/ORIGINAL.md describes a stored one. */
+/* Stores a page with three steps of 18 joints, in the format of edit/ORIGINAL.md. */
 static void store(uint8_t page, uint8_t seed)
 {
     uint8_t *bytes = flash_page(page);
@@ -87,7 +87,7 @@ static void test_session_opening_marks_only_what_differs(void)
 {
     take_marks();
     session_open(2);
-    /* 7 steps of 18 joints differ by one each; name, number and address; nothing else. */
+    /* 7 steps of 18 joints differ by one each, and name, number and address */
     TEST_ASSERT_EQUAL_UINT16(7 * 18 + 3, marked());
     take_marks();
     session_open(2);
@@ -142,7 +142,7 @@ static void test_session_copy_and_new_can_be_undone(void)
     TEST_ASSERT_EQUAL_MEMORY(flash_page(2), the_session.cells, PAGE_BYTES);
 }
 
-/* All 31 joints in all steps do not fit the undo memory; what flash holds comes back all the same. */
+/* All 31 joints in all steps do not fit into the undo memory. Contents that flash holds come back all the same. */
 static void test_session_new_on_the_largest_page_is_undone_from_flash(void)
 {
     uint8_t *bytes = flash_page(7);
@@ -164,8 +164,8 @@ static void test_session_new_on_the_largest_page_is_undone_from_flash(void)
     TEST_ASSERT_FALSE(session_undo());
 }
 
-/* The largest page with edits that flash does not hold: only the spare page can bring it back, and forth again; not when
- * a play has overwritten it, nor behind an edit that changes something. */
+/* The largest page with edits that flash does not hold: only the spare page can undo and redo it. It cannot after a
+ * play has overwritten the spare page, nor after an edit that changes something. */
 static void test_session_new_on_the_largest_edited_page_is_undone_from_the_spare_page(void)
 {
     uint8_t spare[PAGE_BYTES], before[PAGE_BYTES], after[PAGE_BYTES];
@@ -204,7 +204,7 @@ static void test_session_new_on_the_largest_edited_page_is_undone_from_the_spare
     session_set_byte(64, (uint8_t)(the_session.cells[64] + 1u));
     session_end();
     the_session.spare = spare;
-    TEST_ASSERT_TRUE(session_undo());  /* the one byte, which was noted */
+    TEST_ASSERT_TRUE(session_undo());  /* the one byte of the last edit */
     TEST_ASSERT_FALSE(session_undo());
     the_session.spare = NULL;
 }

@@ -14,7 +14,7 @@ static void flip(uint16_t address, uint8_t bits)
     bytes[address] ^= bits;
 }
 
-/* SWAP exchanges two 64-byte steps behind the 64-byte header; the other kinds are the session's business. */
+/* SWAP exchanges two 64-byte steps after the 64-byte header. The session tests cover the other kinds. */
 static void turn(uint8_t turn_code, bool back)
 {
     (void)back;
@@ -134,7 +134,7 @@ static void test_undo_turn_alone_is_a_command(void)
     TEST_ASSERT_EQUAL_UINT8(9, bytes[70]);
 }
 
-/* What does not fit is not half kept: the history is empty and says so. */
+/* A command that does not fit is not kept in part: the history becomes empty and reports it. */
 static void test_undo_too_large_a_command_ends_the_history(void)
 {
     undo_begin(&undo, UNDO_TURN_NONE);
@@ -154,7 +154,7 @@ static void test_undo_too_large_a_command_ends_the_history(void)
     TEST_ASSERT_EQUAL_UINT8(0xA5, bytes[3]);
 }
 
-/* Seven steps of 18 joints from unused to a position, name and header: a full page emptied. */
+/* A full page: seven steps of 18 joints from unused to a position, plus name and header. */
 static void test_undo_full_page_of_18_joints_fits(void)
 {
     undo_begin(&undo, UNDO_TURN_NONE);
@@ -178,7 +178,7 @@ static void test_undo_full_page_of_18_joints_fits(void)
     }
 }
 
-/* A run's header has room for 128. */
+/* A run header counts up to 128 bytes. */
 static void test_undo_long_run_of_neighbours_comes_back(void)
 {
     undo_begin(&undo, UNDO_TURN_NONE);
@@ -192,7 +192,7 @@ static void test_undo_long_run_of_neighbours_comes_back(void)
     }
 }
 
-/* Worst for the run headers: every fifth byte, a run each. */
+/* The worst case for run headers: every fifth byte, each a run of its own. */
 static void test_undo_scattered_bytes_fit(void)
 {
     undo_begin(&undo, UNDO_TURN_NONE);
@@ -214,7 +214,7 @@ static uint16_t random_below(uint16_t limit)
     return (uint16_t)((random_state >> 16) % limit);
 }
 
-/* Eight WRITEs of 18 joints at random poses, the most that such a robot's command changes. */
+/* Eight WRITEs of 18 joints at random poses, the largest command of such a robot. */
 static void test_undo_eight_steps_of_18_joints_are_kept(void)
 {
     for (uint8_t command = 0; command < 8; command++) {

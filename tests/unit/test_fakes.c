@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The fakes themselves: no kinder than the chip (tests/fake). */
+ * The fakes themselves, which must be as strict as the chip (tests/fake). */
 #include "bus.h"
 #include "bus_call.h"
 #include "clock.h"
@@ -48,7 +48,7 @@ static void test_eeprom_is_erased_busy_after_a_write_and_wears(void)
     TEST_ASSERT_EQUAL_HEX8(0x42, eeprom_byte(5));
     TEST_ASSERT_EQUAL_HEX8(0xFF, eeprom_byte(6));
     TEST_ASSERT_EQUAL(1, fake_eeprom_wear(5));
-    TEST_ASSERT_TRUE(eeprom_start(5, 0x42));   /* equal: no write, no wear */
+    TEST_ASSERT_TRUE(eeprom_start(5, 0x42));   /* same value: no write, no wear */
     TEST_ASSERT_FALSE(eeprom_is_busy());
     TEST_ASSERT_EQUAL(1, fake_eeprom_wear(5));
 }
@@ -108,7 +108,7 @@ static void test_console_holds_only_under_flow_control(void)
     console_xoff();
     console_xoff();
     console_xon();
-    TEST_ASSERT_TRUE(fake_console_is_held()); /* holds are counted */
+    TEST_ASSERT_TRUE(fake_console_is_held()); /* holds nest */
     console_xon();
     TEST_ASSERT_FALSE(fake_console_is_held());
 }

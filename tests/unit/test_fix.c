@@ -34,7 +34,7 @@ static void test_ratio_of_every_small_pair(void)
     }
 }
 
-/* Both ends of the range, where a 17th bit is in play. */
+/* Both ends of the range, which use a 17th bit. */
 static void test_ratio_of_large_pairs(void)
 {
     for (uint32_t whole = 65000; whole <= UINT16_MAX; whole++) {

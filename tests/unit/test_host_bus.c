@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The bus through an adapter (hal/host/bus.c): answers that come late, echoes, a plug that is pulled. Packets by
+ * The bus through an adapter (hal/host/bus.c): late answers, echoes, an unplugged adapter. Packets as in
  * hal/DYNAMIXEL.md. */
 #include "bus.h"
 
@@ -20,10 +20,10 @@ static uint32_t random_below(uint32_t limit)
     return (uint32_t)(((uint64_t)(random_state >> 8) * limit) >> 24);
 }
 
-static uint8_t error_bits;   /* of the servo's answers */
+static uint8_t error_bits;   /* of the servo's status packets */
 static bool is_silent;
 
-/* Servo 3: answers PING, and READ with bytes that count up. */
+/* Servo 3: answers PING, and READ with ascending bytes. */
 static uint16_t servo(const uint8_t *packet, uint16_t size, uint8_t *answer)
 {
     (void)size;
@@ -35,7 +35,7 @@ static uint16_t servo(const uint8_t *packet, uint16_t size, uint8_t *answer)
     for (uint8_t i = 0; i < count; i++) {
         table[i] = (uint8_t)(packet[5] + i);
     }
-    return dxl_build(answer, 3, error_bits, table, count);   /* a status packet has the error where an instruction stands */
+    return dxl_build(answer, 3, error_bits, table, count);   /* the error takes the place of the instruction */
 }
 
 void setUp(void)
@@ -68,7 +68,7 @@ static void test_answers_are_waited_for_however_late_they_come(void)
         for (uint8_t time = 0; time < 20; time++) {
             TEST_ASSERT_EQUAL(BUS_OK, bus_call_read(3, DXL_AT_PRESENT, read, 2, NULL));
             TEST_ASSERT_EQUAL(DXL_AT_PRESENT, read[0]);
-            fake_machine_set_latency((latencies_ms[i] + time % 5u) * MS);   /* and some more */
+            fake_machine_set_latency((latencies_ms[i] + time % 5u) * MS);   /* plus jitter */
         }
         bus_counts(&counts);
         TEST_ASSERT_EQUAL(0, counts.timeouts);
@@ -84,12 +84,12 @@ static void test_silent_servo_costs_what_the_port_has_been_seen_to_take(void)
     const uint64_t before = host_next_tick();
     TEST_ASSERT_EQUAL(BUS_ERR_TIMEOUT, bus_call_ping(4, 1, NULL));
     const uint64_t fast = host_next_tick() - before;
-    TEST_ASSERT_TRUE(fast < 140 * MS);   /* a packet that is sent once: 0.1 s and 20 ms */
+    TEST_ASSERT_TRUE(fast < 140 * MS);   /* a packet without a retry waits 0.1 s, plus 20 ms */
     TEST_ASSERT_EQUAL(BUS_ERR_TIMEOUT, bus_call_ping(4, 2, NULL));
     TEST_ASSERT_TRUE(host_next_tick() - before - fast < 60 * MS);
 }
 
-/* The limit was too short once: an answer that comes after all makes it longer. */
+/* After a limit that was too short, the late answer raises the limit. */
 static void test_answer_after_the_limit_makes_the_limit_longer(void)
 {
     uint8_t read[2];
@@ -103,7 +103,7 @@ static void test_answer_after_the_limit_makes_the_limit_longer(void)
     TEST_ASSERT_EQUAL(BUS_OK, bus_call_ping(3, 2, NULL));
 }
 
-/* A web page is held up for longer than a program of its own. */
+/* A web page is held up for longer than a native program. */
 static void test_computer_may_look_as_late_as_it_says_however_fast_answers_were(void)
 {
     uint8_t read[2];
@@ -140,7 +140,7 @@ static void test_goals_leave_while_an_answer_is_awaited(void)
     TEST_ASSERT_EQUAL(DXL_AT_PRESENT, answer.params[0]);
 }
 
-/* The answer comes while the line is asked whether it is free; the goals that leave then do not take it away. */
+/* The answer arrives while the program asks whether the line is free. The goals sent next must not discard it. */
 static void test_answer_that_nobody_has_fetched_outlives_the_goals(void)
 {
     const uint8_t goals[] = {DXL_AT_GOAL, 2, 3, 0, 2};
@@ -158,7 +158,7 @@ static void test_answer_that_nobody_has_fetched_outlives_the_goals(void)
     TEST_ASSERT_EQUAL(DXL_AT_PRESENT, answer.params[0]);
 }
 
-/* A PING and the status "voltage error" of the same servo are the same bytes. */
+/* A PING and the status "voltage error" of the same servo have the same bytes. */
 static void test_voltage_error_is_no_echo(void)
 {
     uint8_t error = 0;
@@ -221,15 +221,15 @@ static void test_packet_is_news_when_it_has_left(void)
     static const uint8_t goal[] = {DXL_AT_GOAL, 2, 3, 0, 2};
     start(1 * MS, false);
     (void)bus_submit(dxl_build(bus_packet(), DXL_BROADCAST, DXL_SYNC_WRITE, goal, sizeof goal), BUS_NO_ANSWER, 1);
-    TEST_ASSERT_FALSE(bus_has_news());      /* the program sleeps meanwhile */
+    TEST_ASSERT_FALSE(bus_has_news());      /* the program may sleep until then */
     TEST_ASSERT_FALSE(bus_is_free());
-    fake_machine_pass(11 * 20);             /* eleven bytes of 10 us */
+    fake_machine_pass(11 * 20);             /* eleven bytes of 10 us each */
     TEST_ASSERT_TRUE(bus_has_news());
     TEST_ASSERT_TRUE(bus_is_free());
 }
 
-/* Reads and goals in the order in which the servo link sends them, on a computer that is late by chance: an answer that is
- * handed over is the servo's. */
+/* Reads and goals in the order in which the servo link sends them, on a computer with random delays. Every answer that
+ * the bus returns must be the servo's. */
 static void test_no_answer_is_false_however_late_the_computer_is(void)
 {
     static const uint8_t goals[] = {DXL_AT_GOAL, 2, 3, 0, 2};

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
- * The console of a PC (hal/host/console.c): what is typed ahead waits in the computer, nothing is lost. */
+ * The console of a PC (hal/host/console.c): typed-ahead input waits in the computer, and none is lost. */
 #include "console.h"
 
 #include "fake_machine.h"
 #include "host.h"
 #include "unity.h"
 
-#define BEHIND_XOFF 16u   /* bytes that may still come, as from a USB adapter: an image leaves room for these */
+#define BEHIND_XOFF 16u   /* bytes that may still arrive, e.g. from a USB adapter; an image keeps room for them */
 
 void setUp(void)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What an adapter repeats (hal/host/echo.c). */
+ * Echoes from an adapter (hal/host/echo.c). */
 #include "echo.h"
 
 #include <string.h>
@@ -38,7 +38,7 @@ static void test_echo_is_dropped_and_the_answer_passes(void)
     TEST_ASSERT_EQUAL(1, echo.dropped);
 }
 
-/* The answer to what was asked comes before the echo of what was sent after it. */
+/* The answer to a request comes before the echo of the packet sent after it. */
 static void test_answer_between_two_echoes_passes(void)
 {
     echo_sent(&echo, ping, sizeof ping);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Files instead of flash and EEPROM (hal/host/memory.c): the power of the PC fails at each write in turn. What the machine
- * was writing, and what it had not made sure, is then any mixture of old and new bytes. */
+ * Files instead of flash and EEPROM (hal/host/memory.c). The PC loses power at each write in turn. The current write
+ * and earlier ones that are not yet durable then become a random mixture of old and new bytes. */
 #include <setjmp.h>
 #include <string.h>
 #include "eeprom.h"
@@ -33,7 +33,7 @@ void tearDown(void)
 {
 }
 
-/* The program begins, as firmware/host/main.c has it. */
+/* Starts the program as firmware/host/main.c does. */
 static journal_result_t begin(void)
 {
     uint8_t work[PAGE_BYTES];
@@ -68,7 +68,7 @@ static void test_what_is_saved_is_there_the_next_time(void)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(old, bytes, PAGE_BYTES);
 }
 
-/* Cuts a save at one write. false: it had fewer. */
+/* Cuts a save at write number `write`. Returns false if the save has fewer writes. */
 static bool save_with_cut(uint32_t write, uint32_t seed)
 {
     uint8_t bytes[PAGE_BYTES], neighbour[PAGE_BYTES];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Play's inputs: what remote, panel and typed text ask of the performer. */
+ * Play's inputs: what remote, panel and typed text request from the performer. */
 #include <stdio.h>
 #include <string.h>
 #include "console.h"
@@ -132,14 +132,14 @@ static void test_inputs_stop_after_a_lost_release_counts_again(void)
 {
     performer.state = PERFORMER_PLAY;
     remote(512);
-    ticks(64); /* heard nothing for 500 ms: nothing is held any more */
+    ticks(64); /* no packet for 500 ms: all buttons count as released */
     remote(512);
     TEST_ASSERT_EQUAL_STRING("code 255 0;code 255 0;", told);
 }
 
-/* ---- a play starts on a press ---- */
+/* ---- a button press starts a play ---- */
 
-/* What ends a play or a stop while a thumb stays on the remote. */
+/* Ends a play or a stop while the button stays down. */
 static void end_play(void)
 {
     performer.state = PERFORMER_IDLE;
@@ -264,7 +264,7 @@ static void test_inputs_steering_is_no_press(void)
     settings.remote_mode = SETTINGS_REMOTE_DRIVE;
     performer.state = PERFORMER_PLAY;
     partner = 3;
-    hold(1 + 4, 3);   /* L steers: the play hears code 1 */
+    hold(1 + 4, 3);   /* L steers, so the play gets code 1 */
     end_play();
     partner = 0;
     hold(1 + 4, 20);
@@ -273,15 +273,15 @@ static void test_inputs_steering_is_no_press(void)
 
 static void test_inputs_button_held_before_a_play_may_start_nothing_behind_it(void)
 {
-    hold(2, 1);       /* no page has it */
-    performer.state = PERFORMER_PLAY;   /* called by its number */
+    hold(2, 1);       /* no page has this code */
+    performer.state = PERFORMER_PLAY;   /* started by page number */
     hold(2, 3);
     end_play();
     hold(2, 20);
     TEST_ASSERT_EQUAL_STRING("", told);
 }
 
-/* The program begins again, by MODE or the power. */
+/* Restarts the program, as MODE or power-on does. */
 static void start_anew(void)
 {
     inputs_init(&inputs, &performer, &pages, &settings);
@@ -343,7 +343,7 @@ static void test_inputs_pause_and_stop_held_at_the_start_are_no_press(void)
 {
     start_anew();
     hold(256, 3);
-    performer.state = PERFORMER_PLAY;   /* called by its number */
+    performer.state = PERFORMER_PLAY;   /* started by page number */
     memset(told, 0, sizeof told);
     hold(256, 3);
     TEST_ASSERT_EQUAL_STRING("", told);
@@ -360,7 +360,7 @@ static void test_inputs_hold_mode_does_not_miss_a_remote_that_was_not_heard_sinc
 {
     settings.remote_mode = LINK_HOLD;
     start_anew();
-    performer.state = PERFORMER_PLAY;   /* called by its number */
+    performer.state = PERFORMER_PLAY;   /* started by page number */
     ticks(200);
     TEST_ASSERT_EQUAL_STRING("", told);
 }
@@ -467,7 +467,7 @@ static void test_inputs_flood_loses_text_but_no_packet(void)
     TEST_ASSERT_EQUAL_UINT8(INPUTS_TYPED_BYTES, count);
 }
 
-/* What the shell gets: characters, and (n) where n bytes were lost. */
+/* The shell's input: characters, and (n) where n bytes were lost. */
 static void typed_with_holes(char text[256])
 {
     uint8_t byte;
@@ -495,11 +495,11 @@ static void test_inputs_tell_where_a_full_ring_has_lost_bytes(void)
     for (uint8_t i = 0; i < INPUTS_TYPED_BYTES; i++) {
         fake_console_type("x");
     }
-    fake_console_type("00\r@");   /* no room */
+    fake_console_type("00\r@");   /* lost: no room */
     inputs_take(&inputs);
     uint8_t byte;
     TEST_ASSERT_TRUE(inputs_get(&inputs, &byte));
-    fake_console_type("r");         /* room for one: not for this and what must stand before it */
+    fake_console_type("r");         /* room for one byte, but not for this one and the loss mark before it */
     inputs_take(&inputs);
     typed_with_holes(text);
     fake_console_type("eset\r");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The page journal on a strict fake flash: what a save leaves, and what every power cut leaves. */
+ * The page journal on a strict fake flash: its state after a save and after every power cut. */
 #include "fake_flash.h"
 #include "crc16.h"
 #include "journal.h"
@@ -109,7 +109,7 @@ static void test_a_flash_that_does_not_take_the_data_is_reported(void)
     TEST_ASSERT_EQUAL_MEMORY(new_page, target(PAGE), 512);
 }
 
-/* Cuts a save at operation `op`; true while the cut came before the end. */
+/* Cuts a save at operation `op`. Returns true if the cut came before the end of the save. */
 static bool save_is_cut(uint32_t op, fake_flash_phase_t phase, uint32_t seed)
 {
     jmp_buf cut;
@@ -140,7 +140,7 @@ static bool is_old_or_new(void)
     return memcmp(target(PAGE), old_page, 512) == 0 || memcmp(target(PAGE), new_page, 512) == 0;
 }
 
-/* Old or new, nothing else touched, and the next save works. */
+/* The page is old or new, nothing else has changed, and the next save works. */
 static void check_after_cut(void)
 {
     TEST_ASSERT_TRUE_MESSAGE(is_old_or_new(), "neither the old page nor the new one");
@@ -213,14 +213,14 @@ static void test_the_sequence_wraps(void)
     TEST_ASSERT_EQUAL_MEMORY(new_page, target(65999 % 128), 512);
     TEST_ASSERT_EQUAL(JOURNAL_CLEAN, journal_recover(work));
     TEST_ASSERT_EQUAL_MEMORY(new_page, target(65999 % 128), 512);
-    TEST_ASSERT_TRUE(save_is_cut(7, FAKE_FLASH_BEFORE, 1)); /* record complete, target untouched */
+    TEST_ASSERT_TRUE(save_is_cut(7, FAKE_FLASH_BEFORE, 1)); /* record complete, target page unchanged */
     TEST_ASSERT_EQUAL(JOURNAL_RESTORED, journal_recover(work));
     TEST_ASSERT_EQUAL_MEMORY(new_page, target(PAGE), 512);
 }
 
 static void test_a_download_can_void_a_pending_page(void)
 {
-    TEST_ASSERT_TRUE(save_is_cut(7, FAKE_FLASH_BEFORE, 1)); /* record complete, target untouched */
+    TEST_ASSERT_TRUE(save_is_cut(7, FAKE_FLASH_BEFORE, 1)); /* record complete, target page unchanged */
     TEST_ASSERT_TRUE(journal_is_pending());
     TEST_ASSERT_EQUAL(FLASH_OK, journal_void());
     TEST_ASSERT_FALSE(journal_is_pending());

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
- * test_layers.c - a second page and code-made motion over a walk: who moves a joint, how fast it changes hands, and that
- * nobody else notices (SHAPING.md, "Layers"). */
+ * test_layers.c - a second page and code-made motion over a walk: who moves a joint, how fast a joint changes its
+ * source, and that other joints are not disturbed (SHAPING.md, "Layers"). */
 #include <string.h>
 #include "layers_stage.h"
 #include "unity.h"
 
-#define WALK 1u  /* page 1: four steps of 12 ticks with all four joints, round and round */
-#define WAVE 2u  /* page 2: two steps of 30 ticks with joints 2 and 3, round and round */
+#define WALK 1u  /* page 1: four steps of 12 ticks with all four joints, in a loop */
+#define WAVE 2u  /* page 2: two steps of 30 ticks with joints 2 and 3, in a loop */
 #define SHORT 3u /* page 3: one step of 20 ticks, then it ends */
 #define CYCLE 48u
 #define RECORDED 24u
@@ -22,9 +22,9 @@ static bool seeks(uint8_t joint)
 {
     return (layers.mux.seeking >> joint & 1u) != 0;
 }
-static uint16_t alone[RUN / MARKED]; /* mark() of the walk without a layer; the chip has no room for more */
-static uint16_t marked;        /* mark() up to this tick */
-static int fastest;            /* change of a goal in a tick that any of the pages makes by itself */
+static uint16_t alone[RUN / MARKED]; /* mark() of the walk without a layer, every MARKED ticks to save RAM */
+static uint16_t marked;        /* mark() at the current tick */
+static int fastest;            /* largest change of a goal per tick in the walk alone */
 
 static void make_pages(uint8_t schedule)
 {
@@ -62,8 +62,8 @@ static void start(player_law_t law)
     layers_stage_start(WALK, law);
 }
 
-/* Takes in joints 0 and 1, which no layer takes. Any unit more or less changes all that follows. Returns the tick's place in
- * `alone` if it has one, else RUN. */
+/* Adds joints 0 and 1, which no layer moves, to a hash. One wrong unit changes all later values. Returns the tick's
+ * index in `alone` if it has one, else RUN. */
 static uint16_t mark(uint16_t tick)
 {
     marked = (uint16_t)(31u * marked + goal_pos[0]);
@@ -84,8 +84,9 @@ static int size(int way)
     return way < 0 ? -way : way;
 }
 
-/* One tick; returns the main play's events. The joints that change hands keep the speed, all others that of the pages; a
- * as much more, because one that has caught up comes into its next step with another speed than without the layer. */
+/* Runs one tick and returns the main play's events. Joints that change their source stay within the hand-over speed.
+ * All others stay within 1.5 times the highest speed of the walk, because a joint that has caught up enters its next
+ * step at another speed than without the layer. */
 static uint8_t tick(void)
 {
     uint16_t before[4];
@@ -98,14 +99,14 @@ static uint8_t tick(void)
     for (uint8_t i = 0; i < 4; i++) {
         int way = size((int)goal_pos[i] - (int)before[i]);
         TEST_ASSERT_LESS_OR_EQUAL(PAGE_POS_MAX, goal_pos[i]);
-        /* One that meets its owner's way goes on with the owner in the same tick. */
+        /* A joint that meets its source follows it in the same tick. */
         const int most = was_seeking[i] && seeks(i) ? HAND_OVER_MOST : fastest + fastest / 2;
         TEST_ASSERT_LESS_OR_EQUAL_MESSAGE(most, way, "a joint leaps");
     }
     return events;
 }
 
-/* Records the walk alone, and how fast it and the wave are by themselves. */
+/* Records the walk alone, and its highest speed. */
 static void play_alone(player_law_t law)
 {
     fastest = 1023;
@@ -128,7 +129,7 @@ static void play_alone(player_law_t law)
     fastest = found;
 }
 
-/* The layer comes at tick `on`, and goes 60 ticks later. */
+/* Starts the layer at tick `on` and ends it 60 ticks later. */
 static void layer_from(player_law_t law, uint16_t on)
 {
     layers_init(&layers, goal_pos);
@@ -144,7 +145,7 @@ static void layer_from(player_law_t law, uint16_t on)
         expect_undisturbed(t);
     }
     TEST_ASSERT_EQUAL_HEX32(0, layers_joints(&layers));
-    TEST_ASSERT_FALSE(layers_are_moving(&layers)); /* everybody has caught up */
+    TEST_ASSERT_FALSE(layers_are_moving(&layers)); /* all joints have caught up */
 }
 
 static void at_every_tick(player_law_t law, uint8_t schedule)
@@ -166,7 +167,7 @@ static void test_layers_classic_at_every_tick_of_a_walk(void)
     at_every_tick(PLAYER_LAW_CLASSIC, PAGE_SCHEDULE_TIME);
 }
 
-/* What joint 2 is asked for by a layer that comes with the walk. */
+/* Records what a layer requests of joint 2 when it starts with the walk. */
 static void record_layer(player_law_t law, uint16_t asked[RECORDED])
 {
     fastest = 1023;
@@ -188,14 +189,14 @@ static void test_layers_play_by_the_exact_law_over_both(void)
     TEST_ASSERT_NOT_EQUAL_UINT16(over_exact[0], over_exact[RECORDED - 1]);
 }
 
-/* In speed base the longest way may be that of a joint that is lent. */
+/* In speed base the longest move of a step may be that of a joint that a layer has. */
 static void test_layers_in_speed_base_keep_the_timing(void)
 {
     at_every_tick(PLAYER_LAW_EXACT, PAGE_SCHEDULE_SPEED);
     at_every_tick(PLAYER_LAW_CLASSIC, PAGE_SCHEDULE_SPEED);
 }
 
-/* The walk with a pause from tick `at` on; returns the ticks until it begins its sixth step. */
+/* Plays the walk with a pause from tick `at` on. Returns the ticks until its sixth step begins. */
 static uint16_t ticks_with_a_pause(uint16_t at, bool with_layers)
 {
     uint16_t ticks = 0;
@@ -221,8 +222,8 @@ static uint16_t ticks_with_a_pause(uint16_t at, bool with_layers)
     return ticks;
 }
 
-/* In speed base a step after a pause takes as long as the joints that are not at their target need; the joints that others
- * have do not count by where they are, but by where the walk has them. */
+/* In speed base a step after a pause takes as long as the joints that are not at their target need. A joint that a
+ * layer has counts by where the walk would have it, not by where it is. */
 static void test_layers_in_speed_base_keep_the_timing_through_a_pause(void)
 {
     make_pages(PAGE_SCHEDULE_SPEED);
@@ -252,8 +253,8 @@ static void test_layers_page_ends_by_itself_and_gives_its_joints_back(void)
     TEST_ASSERT_FALSE(layers_are_moving(&layers));
 }
 
-/* A joint that changes hands is never faster than the approach speed (SHAPING.md). The wave asks for 288 units in its first
- * 30 ticks, 9.6 a tick; 1.6 are allowed, and the joints set out at once. */
+/* A joint that changes its source is never faster than the approach speed (SHAPING.md). The wave requests 288 units in
+ * its first 30 ticks, 9.6 a tick. Only 1.6 are allowed, and the joints start at once. */
 static void given_joint_keeps_the_approach_speed(player_law_t law)
 {
     layers_init(&layers, goal_pos);
@@ -276,9 +277,9 @@ static void test_layers_joint_given_to_a_layer_keeps_the_approach_speed(void)
     given_joint_keeps_the_approach_speed(PLAYER_LAW_CLASSIC);
 }
 
-/* The page goes to and fro between 300 and 700, 40 units a tick. At 10 degrees/s the joint makes 0.27, and is never near
- * what is asked for at a tick. It goes on with the page when that passes it in a later step than the page's first: no
- * farther in that tick than the page does, and within two steps more. */
+/* The page swings between 300 and 700 at 40 units a tick. At 10 degrees/s the joint makes 0.27 units a tick and is
+ * never near the requested position at a tick. It joins the page when the page passes it in a later step than the
+ * page's first: it moves no farther in that tick than the page does, and joins within two more steps. */
 static void test_layers_slow_joint_goes_on_with_a_page_that_passes_it(void)
 {
     enum { FAST = 4 };
@@ -338,7 +339,7 @@ static void test_layers_refuse_and_change_nothing(void)
         TEST_ASSERT_EQUAL(LAYERS_OK, layers_aim(&layers, id, 500, 0));
     }
     TEST_ASSERT_EQUAL(LAYERS_ERR_FULL, layers_aim(&layers, 8, 500, 0));
-    TEST_ASSERT_EQUAL(LAYERS_OK, layers_aim(&layers, 7, 520, 0)); /* the same joint again */
+    TEST_ASSERT_EQUAL(LAYERS_OK, layers_aim(&layers, 7, 520, 0)); /* replaces the aim of the same joint */
 }
 
 static void test_layers_aim_works_while_nothing_plays(void)
@@ -369,7 +370,7 @@ static void test_layers_swing_is_a_sine(void)
     TEST_ASSERT_EQUAL(LAYERS_OK, layers_swing(&layers, 5, 512, 200, 240, 0));
     for (uint16_t t = 0; t < 480; t++) {
         (void)layers_tick(&layers, &l, &layer_events);
-        if (t >= 240 && t % 20 == 0) { /* it has caught up by then */
+        if (t >= 240 && t % 20 == 0) { /* caught up by then */
             TEST_ASSERT_INT_WITHIN(1, 512 + known[t / 20 % 12], goal_pos[5]);
         }
     }
@@ -393,7 +394,7 @@ static void test_layers_swing_over_a_walk_and_free(void)
     TEST_ASSERT_FALSE(layers_are_moving(&layers));
 }
 
-/* 100 ticks of both, then a pause. */
+/* Runs both for 100 ticks, then pauses. */
 static void pause_a_wave_over_the_walk(void)
 {
     play_alone(PLAYER_LAW_EXACT);
@@ -430,7 +431,7 @@ static void test_layers_break_and_pause_hold_for_both(void)
     TEST_ASSERT_FALSE(player_is_moving(&player) || layers_are_moving(&layers));
 }
 
-/* The layer takes 60 ticks to stand, the walk 8: a resume between the two is for both. */
+/* The layer needs 60 ticks to stop, the walk 8. A resume in between applies to both. */
 static void test_layers_that_stand_later_than_the_walk_resume_too(void)
 {
     sparse_pages[WAVE].accel = 60;
@@ -470,7 +471,7 @@ static void test_layers_dropped_joint_stands(void)
     }
 }
 
-/* Without a main play there are no joints to look at; what code moves ends all the same. */
+/* Without a main play there are no play joints to check. Code-made motion ends all the same. */
 static void test_layers_dropped_without_a_main_play(void)
 {
     goal_pos[7] = 512;

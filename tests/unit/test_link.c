@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * test_link.c - one test for each sentence of REMOTE.md, "What a code does". */
+ * test_link.c - one test for each sentence of "What a code does" in REMOTE.md. */
 #include "link.h"
 #include "unity.h"
 
@@ -141,7 +141,7 @@ static void test_link_exit_chain_that_comes_back_ends(void)
     header[PAGE_AT_EXIT_PAGE] = 21;
     TEST_ASSERT_EQUAL_UINT8(21, link_decide(&l, EXIT, header, &taken)); /* 20 -> 21 */
     header[PAGE_AT_EXIT_PAGE] = EXIT;
-    TEST_ASSERT_EQUAL_UINT8(0, link_decide(&l, 21, header, &taken)); /* 21 -> 20: been there */
+    TEST_ASSERT_EQUAL_UINT8(0, link_decide(&l, 21, header, &taken)); /* 21 -> 20: already visited */
     TEST_ASSERT_EQUAL(LINK_END_OF_EXIT_LOOP, taken);
 }
 
@@ -175,11 +175,11 @@ static void test_link_another_code_replaces_a_stop(void)
 static void test_link_repeated_packets_of_a_held_button_do_not_undo_a_stop(void)
 {
     link_code(&l, CODE_U);
-    link_code(&l, LINK_CODE_STOP); /* somebody at the robot presses Start */
+    link_code(&l, LINK_CODE_STOP); /* the Start button on the robot */
     link_code(&l, CODE_U);         /* the remote repeats itself */
     TEST_ASSERT_TRUE(link_is_stopping(&l));
     link_code(&l, LINK_CODE_NONE);
-    link_code(&l, CODE_U); /* released and pressed anew: meant */
+    link_code(&l, CODE_U); /* a new press counts */
     TEST_ASSERT_FALSE(link_is_stopping(&l));
 }
 

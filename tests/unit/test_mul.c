@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_mul.c - the products of mul.h against plain C; on the ATmega128 that is the assembler against gcc's library. */
+ * test_mul.c - the products of mul.h against plain C. On the ATmega128 this compares the assembler with gcc's
+ * library. */
 #include "mul.h"
 #include "unity.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * test_mux.c - a joint that gets another source: how fast it goes there, and when it has met it. */
+ * test_mux.c - a joint with a new source: its speed towards the source, and when it has met the source. */
 #include "mux.h"
 #include "unity.h"
 
@@ -31,7 +31,7 @@ static void test_mux_goes_at_its_speed_until_it_is_there(void)
     TEST_ASSERT_EQUAL_HEX32(BIT, mux.seeking);
     TEST_ASSERT_EQUAL_UINT16(505, goal(504, 505));
     TEST_ASSERT_EQUAL_HEX32(0, mux.seeking);
-    TEST_ASSERT_EQUAL_UINT16(700, goal(505, 700)); /* from now on with its source */
+    TEST_ASSERT_EQUAL_UINT16(700, goal(505, 700)); /* follows its source from now on */
 }
 
 static void test_mux_meets_a_source_that_passes_it(void)
@@ -41,7 +41,7 @@ static void test_mux_meets_a_source_that_passes_it(void)
     TEST_ASSERT_EQUAL_HEX32(0, mux.seeking);
 }
 
-/* A new source is not the old one that comes from the other side. */
+/* A new source on the other side does not count as the old source passing the joint. */
 static void test_mux_does_not_meet_a_source_that_is_on_the_other_side_from_the_beginning(void)
 {
     TEST_ASSERT_EQUAL_UINT16(502, goal(500, 540));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What editing computes of positions and times. */
+ * How editing computes positions and times. */
 #include "page_edit.h"
 #include "unity.h"
 

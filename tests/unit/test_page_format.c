@@ -8,7 +8,7 @@
 
 static uint8_t dump[PAGE_BYTES];
 
-/* "0A0  00 40 ..." or "*", which repeats the row before up to the next one's address. */
+/* Reads rows "0A0  00 40 ..." and "*", which repeats the row before up to the next row's address. */
 static void read_dump(void)
 {
     FILE *file = fopen(PAGE_FORMAT_MD, "r");

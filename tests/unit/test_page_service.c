@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Who can write flash here: our loader, the factory's, a mailbox, nobody; and the mailbox itself. */
+ * Who writes flash: our loader, the factory's, a mailbox, or nobody; and the mailbox itself. */
 #include "fake_boot_call.h"
 #include "fake_eeprom.h"
 #include "crc16.h"
@@ -40,7 +40,7 @@ static void install_ours(uint8_t version, uint16_t features)
     memcpy(boot() + (MEM_BOOT_API - MEM_BOOT_START), head, sizeof head);
 }
 
-/* Bytes that are not the factory's but have its length, sum and CRC: the last six are searched for. */
+/* Installs made-up bytes with the factory loader's length, sum and CRC. Finds the last six bytes by search. */
 static void install_factory(void)
 {
     uint8_t *p = boot();
@@ -180,7 +180,7 @@ static void test_a_cut_before_the_end_posts_nothing(void)
 {
     static jmp_buf cut;
     static volatile uint32_t operation;
-    fake_eeprom_bytes()[0xFF4] = 0xAA; /* an older page is still there */
+    fake_eeprom_bytes()[0xFF4] = 0xAA; /* an older page is still stored */
     for (operation = 2; operation < 500; operation += 50) {
         fake_eeprom_reset();
         fake_eeprom_bytes()[0xFF4] = 0xAA;

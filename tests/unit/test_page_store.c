@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Motion pages in (fake) flash: which are good, their names, codes and trim. */
+ * Motion pages in fake flash: which are valid, their names, codes and trim. */
 #include "fake_flash.h"
 #include "fake_system.h"
 #include "memory_map.h"
@@ -11,7 +11,7 @@
 static page_store_t store;
 static uint8_t page[PAGE_BYTES];
 
-/* Where page n stands: 0x0E000 + 512 n (BOARD.md). */
+/* Address of page n: 0x0E000 + 512 n (BOARD.md). */
 static uint8_t *flash_of(uint8_t number)
 {
     return fake_flash_bytes() + 0x0E000 + 512u * number;
@@ -72,7 +72,7 @@ static void test_check_names_the_fault_as_page_check_does(void)
     page_seal(page);
     memcpy(flash_of(3), page, PAGE_BYTES);
     put(4, "Unused step", 1, 0);
-    page_set_pos(page, 1, 30, 1024);   /* behind the last step: nobody plays it */
+    page_set_pos(page, 1, 30, 1024);   /* after the last step, so never played */
     page_seal(page);
     memcpy(flash_of(4), page, PAGE_BYTES);
     page_store_init(&store);

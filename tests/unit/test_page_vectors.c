@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * test_page_vectors.c - the C codec and the Python codec of m512 judge the same pages:
+ * test_page_vectors.c - the C codec and m512's Python codec must agree on the pages of
  * tests/models/golden/page_vectors.json. */
 #include "page.h"
 #include "unity.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The performer with the real player, links and approach above servos that only remember: from start to end, torque. */
+ * The performer with the real player, links and approach over fake servos: from start to end, torque. */
 #include "performer_stage.h"
 #include "unity.h"
 
@@ -36,7 +36,7 @@ static void test_performer_start_refuses_a_second_play(void)
     TEST_ASSERT_EQUAL_UINT8(2, performer.page);
 }
 
-/* Two polls a servo: torque, then pose. */
+/* Two polls per servo: torque, then pose. */
 static void test_performer_asks_one_servo_at_a_time_and_moves_nobody_meanwhile(void)
 {
     start(1, 0);
@@ -53,7 +53,7 @@ static void test_performer_asks_one_servo_at_a_time_and_moves_nobody_meanwhile(v
     TEST_ASSERT_EQUAL_UINT16(3, fake_servo_link.engagements);
 }
 
-/* 60 degrees/s are 60 / 300 * 1024 / 128 = 1.6 units a tick; 100 units take 62.5 ticks at that speed, ramps more. */
+/* 60 degrees/s are 60 / 300 * 1024 / 128 = 1.6 units a tick. 100 units take 62.5 ticks at that speed, plus ramps. */
 static void test_performer_approach_keeps_to_the_speed_limit(void)
 {
     start(1, 0);

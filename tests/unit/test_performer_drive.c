@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The performer: driving by a program, and what shapes a play from outside. */
+ * The performer: driving by a program, and shaping a play from outside. */
 #include "performer_stage.h"
 
 #include "unity.h"
@@ -33,7 +33,7 @@ static void test_drive_out_of_range_changes_nothing(void)
     start(2, 0);
     reach(PERFORMER_PLAY);
     ticks(5 * SECOND);
-    TEST_ASSERT_EQUAL_UINT8(PERFORMER_PLAY, performer.state); /* a refused line drives nobody */
+    TEST_ASSERT_EQUAL_UINT8(PERFORMER_PLAY, performer.state); /* a refused line does not count as a drive */
 }
 
 static void test_drive_that_falls_silent_ends_through_the_exit_page(void)
@@ -48,7 +48,7 @@ static void test_drive_that_falls_silent_ends_through_the_exit_page(void)
     TEST_ASSERT_TRUE(has_event(PERFORMER_EV_DRIVE_LOST));
     reach(PERFORMER_IDLE);
     TEST_ASSERT_EQUAL_UINT8(3, performer.page);
-    TEST_ASSERT_EQUAL_UINT16(412, fake_servo_link.goal_pos[1]); /* where the exit page leads */
+    TEST_ASSERT_EQUAL_UINT16(412, fake_servo_link.goal_pos[1]); /* target of the exit page */
     TEST_ASSERT_EQUAL_UINT8(PERFORMER_END_STOPPED, end_reason());
 }
 
@@ -97,7 +97,7 @@ static void test_what_drive_has_set_ends_with_the_play(void)
     TEST_ASSERT_TRUE(shape_is_neutral(&performer.shape));
     start(2, 0);
     reach(PERFORMER_PLAY);
-    ticks(5 * SECOND); /* nobody drives this one */
+    ticks(5 * SECOND); /* this play is not driven */
     TEST_ASSERT_EQUAL_UINT8(PERFORMER_PLAY, performer.state);
 }
 

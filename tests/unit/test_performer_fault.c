@@ -48,7 +48,7 @@ static void test_performer_fault_hold_sends_the_faulty_joint_nothing_more(void)
     ticks(1);
     const uint16_t held = fake_servo_link.goal_pos[1];
     ticks(2);
-    TEST_ASSERT_FALSE(performer_is_idle(&performer)); /* the others slow down */
+    TEST_ASSERT_FALSE(performer_is_idle(&performer)); /* the other joints slow down */
     reach(PERFORMER_IDLE);
     TEST_ASSERT_EQUAL_UINT16(held, fake_servo_link.goal_pos[1]);
 }
@@ -82,7 +82,7 @@ static void test_performer_fault_limp_goes_on_without_the_joint(void)
     TEST_ASSERT_EQUAL_UINT16(held, fake_servo_link.goal_pos[1]);
 }
 
-/* Switching a torque off blocks the loop; two at once would hold the next tick's goals up. */
+/* Switching a torque off blocks the loop; two in one turn would delay the next tick's goals. */
 static void test_performer_fault_limp_switches_one_joint_off_a_turn(void)
 {
     settings.fault_rule = SETTINGS_FAULT_LIMP;
@@ -152,7 +152,7 @@ static void test_performer_low_battery_is_told_once_a_play(void)
     TEST_ASSERT_EQUAL_UINT8(99, expect_event(PERFORMER_EV_BATTERY).a);
     servos.voltage_dv = 120;
     ticks(1);
-    servos.voltage_dv = 98; /* it sags under load, time and again */
+    servos.voltage_dv = 98; /* the battery sags under load repeatedly */
     ticks(100);
     TEST_ASSERT_FALSE(has_event(PERFORMER_EV_BATTERY));
     start(1, 0);
@@ -171,7 +171,7 @@ static void test_performer_hot_servo_is_named(void)
 
 /* ---- the computer ---- */
 
-/* What the main loop does in a tick that comes so many ticks late. */
+/* Runs the main loop for a tick that is late by `late` ticks. */
 static void tick_late_by(uint16_t late)
 {
     fake_time_ticks((uint16_t)(late + 1u));
@@ -197,7 +197,7 @@ static void test_performer_tick_late_by_a_tenth_of_a_second_breaks_softly_and_sa
     reach(PERFORMER_PLAY);
     tick_late_by(13);
     TEST_ASSERT_TRUE(performer.leaving);
-    TEST_ASSERT_EQUAL(PERFORMER_PLAY, performer.state);   /* it slows down */
+    TEST_ASSERT_EQUAL(PERFORMER_PLAY, performer.state);   /* it is slowing down */
     fake_time_reset();
     ticks(60);
     TEST_ASSERT_TRUE(performer_is_idle(&performer));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The performer: stop, break, pause, and what codes of a remote do. */
+ * The performer: stop, break, pause, and the effect of remote codes. */
 #include "performer_stage.h"
 #include "unity.h"
 
@@ -13,7 +13,7 @@ static void test_performer_stop_goes_through_the_exit_page(void)
     performer_stop(&performer);
     reach(PERFORMER_IDLE);
     TEST_ASSERT_EQUAL_UINT16(412, fake_servo_link.goal_pos[1]);
-    /* Decided when the last step begins: the link of the page under way was taken before the stop. */
+    /* Links are decided when the last step begins: the current page's link was taken before the stop. */
     TEST_ASSERT_EQUAL_UINT8(LINK_NEXT, expect_event(PERFORMER_EV_LINK).b);
     TEST_ASSERT_EQUAL_UINT8(LINK_EXIT, expect_event(PERFORMER_EV_LINK).b);
     TEST_ASSERT_EQUAL_UINT8(PERFORMER_END_STOPPED, end_reason());
@@ -21,7 +21,7 @@ static void test_performer_stop_goes_through_the_exit_page(void)
 
 static void test_performer_second_stop_within_a_second_is_a_break(void)
 {
-    make_page(2, 612, 2, 2); /* its exit link leads nowhere else */
+    make_page(2, 612, 2, 2); /* its exit link leads back to itself */
     pages[2][PAGE_AT_STEP0 + PAGE_STEP_AT_SPEED] = 255;
     page_seal(pages[2]);
     start(2, 0);
@@ -64,7 +64,7 @@ static void test_performer_break_slows_down_and_holds(void)
     while (!performer_is_idle(&performer)) {
         ticks(1);
         const uint16_t step = (uint16_t)(fake_servo_link.goal_pos[1] - last);
-        TEST_ASSERT_LESS_OR_EQUAL_UINT16(last_step + 1, step); /* slower and slower, never back */
+        TEST_ASSERT_LESS_OR_EQUAL_UINT16(last_step + 1, step); /* slowing down, never moving back */
         last = fake_servo_link.goal_pos[1];
         last_step = step;
     }
@@ -179,7 +179,7 @@ static void test_performer_code_takes_the_linked_page(void)
     reach(PERFORMER_PLAY);
     ticks(10);
     performer_code(&performer, 4);
-    performer_code(&performer, 0); /* latch: letting go changes nothing */
+    performer_code(&performer, 0); /* latch mode: a release changes nothing */
     reach(PERFORMER_IDLE);
     while (true) {
         const performer_event_t event = expect_event(PERFORMER_EV_LINK);

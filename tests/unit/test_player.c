@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Time and way-points of a play; both laws where they agree. */
+ * Times and way-points of a play; both laws where they agree. */
 #include "player_stage.h"
 #include "unity.h"
 
@@ -19,7 +19,7 @@ static void test_player_exact_time_base_takes_time_ticks_and_ends_with_the_last_
     TEST_ASSERT_FALSE(player_is_moving(&player));
 }
 
-/* 40 units of way * 40 * 32 / (3 * 100 * 32): 120 units at speed 100 are 16 ticks. */
+/* Distance 120: 40 * 120 * 32 / (3 * 100 * 32) = 16 ticks at speed 100. */
 static void test_player_exact_speed_base_takes_the_time_of_the_longest_way(void)
 {
     sparse_pages[1].schedule = PAGE_SCHEDULE_SPEED;
@@ -55,7 +55,7 @@ static void test_player_exact_plays_steps_of_one_and_two_ticks(void)
     TEST_ASSERT_EQUAL_UINT16(400, player_goal(&player, 2));
 }
 
-/* pause * speed / 32 in time base, pause * 32 / speed in speed base; nothing is made meanwhile. */
+/* pause * speed / 32 in time base, pause * 32 / speed in speed base; no output during the pause. */
 static void test_player_pause_scales_with_the_schedule(void)
 {
     sparse_pages[1].speed = 64;
@@ -113,7 +113,7 @@ static void test_player_exact_stands_at_a_turning_point_a_pause_and_the_end(void
         uint16_t before = player_goal(&player, 0), target = sparse_pages[1].step[step].pos[0];
         (void)player_tick(&player, &l);
         TEST_ASSERT_EQUAL_UINT16(target, player_goal(&player, 0));
-        TEST_ASSERT_UINT16_WITHIN(1, target, before); /* the last of 16 decelerating ticks: 400 / 32 / 16 / 2 units */
+        TEST_ASSERT_UINT16_WITHIN(1, target, before); /* way of the last of 16 decelerating ticks: 400 / 32 / 16 / 2 */
         if (step == 1) {
             (void)player_tick(&player, &l);
         }
@@ -141,7 +141,7 @@ static uint16_t noise(void)
     return (uint16_t)(state >> 16);
 }
 
-/* Joint 1 mirrors joint 0 (1023 - p). Nothing passes its way-point; each step ends on it. */
+/* Joint 1 mirrors joint 0 (1023 - p). No joint passes its way-point; each step ends on it. */
 static void test_player_exact_mirrors_and_never_overshoots_whatever_the_page(void)
 {
     for (uint8_t round = 0; round < 40; round++) {
@@ -174,7 +174,7 @@ static void test_player_exact_mirrors_and_never_overshoots_whatever_the_page(voi
 }
 
 /* LAWS.md section 1, rules 7 and 8, where the speed wraps: 800 units in one tick without ramps are K / 4 = 170666 / 4 =
- * 42666, as int16 -22870, limited to -1023; with that speed, left standing, the next page begins. */
+ * 42666, as int16 -22870, limited to -1023. The next page starts with that speed, because nothing resets it. */
 static void test_player_classic_speed_wraps_before_it_is_limited(void)
 {
     pose[0] = 100;

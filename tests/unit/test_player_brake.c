@@ -54,7 +54,8 @@ static int size_of(int value)
     return value < 0 ? -value : value;
 }
 
-/* Slows down: each joint keeps its direction, its speed shrinks (but for rounding), and the last tick says so. */
+/* Checks the braking: each joint keeps its direction, its speed decreases (but for rounding), and the last tick reports
+ * `end_events`. Returns the ticks. */
 static uint8_t expect_braking(const uint16_t *before, uint8_t end_events)
 {
     uint16_t last[2] = {before[0], before[1]};
@@ -108,8 +109,8 @@ static void test_player_breaks_at_any_tick_of_classic_without_turning_back(void)
     break_at_every_tick(PLAYER_LAW_CLASSIC);
 }
 
-/* Pauses, stands, goes on; returns the ticks that were made besides standing. No leap: the page's fastest tick is 26
- * units by the exact law, and 45 by the classic one without any pause. */
+/* Pauses, waits, resumes. Returns the ticks without the wait. No jump: the page's fastest tick is 26 units under the
+ * exact law, and 45 under the classic one without any pause. */
 static uint16_t pause_and_go_on(player_law_t law, uint8_t tick)
 {
     play_to(law, tick);
@@ -137,10 +138,10 @@ static void test_player_exact_goes_on_after_a_pause_in_the_time_left(void)
     for (uint8_t tick = 1; tick < 148; tick = (uint8_t)(tick + TEST_STRIDE)) {
         uint16_t made = pause_and_go_on(PLAYER_LAW_EXACT, tick);
         TEST_ASSERT_EQUAL_UINT16(512, player_goal(&player, 0));
-        /* 148 ticks, one braking, and at most one ramp more where a step had little time left */
+        /* 148 ticks, one ramp of braking, and at most one more ramp where a step had little time left */
         TEST_ASSERT_UINT16_WITHIN(ACCEL, 148 + ACCEL, made);
     }
-    /* In the middle of the first step: 60 ticks of time in all, and what slowing down took. */
+    /* In the middle of the first step: 60 ticks of time in all, plus the braking time. */
     TEST_ASSERT_EQUAL_UINT16(148 + ACCEL, pause_and_go_on(PLAYER_LAW_EXACT, 25));
 }
 
@@ -153,8 +154,8 @@ static void test_player_classic_goes_on_after_a_pause_to_its_end(void)
     }
 }
 
-/* The play goes on as soon as it stands, in the same ticks as with a resume right after that, and without an event. A resume
- * before the next tick takes the pause back. */
+/* A resume during braking continues the play as soon as it stands, in the same number of ticks as a resume right after
+ * that, without an event. A resume before the next tick cancels the pause. */
 static void resume_while_slowing_down(player_law_t law)
 {
     const uint16_t paused_ticks = pause_and_go_on(law, 25), plain_ticks = (uint16_t)(paused_ticks - ACCEL);
@@ -184,7 +185,7 @@ static void test_player_resume_while_slowing_down_is_not_lost(void)
     resume_while_slowing_down(PLAYER_LAW_CLASSIC);
 }
 
-/* Pause, resume, pause, all before it stands: the last one counts. So does a break. */
+/* Pause, resume, pause before the play stands: the last one takes effect. The same holds for a break. */
 static void test_player_pause_takes_back_a_resume(void)
 {
     uint8_t events = 0;
@@ -242,8 +243,8 @@ static void test_player_break_near_the_end_of_the_range_stays_in_range(void)
     }
 }
 
-/* In CRUISE of the first step: v = (188 - 3.13 * 10) / 40 = 3.92 units a tick (exit at 188 / 60), stopped in 20 ticks by
- * 3.92 * 20 / 2 = 39 units. */
+/* In CRUISE of the first step: v = (188 - 3.13 * 10) / 40 = 3.92 units a tick (exit at 188 / 60). It stops in 20 ticks
+ * over 3.92 * 20 / 2 = 39 units. */
 static void test_player_break_stops_on_half_the_way_that_its_speed_would_take(void)
 {
     play_to(PLAYER_LAW_EXACT, 30);
@@ -253,7 +254,7 @@ static void test_player_break_stops_on_half_the_way_that_its_speed_would_take(vo
     TEST_ASSERT_UINT16_WITHIN(1, before[0] + 39, player_goal(&player, 0));
 }
 
-/* Steps so short that the look at the next one, the end of this one and the pause meet in every order. */
+/* With such short steps the look-ahead to the next step, the end of the step and the pause coincide in every order. */
 static void test_player_exact_goes_on_from_any_tick_of_short_steps(void)
 {
     static const uint8_t times[] = {4, 3, 2, 1, 1, 5};
@@ -278,7 +279,7 @@ static void test_player_exact_goes_on_from_any_tick_of_short_steps(void)
             steps = (uint8_t)(steps + ((player_tick(&player, &l) & PLAYER_EV_STEP) != 0));
             TEST_ASSERT_LESS_THAN_UINT8(60, ++ticks);
         }
-        TEST_ASSERT_EQUAL_UINT8(sizeof times, steps); /* each is told once, none is left out */
+        TEST_ASSERT_EQUAL_UINT8(sizeof times, steps); /* each step is reported exactly once */
         TEST_ASSERT_EQUAL_UINT16(520 + 8 * 5, player_goal(&player, 0));
         TEST_ASSERT_EQUAL_UINT8(PAGE_OK, player.fault);
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_player_exact.c - the exact law against its definition (LAWS.md section 2) computed in floating point, on random
- * pages: every joint about one servo unit from the ideal at most, in every tick, whatever the ramps, times and turns. */
+ * test_player_exact.c - the exact law against its definition (LAWS.md section 2) in floating point, on random pages:
+ * every joint is within about one servo unit of the ideal in every tick, whatever the ramps, times and turns. */
 #include <math.h>
 #include <stdlib.h>
 #include "player.h"

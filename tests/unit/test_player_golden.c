@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_player_golden.c - the classic law gives every sample of every joint that the original gave (tests/models/golden). */
+ * test_player_golden.c - the classic law reproduces every sample of every joint of the original's recordings
+ * (tests/models/golden). */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,7 +36,7 @@ static FILE *open_set(const char *name)
     return csv;
 }
 
-/* The next line: its tick and goals. -1 at the end. */
+/* Reads the next line: its goals. Returns its tick, -1 at the end. */
 static long read_line(FILE *csv, uint16_t goals[JOINTS])
 {
     char line[256];

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * test_player_images.c - the motion set of tests/samples, and real ones of others where they are (../shared/data),
- * through both laws, and the figures that LAWS.md section 2 asks of the exact one. Prints them:
+ * test_player_images.c - plays the motion set of tests/samples, and real sets of others if they exist (../shared/data),
+ * under both laws. Prints the figures that LAWS.md section 2 requires of the exact law:
  *
  *     build/host/tests/unit/test_player_images
  *
- * Every valid page is started from its own first pose, as an approach leaves the robot, runs for a while along its next
- * links and is then stopped through its exit links. All is judged from outside, on the goals and the page's bytes. */
+ * Each valid page starts from its own first pose, as after an approach. It runs for a while along its next links and is
+ * then stopped through its exit links. All checks use only the goals and the page's bytes. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 #include "image_source.h"
 #include "unity.h"
 
-#define STOP_AFTER 1500      /* ticks until a soft stop is asked for */
+#define STOP_AFTER 1500      /* ticks until a soft stop is requested */
 #define TICKS_MAX 200000L
 #define ALL_JOINTS 0x7FFFFFFFu
 
@@ -23,7 +23,7 @@ typedef struct {
     int speed_change_max;    /* exact, servo units per tick; LAWS.md */
 } set_t;
 
-static const set_t our_set = {"samples", "robot_128p.bin", 0, 1 << 20}; /* poses by chance leap as they like */
+static const set_t our_set = {"samples", "robot_128p.bin", 0, 1 << 20}; /* random poses jump by any amount */
 
 static const set_t sets[] = {
     {"bio_gp", "bio_gp_humanoid_kr_128p.bin", 0, 62},
@@ -39,13 +39,13 @@ typedef struct {
     double speed_change, worst_duration;
 } figures_t;
 
-/* What an observer of one play knows. */
+/* The state of the observer of one play. */
 typedef struct {
     figures_t *figures;
     uint16_t pos[2][PAGE_JOINTS];            /* the last two outputs */
-    uint16_t from[PAGE_JOINTS], to[PAGE_JOINTS]; /* of the step */
+    uint16_t from[PAGE_JOINTS], to[PAGE_JOINTS]; /* of the current step */
     unsigned page, step, outputs;
-    double ideal_ticks;                      /* of the page so far */
+    double ideal_ticks;                      /* of the current page so far */
     unsigned page_ticks;
     bool in_pause;
 } watch_t;
@@ -152,7 +152,7 @@ static void watch_tick(watch_t *watch, uint8_t events)
     }
     watch->page_ticks++;
     if ((events & PLAYER_EV_OUTPUT) != 0) {
-        watch->figures->idle += watch->in_pause; /* something made after the pause had begun */
+        watch->figures->idle += watch->in_pause; /* output during a pause */
         watch_output(watch);
     } else {
         watch->in_pause = true;
@@ -198,8 +198,8 @@ static void play_page(unsigned page, player_law_t law, figures_t *figures)
     figures->ticks += (unsigned)tick;
 }
 
-/* A file of 256 pages is played in two halves; links are numbers of the file, so those of the upper half lead astray:
- * its pages are played without links. */
+/* Loads one half of a file of 256 pages. Links use the numbers of the file and are wrong for the upper half, so its
+ * pages play without links. */
 static bool load_set(const set_t *set)
 {
     char path[600];

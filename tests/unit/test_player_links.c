@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Joints of a play, its pages and links; both laws. */
+ * Joints, pages and links of a play; both laws. */
 #include "player_stage.h"
 #include "unity.h"
 
@@ -45,7 +45,7 @@ static void test_player_absent_joint_is_never_touched_nor_timed(void)
     TEST_ASSERT_EQUAL_HEX32(0x7, player.joints);
 }
 
-/* The next play may find it. */
+/* The joint may be present at the next play. */
 static void test_player_does_not_move_an_absent_joint(void)
 {
     sparse_step(1, 16, 0, 700);
@@ -186,7 +186,7 @@ static void test_player_code_that_comes_during_the_step_before_the_last_counts(v
     for (uint8_t tick = 0; tick < 8; tick++) {
         (void)player_tick(&player, &l);
     }
-    link_code(&l, 4); /* the link is decided in the last tick but one of the step before */
+    link_code(&l, 4); /* the link is decided in the last tick but one of the step before the last */
     (void)run_until(PLAYER_EV_LINK, &seen);
     TEST_ASSERT_EQUAL(LINK_LINKED1, player.link_taken);
     TEST_ASSERT_EQUAL_UINT8(2, player.link_page);
@@ -242,7 +242,8 @@ static void test_player_ends_standing_before_a_page_that_cannot_be_played(void)
     bad_next_page_ends_the_play(PLAYER_LAW_CLASSIC, true);
 }
 
-/* LAWS.md: "a link above 127 counts as 0". 127 is a page; there is none in these tests, so it is a damaged one. */
+/* LAWS.md: "a link above 127 counts as 0". 127 is a valid number; these tests have no such page, so it counts as
+ * damaged. */
 static void link_to(player_law_t law, uint8_t named, uint8_t link_page, uint8_t fault)
 {
     sparse_clear();

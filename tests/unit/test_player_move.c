@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * A move from pose to pose, such as the approach: speed limit, ramps, equal time, exact end, break. LAWS.md section 2,
+ * A move between two poses, such as the approach: speed limit, ramps, equal time, exact end, break. LAWS.md section 2,
  * rule 6. */
 #include "player.h"
 
@@ -30,7 +30,7 @@ static uint16_t start(uint16_t limit_deg_s)
     return player_move(&player, from, ALL_JOINTS, limit_deg_s);
 }
 
-/* One tick. false with the last one. */
+/* Runs one tick. Returns false with the last one. */
 static bool tick(void)
 {
     const uint8_t events = player_tick(&player, NULL);
@@ -38,7 +38,7 @@ static bool tick(void)
     return (events & PLAYER_EV_ENDED) == 0 && player_is_moving(&player);
 }
 
-/* Runs to the end; returns the ticks it took and, of joint 1, the largest step and change of step. */
+/* Runs to the end. Returns the ticks, and joint 1's largest step and largest change of step. */
 static uint16_t run(int16_t *largest_step, int16_t *largest_change)
 {
     uint16_t ticks = 0;
@@ -60,7 +60,7 @@ static uint16_t run(int16_t *largest_step, int16_t *largest_change)
     return ticks;
 }
 
-/* 60 degrees/s = 1.6 units a tick: 512 units take 320 ticks at the limit, and one ramp more. */
+/* 60 degrees/s = 1.6 units a tick: 512 units take 320 ticks at the limit, plus one ramp. */
 static void test_player_move_takes_the_time_of_the_longest_way(void)
 {
     int16_t step, change;
@@ -186,8 +186,8 @@ static void test_player_move_break_near_the_end_goes_on_to_it(void)
     TEST_ASSERT_EQUAL_UINT16(700, goal[1]);
 }
 
-/* Whenever it is paused, also in a ramp and in the shortest move, no joint goes past its target or turns round; resumed, it
- * arrives exactly, and not faster than the limit: 180 degrees/s = 48 units in ten ticks. */
+/* A pause at any tick, even in a ramp or in the shortest move, makes no joint pass its target or turn back. After the
+ * resume the joint arrives exactly and within the limit: 180 degrees/s = 48 units in ten ticks. */
 static void test_player_move_pause_anywhere_keeps_limit_and_target(void)
 {
     static const uint16_t targets[] = {516, 530, 560, 819, 1000};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The RC-100 parser: packets of REMOTE.md, mixed with typed text, torn and broken ones between good ones. */
+ * The RC-100 parser: packets as in REMOTE.md, mixed with typed text and with torn and broken packets. */
 #include "remote.h"
 
 #include <stddef.h>
@@ -95,8 +95,8 @@ static void test_remote_wrong_complement_is_dropped(void)
     TEST_ASSERT_EQUAL_HEX16(0x20, remote.buttons);
 }
 
-/* Every way of tearing the packet before a good one: it ends after 1..5 bytes. The FF of the good one makes the one of
- * five bytes whole and still begins its own. */
+/* Every torn packet, 1..5 bytes long, before a good one. The FF of the good packet completes the torn one of five bytes
+ * and still begins its own. */
 static void test_remote_torn_packet_does_not_cost_the_next(void)
 {
     static const uint8_t torn[] = {0xFF, 0x55, 0x10, 0xEF, 0x00};
@@ -111,7 +111,7 @@ static void test_remote_torn_packet_does_not_cost_the_next(void)
     }
 }
 
-/* Any one byte of the first packet lost: the second is heard. */
+/* Any one byte of the first packet is lost; the second packet is received. */
 static void test_remote_lost_byte_does_not_cost_the_next(void)
 {
     static const uint8_t packet[] = {0xFF, 0x55, 0x10, 0xEF, 0x00, 0xFF};
@@ -137,7 +137,7 @@ static void test_remote_u_typed_right_behind_a_packet_is_text(void)
     TEST_ASSERT_EQUAL_UINT16(0, remote.dropped);
 }
 
-/* Button 6: the last byte is no FF that a next packet might share. */
+/* Button 6: the last byte is not an FF that could begin a next packet. */
 static void test_remote_text_behind_a_packet_that_ends_without_ff(void)
 {
     FEED(0xFF, 0x55, 0x10, 0xEF, 0x02, 0xFD, 'U', 'p', 0xFF, 0x55, 0x10, 0xEF, 0x02, 0xFD, '1');
@@ -146,7 +146,7 @@ static void test_remote_text_behind_a_packet_that_ends_without_ff(void)
     TEST_ASSERT_EQUAL_UINT16(0, remote.dropped);
 }
 
-/* A name that was typed with a letter that is not ASCII must not become another name. */
+/* A typed name with a non-ASCII letter must not become another name. */
 static void test_remote_bytes_above_0x7f_outside_packets_are_typed_as_question_marks(void)
 {
     FEED('g', 'r', 0xC3, 0xBC, 'n', 0xFF, 0x55, 0x04, 0xFB, 0x00, 0xFF, '1');
@@ -178,7 +178,7 @@ static void test_remote_quiet_gives_up_an_unfinished_packet(void)
     TEST_ASSERT_EQUAL_UINT16(2, remote.dropped);
 }
 
-/* All 65,536 words, back to back; on the chip one in TEST_STRIDE. */
+/* All 65,536 button words back to back; on the chip only one in TEST_STRIDE. */
 static void test_remote_every_word_is_heard(void)
 {
     for (uint32_t word = 0; word < 0x10000; word += TEST_STRIDE) {

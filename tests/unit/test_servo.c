@@ -44,7 +44,7 @@ static void test_servo_moves_at_the_moving_speed(void)
     put(SERVO_SPEED, 100, 2); /* 227.3 units/s */
     put(SERVO_GOAL, 1023, 2);
     wire_wait(&wire, 1000 * MS);
-    TEST_ASSERT_UINT16_WITHIN(4, 512 + 224, present()); /* 12 ms of it lost in starting */
+    TEST_ASSERT_UINT16_WITHIN(4, 512 + 224, present()); /* starting costs 12 ms */
     TEST_ASSERT_UINT16_WITHIN(1, 100, register_of(&wire, servo, SERVO_PRESENT_SPEED, 2));
     TEST_ASSERT_EQUAL_UINT8(1, servo->table[SERVO_MOVING]);
 }
@@ -57,7 +57,7 @@ static void test_servo_speed_0_is_as_fast_as_the_supply_allows(void)
     wire_wait(&wire, 600 * MS);
     TEST_ASSERT_UINT16_WITHIN(1, 1000, present());
     TEST_ASSERT_EQUAL_UINT8(0, servo->table[SERVO_MOVING]);
-    servo_bus_supply(wire.bus, wire.now, 7.2); /* three quarters */
+    servo_bus_supply(wire.bus, wire.now, 7.2); /* three quarters of 9.6 V */
     put(SERVO_GOAL, 0, 2);
     wire_wait(&wire, 200 * MS);
     TEST_ASSERT_UINT16_WITHIN(4, 1000 - 133, present()); /* (1.55 * 0.6 - 0.05) / 0.2428 = 708.9 units/s, 0.1876 s of it */
@@ -71,8 +71,8 @@ static void test_servo_lags_behind_a_ramp_by_slope_times_speed(void)
         wire_wait(&wire, 125000);
         put(SERVO_GOAL, (uint16_t)(200 + 5 * tick), 2);
     }
-    /* Duty (0.2428 * 3.272 + 0.05) / 1.24 = 0.681; error 1 + (0.681 - 0.0313) / 0.9687 * 32 = 22.5; half the step just
-     * written comes on top. */
+    /* Duty (0.2428 * 3.272 + 0.05) / 1.24 = 0.681; error 1 + (0.681 - 0.0313) / 0.9687 * 32 = 22.5; plus half of the
+     * step just written. */
     TEST_ASSERT_INT_WITHIN(3, 25, 500 - present());
     put(SERVO_CW_SLOPE, 128, 1);
     put(SERVO_CCW_SLOPE, 128, 1);
@@ -102,7 +102,7 @@ static void test_servo_without_torque_goes_where_the_hand_puts_it(void)
     servo_push_to(servo, wire.now, 300);
     wire_wait(&wire, 1000 * MS);
     TEST_ASSERT_EQUAL_UINT16(300, present());
-    put(SERVO_TORQUE_ENABLE, 1, 1); /* the goal is still where it was: it goes there */
+    put(SERVO_TORQUE_ENABLE, 1, 1); /* the goal is unchanged, so the servo returns to it */
     wire_wait(&wire, 1000 * MS);
     TEST_ASSERT_UINT16_WITHIN(1, 512, present());
     servo_push_to(servo, wire.now, 400); /* with torque it pulls back */
@@ -147,7 +147,7 @@ static void test_servo_both_limits_0_is_endless_turn(void)
 static void test_servo_blocked_for_a_second_is_overload_and_shuts_down(void)
 {
     servo_bus_fault(wire.bus, wire.now, servo, SERVO_FAULT_BLOCKED, SERVO_FAULT_ALWAYS);
-    put(SERVO_SPEED, 50, 2); /* slow or not, what is blocked pushes with all it has, 0.4 s later */
+    put(SERVO_SPEED, 50, 2); /* even at low speed a blocked servo pushes with full torque 0.4 s later */
     put(SERVO_GOAL, 700, 2);
     wire_wait(&wire, 1300 * MS);
     TEST_ASSERT_EQUAL_UINT16(512, present());
@@ -177,9 +177,9 @@ static void test_servo_after_overload_torque_limit_and_enable_must_be_written(vo
 static void test_servo_load_makes_it_droop_and_shows(void)
 {
     put(SERVO_GOAL, 512, 2);
-    servo->outside_load = -0.5; /* gravity, half of stall torque, towards smaller positions */
+    servo->outside_load = -0.5; /* gravity of half the stall torque, towards smaller positions */
     wire_wait(&wire, 1000 * MS);
-    /* 0.75 N m, and the friction may hold or need 0.05: duty 0.70 / 1.24 .. 0.80 / 1.24, which is
+    /* 0.75 N m, and friction adds or subtracts 0.05: duty 0.70 / 1.24 .. 0.80 / 1.24, which is
      * 0.0313 + (error - 1) / 32 * 0.9687. */
     TEST_ASSERT_INT_WITHIN(2, 20, 512 - present());
     TEST_ASSERT_INT_WITHIN(42, 619, register_of(&wire, servo, SERVO_PRESENT_LOAD, 2));
@@ -190,7 +190,7 @@ static void test_servo_load_makes_it_droop_and_shows(void)
 
 static void test_servo_each_direction_has_its_own_slope(void)
 {
-    put(SERVO_CCW_SLOPE, 64, 1); /* pushing towards larger positions: twice as soft */
+    put(SERVO_CCW_SLOPE, 64, 1); /* slope for pushes towards larger positions: twice as soft */
     put(SERVO_GOAL, 512, 2);
     servo->outside_load = -0.5;
     wire_wait(&wire, 1000 * MS);
@@ -219,7 +219,7 @@ static void test_servo_voltage_is_shown_in_tenths_and_watched(void)
     servo_bus_supply(wire.bus, wire.now, 5.9);
     (void)present();
     TEST_ASSERT_EQUAL_HEX8(SERVO_ERR_VOLTAGE, servo->alarms);
-    TEST_ASSERT_FALSE(servo->shutdown); /* 36 as shipped: overload and heat shut down, voltage does not */
+    TEST_ASSERT_FALSE(servo->shutdown); /* mask 36 as shipped: overload and heat shut down, voltage does not */
 }
 
 static void test_servo_power_cycle_keeps_eeprom_and_loses_ram(void)
@@ -238,7 +238,7 @@ static void test_servo_power_cycle_keeps_eeprom_and_loses_ram(void)
     TEST_ASSERT_EQUAL_UINT8(32, servo->table[SERVO_CCW_SLOPE]);
     TEST_ASSERT_EQUAL_UINT8(0, servo->table[SERVO_LOCK]);
     TEST_ASSERT_EQUAL_UINT8(0, servo->table[SERVO_TORQUE_ENABLE]);
-    TEST_ASSERT_UINT16_WITHIN(2, 600, servo_get(servo, SERVO_GOAL, 2)); /* slope 64 leaves it 1.6 short */
+    TEST_ASSERT_UINT16_WITHIN(2, 600, servo_get(servo, SERVO_GOAL, 2)); /* slope 64 stops it 1.6 units short */
 }
 
 static void test_servo_lock_leaves_only_24_to_35_open(void)

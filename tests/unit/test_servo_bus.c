@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Protocol 1.0 on the wire. Packets were worked out by hand: checksum = inverted low byte of ID + LEN + INST +
- * parameters; those marked "manual" stand in the public AX-12 manual as examples. */
+ * Protocol 1.0 on the wire. Packets worked out by hand: checksum = inverted low byte of ID + LEN + INST + parameters.
+ * Those marked "manual" are examples of the public AX-12 manual. */
 #include "servo_wire.h"
 
 static wire_t wire;
@@ -45,7 +45,7 @@ static void test_servo_bus_return_delay_0_answers_within_20_us(void)
     const uint64_t asked = wire.now;
     wire_wait(&wire, MS);
     TEST_ASSERT_EQUAL_INT(6, wire.count);
-    TEST_ASSERT_UINT64_WITHIN(10 * US, asked + 20 * US, wire.heard_at[0]); /* its stop bit; it began 10 us before */
+    TEST_ASSERT_UINT64_WITHIN(10 * US, asked + 20 * US, wire.heard_at[0]); /* stop bit; the byte began 10 us before */
 }
 
 static void test_servo_bus_next_event_is_the_end_of_the_next_byte(void)
@@ -154,14 +154,14 @@ static void test_servo_bus_reset_restores_what_was_shipped(void)
     one->table[SERVO_ID] = 9;
     zero->table[SERVO_RETURN_DELAY] = 7;
     ASK(&wire, 0xFF, 0xFF, 0x00, 0x02, 0x06, 0xF7);           /* manual */
-    EXPECT_ANSWER(&wire, 0xFF, 0xFF, 0x00, 0x02, 0x00, 0xFD); /* manual: still with the old ID */
+    EXPECT_ANSWER(&wire, 0xFF, 0xFF, 0x00, 0x02, 0x00, 0xFD); /* manual: the answer has the old ID */
     TEST_ASSERT_EQUAL_UINT8(1, zero->table[SERVO_ID]);
     TEST_ASSERT_EQUAL_UINT8(250, zero->table[SERVO_RETURN_DELAY]);
 }
 
 static void test_servo_bus_return_level_1_answers_reads_and_0_only_ping(void)
 {
-    ASK(&wire, 0xFF, 0xFF, 0x01, 0x04, 0x03, 0x10, 0x01, 0xE6); /* level 1: this write is not answered any more */
+    ASK(&wire, 0xFF, 0xFF, 0x01, 0x04, 0x03, 0x10, 0x01, 0xE6); /* level 1: no answer to WRITEs, not even this one */
     ASK(&wire, 0xFF, 0xFF, 0x01, 0x04, 0x03, 0x19, 0x01, 0xDD);
     EXPECT_SILENCE(&wire);
     ASK(&wire, 0xFF, 0xFF, 0x01, 0x04, 0x02, 0x19, 0x01, 0xDE);
@@ -293,11 +293,11 @@ static void test_servo_bus_reports_each_good_packet_of_the_controller(void)
     wire.bus->on_packet = count_packet;
     ASK(&wire, PING_1);
     ASK(&wire, 0xFF, 0xFF, 0x01, 0x02, 0x01, 0xFA); /* wrong checksum */
-    ASK(&wire, 0xFF, 0xFF, 0x63, 0x02, 0x01, 0x99); /* nobody */
+    ASK(&wire, 0xFF, 0xFF, 0x63, 0x02, 0x01, 0x99); /* no such servo */
     TEST_ASSERT_EQUAL_INT(2, packets_seen);
 }
 
-/* A bus with two servos, told the same packets whole or byte by byte. */
+/* Makes a bus with two servos and sends it the same packets whole or byte by byte. */
 static void tell(wire_t *to, bool whole)
 {
     static const uint8_t packets[][12] = {
@@ -308,7 +308,7 @@ static void tell(wire_t *to, bool whole)
         {6, 0xFF, 0xFF, 0x01, 0x02, 0x01, 0x00},                                /* a wrong checksum */
         {6, PING_1},
     };
-    /* The fourth answer is talked into. */
+    /* After only 100 us the fifth packet comes before the answer to the fourth. */
     static const uint64_t pauses[] = {5 * MS, 20 * MS, MS, 100 * US, 5 * MS, 5 * MS};
     wire_open(to);
     (void)servo_bus_add(to->bus, 1, SERVO_AX12, 1000000);

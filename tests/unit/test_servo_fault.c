@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Faults on demand, as a controller on the wire sees them. */
+ * Injected faults, as a controller on the wire sees them. */
 #include "servo_wire.h"
 
 static wire_t wire;
@@ -141,7 +141,7 @@ static void test_servo_fault_stray_bytes_in_the_middle_of_an_answer_spoil_it(voi
     wire_wait(&wire, 523 * US); /* low 523..532 and 533..542 us: over the stop bits at 529 and 539 */
     servo_bus_noise(wire.bus, wire.now, stray, 2, 1000000);
     wire_wait(&wire, MS);
-    TEST_ASSERT_EQUAL_INT(6, wire.count); /* of two at once only the first is heard */
+    TEST_ASSERT_EQUAL_INT(6, wire.count); /* of two bytes at once only the first is received */
     TEST_ASSERT_EQUAL_INT(2, wire.bad);
 }
 

@@ -115,7 +115,7 @@ static void test_engage_takes_back_a_speed_limit(void)
 
 /* ---- WRITEs that the servo did not obey ---- */
 
-/* A servo at 300 whose old goal is 512. */
+/* A limp servo at 300 with the old goal 512. */
 static void limp_at_300(uint8_t return_level)
 {
     fake_bus_add(1, BUS_RATE_1M);
@@ -131,11 +131,11 @@ static void test_torque_stays_off_when_the_goal_cannot_be_set(void)
     for (uint8_t level = 1; level <= 2; level++) {
         setUp();
         limp_at_300(level);
-        fake_bus_servo(1)->mishear_next = 3;   /* each try to set the goal; torque enable would be obeyed */
+        fake_bus_servo(1)->mishear_next = 3;   /* every try to set the goal; torque enable would arrive */
         TEST_ASSERT_EQUAL_HEX32(0, servo_link_torque_on(&servos, SERVO_LINK_ALL));
         TEST_ASSERT_EQUAL(0, fake_bus_servo(1)->table[DXL_AT_TORQUE_ENABLE]);
         TEST_ASSERT_EQUAL(300, fake_bus_word(1, DXL_AT_PRESENT));
-        TEST_ASSERT_EQUAL_HEX32(0, servos.silent);   /* it answers */
+        TEST_ASSERT_EQUAL_HEX32(0, servos.silent);   /* it does answer */
     }
 }
 

@@ -13,7 +13,7 @@ static void test_a_tick_is_one_sync_write_of_the_joints_asked_for(void)
     const uint8_t *packet = NULL;
     robot(18);
     servo_link_slopes(&servos, (const uint8_t[SERVO_LINK_JOINTS]){ 0 });
-    tick_with_goals(SERVO_LINK_ALL);   /* slopes follow */
+    tick_with_goals(SERVO_LINK_ALL);   /* slopes go out after the goals */
     fake_bus_clear_log();
     tick_with_goals(SERVO_LINK_BIT(3) | SERVO_LINK_BIT(18) | SERVO_LINK_BIT(25));
     TEST_ASSERT_EQUAL(1, logged(DXL_SYNC_WRITE, &packet));
@@ -27,7 +27,7 @@ static void test_31_joints_fit_into_one_packet_of_101_bytes(void)
     const uint8_t *packet = NULL;
     (void)fake_bus_add(0, BUS_RATE_1M);
     robot(30);
-    tick_with_goals(SERVO_LINK_ALL);   /* slopes follow */
+    tick_with_goals(SERVO_LINK_ALL);   /* slopes go out after the goals */
     fake_bus_clear_log();
     tick_with_goals(SERVO_LINK_ALL);
     TEST_ASSERT_EQUAL(1, logged(DXL_SYNC_WRITE, &packet));
@@ -68,7 +68,7 @@ static void test_trim_is_added_and_limited(void)
     tick_with_goals(SERVO_LINK_ALL);
     TEST_ASSERT_EQUAL(510, fake_bus_word(1, DXL_AT_GOAL));
     TEST_ASSERT_EQUAL(480, fake_bus_word(2, DXL_AT_GOAL));
-    TEST_ASSERT_EQUAL(480, servo_link_to_servo(&servos, 2, 500)); /* by which Edit and the deaf are moved */
+    TEST_ASSERT_EQUAL(480, servo_link_to_servo(&servos, 2, 500)); /* also used by Edit and for deaf servos */
     (void)servo_link_read_pose(&servos, SERVO_LINK_ALL);
     TEST_ASSERT_EQUAL(500, servos.present_pos[1]);
     TEST_ASSERT_EQUAL(500, servos.present_pos[2]);
@@ -83,7 +83,7 @@ static void test_slopes_follow_the_goals_once(void)
     uint8_t compliance[SERVO_LINK_JOINTS];
     memset(compliance, 0x55, sizeof compliance);
     compliance[2] = 0x17;
-    compliance[3] = 0x09;   /* neither nibble is 1..7: both are taken for 5 */
+    compliance[3] = 0x09;   /* neither nibble is 1..7: both count as 5 */
     robot(3);
     servo_link_slopes(&servos, compliance);
     tick_with_goals(SERVO_LINK_ALL);
@@ -99,7 +99,7 @@ static void test_slopes_follow_the_goals_once(void)
     TEST_ASSERT_EQUAL(DXL_AT_GOAL, packet[5]);
 }
 
-/* Servos that are not driven keep their slopes; the new ones follow the first goals that they get. */
+/* Servos without goals keep their slopes and get the new ones with their first goals. */
 static void test_only_slopes_that_change_are_sent_and_only_to_joints_with_goals(void)
 {
     const uint8_t *packet = NULL;
@@ -114,14 +114,14 @@ static void test_only_slopes_that_change_are_sent_and_only_to_joints_with_goals(
     fake_bus_clear_log();
     tick_with_goals(SERVO_LINK_BIT(1) | SERVO_LINK_BIT(2));
     TEST_ASSERT_EQUAL(2, logged(DXL_SYNC_WRITE, &packet));
-    TEST_ASSERT_EQUAL(11, fake_bus_packet_size(1));   /* of one joint */
+    TEST_ASSERT_EQUAL(11, fake_bus_packet_size(1));   /* one joint */
     TEST_ASSERT_EQUAL(8, fake_bus_servo(2)->table[DXL_AT_CW_SLOPE]);
     TEST_ASSERT_EQUAL(32, fake_bus_servo(3)->table[DXL_AT_CW_SLOPE]);
     tick_with_goals(SERVO_LINK_ALL);
     TEST_ASSERT_EQUAL(8, fake_bus_servo(3)->table[DXL_AT_CW_SLOPE]);
 }
 
-/* 31 joints: 8 bytes and 3 a joint, within the 143 that an AX-12 takes; then one servo is asked, in the same tick. */
+/* 31 joints: 8 bytes and 3 per joint, within the 143 that an AX-12 accepts. One servo is polled in the same tick. */
 static void test_slopes_of_31_joints_are_one_packet_in_the_tick_of_their_goals(void)
 {
     const uint8_t *packet = NULL;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Joints on the fake bus: who is silent, hot, without torque, and who is well again. */
+ * Joints on the fake bus: silent, hot and without torque, and recovery. */
 #include "servo_link_stage.h"
 
 #include <string.h>
@@ -58,7 +58,7 @@ static void test_third_lost_answer_in_a_row_is_a_fault(void)
     servo_fault_t fault;
     robot(3);
     fake_bus_servo(2)->fail_next = 3;
-    idle_ticks(4);   /* 1, then 2 three times */
+    idle_ticks(4);   /* servo 1, then servo 2 three times */
     TEST_ASSERT_TRUE(servo_link_next_fault(&servos, &fault));
     TEST_ASSERT_EQUAL(2, fault.id);
     TEST_ASSERT_EQUAL(SERVO_FAULT_SILENT, fault.kind);
@@ -71,7 +71,7 @@ static void test_joint_that_does_not_tell_its_pose_is_silent_until_it_is_heard(v
     fake_bus_servo(2)->faults = FAKE_BUS_SILENT;
     TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(1) | SERVO_LINK_BIT(3), servo_link_read_pose(&servos, SERVO_LINK_ALL));
     TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(2), servos.silent);
-    TEST_ASSERT_FALSE(servo_link_next_fault(&servos, &fault));   /* who asked knows */
+    TEST_ASSERT_FALSE(servo_link_next_fault(&servos, &fault));   /* the caller of the read knows */
     fake_bus_servo(2)->faults = 0;
     idle_ticks(3);
     TEST_ASSERT_TRUE(servo_link_next_fault(&servos, &fault));
@@ -100,8 +100,7 @@ static void test_joint_lost_while_it_is_asked_again_does_not_keep_the_others_wai
     TEST_ASSERT_TRUE(asked[1] && asked[3]);
 }
 
-/* An answer that takes longer than a tick: goals go out all the same, one servo is asked at a time, nobody is called lost.
- * */
+/* An answer takes longer than a tick: goals still go out, one servo is polled at a time, and none is reported lost. */
 static void test_late_answers_keep_neither_goals_nor_servos_back(void)
 {
     const uint8_t *packet = NULL;
@@ -110,7 +109,7 @@ static void test_late_answers_keep_neither_goals_nor_servos_back(void)
     tick_with_goals(SERVO_LINK_ALL);   /* and slopes */
     fake_bus_clear_log();
     fake_bus_set_adapter(true);
-    fake_bus_set_latency(250);   /* polls; a tick has 200 or so */
+    fake_bus_set_latency(250);   /* polls; a tick has about 200 */
     for (uint8_t tick = 0; tick < 100; tick++) {
         tick_with_goals(SERVO_LINK_ALL);
     }
@@ -122,7 +121,7 @@ static void test_late_answers_keep_neither_goals_nor_servos_back(void)
     TEST_ASSERT_EQUAL_HEX32(0, servos.silent);
 }
 
-/* The same of a servo that is really silent. */
+/* The same with a servo that is really silent. */
 static void test_servo_that_is_silent_behind_late_answers_is_named(void)
 {
     servo_fault_t fault;
@@ -136,7 +135,7 @@ static void test_servo_that_is_silent_behind_late_answers_is_named(void)
     TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(2), servos.silent);
 }
 
-/* It has lost its power, and with it its slopes; after `silent_ticks` it answers again. */
+/* The servo loses its power and its slopes, and answers again after `silent_ticks`. */
 static void servo_gets_its_slopes_again(uint8_t silent_ticks)
 {
     uint8_t compliance[SERVO_LINK_JOINTS];
@@ -164,7 +163,7 @@ static void test_servo_that_forgot_its_slopes_before_it_was_missed_gets_them_aga
     servo_gets_its_slopes_again(0);
 }
 
-/* The pose of a servo that was silent is read by a command, before its poll. */
+/* A command reads the pose of a silent servo before its poll does. */
 static void test_servo_that_a_command_has_found_again_gets_its_slopes(void)
 {
     uint8_t compliance[SERVO_LINK_JOINTS];

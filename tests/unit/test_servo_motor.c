@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * What the maker's sheet says of a servo, measured as on a bench: a brake on the shaft sets its speed and reads its torque.
- * Gears take 0.05 N m of what the motor gives (the sheet's figures are those of the shaft). */
+ * The maker's data sheet against the servo model, measured as on a bench: a brake on the shaft sets its speed and reads
+ * its torque. The gears take 0.05 N m of the motor's torque (the sheet gives figures of the shaft). */
 #include "servo_wire.h"
 
 #define GEARS_NM 0.05
@@ -8,7 +8,7 @@
 #define UNITS_PER_RADIAN (1024 / 300.0 * 180 / 3.14159265358979)
 
 typedef struct {
-    double angle, speed, torque; /* as set, as set, as read */
+    double angle, speed, torque; /* angle and speed as the test sets them, torque as read */
     int steps;
 } brake_t;
 
@@ -57,12 +57,12 @@ static void put(servo_t *servo, uint8_t address, uint16_t value, uint8_t bytes)
     TEST_ASSERT_EQUAL_HEX8(0, servo_write(servo, address, data, bytes));
 }
 
-/* Torque of the shaft at this speed, as far from the goal as needed for full duty. */
+/* Torque of the shaft at this speed, far enough from the goal for full duty. */
 static double shaft_nm(servo_t *servo, double rpm)
 {
     put(servo, SERVO_GOAL, 1000, 2);
     brake.speed = rpm * RPM;
-    wire_wait(&wire, 10 * MS); /* the servo hears of the speed one step later */
+    wire_wait(&wire, 10 * MS); /* the servo gets the speed one step later */
     return brake.torque - GEARS_NM;
 }
 
@@ -78,7 +78,7 @@ static void test_ax12_goes_with_the_supply(void)
 {
     servo_t *servo = on_the_brake(SERVO_AX12, 9.6); /* 0.8 of 12 V */
     TEST_ASSERT_FLOAT_WITHIN(0.02, 1.2, shaft_nm(servo, 0));
-    TEST_ASSERT_FLOAT_WITHIN(0.02, 0, shaft_nm(servo, 47)); /* the maker's table */
+    TEST_ASSERT_FLOAT_WITHIN(0.02, 0, shaft_nm(servo, 47)); /* maker's data sheet */
     servo_bus_supply(wire.bus, wire.now, 11.1);
     TEST_ASSERT_FLOAT_WITHIN(0.02, 1.3875, shaft_nm(servo, 0));
     TEST_ASSERT_FLOAT_WITHIN(0.02, 0, shaft_nm(servo, 54.6));
@@ -112,10 +112,10 @@ static void test_slope_margin_and_punch_make_the_torque_of_an_error(void)
     put(servo, SERVO_GOAL, 515, 2);
     wire_wait(&wire, 10 * MS);
     TEST_ASSERT_FLOAT_WITHIN(0.001, 1.55 * (64 / 1023.0 + 1 / 64.0 * (1 - 64 / 1023.0)), brake.torque);
-    put(servo, SERVO_GOAL, 512 + 34, 2); /* 32 of 64 units behind the margin */
+    put(servo, SERVO_GOAL, 512 + 34, 2); /* 32 of 64 units beyond the margin */
     wire_wait(&wire, 10 * MS);
     TEST_ASSERT_FLOAT_WITHIN(0.001, 1.55 * (64 / 1023.0 + 0.5 * (1 - 64 / 1023.0)), brake.torque);
-    put(servo, SERVO_GOAL, 512 - 33, 2); /* downwards: slope 32, margin 1 as shipped */
+    put(servo, SERVO_GOAL, 512 - 33, 2); /* negative direction: slope 32, margin 1 as shipped */
     wire_wait(&wire, 10 * MS);
     TEST_ASSERT_FLOAT_WITHIN(0.001, -1.55, brake.torque);
 }
@@ -124,7 +124,7 @@ static void test_on_target_it_brakes_and_limp_it_does_not(void)
 {
     servo_t *servo = on_the_brake(SERVO_AX12, 12);
     put(servo, SERVO_GOAL, 512, 2);
-    brake.speed = 59 * RPM; /* turned by hand through its goal */
+    brake.speed = 59 * RPM; /* forced through its goal */
     wire_wait(&wire, 10 * MS);
     TEST_ASSERT_FLOAT_WITHIN(0.001, -1.5, brake.torque);
     put(servo, SERVO_TORQUE_ENABLE, 0, 1);
@@ -132,19 +132,19 @@ static void test_on_target_it_brakes_and_limp_it_does_not(void)
     TEST_ASSERT_FLOAT_WITHIN(1e-6, 0, brake.torque);
 }
 
-/* At a tenth of its speed and half of the stall torque it still turns at the moving speed, not slower. */
+/* At a tenth of its full speed, against half of the stall torque, it still turns at the moving speed. */
 static void test_moving_speed_holds_against_a_load(void)
 {
     servo_t *servo = on_the_brake(SERVO_AX12, 12);
-    put(servo, SERVO_ALARM_SHUTDOWN, 0, 1); /* it gets hot */
+    put(servo, SERVO_ALARM_SHUTDOWN, 0, 1); /* no shutdown by heat */
     put(servo, SERVO_SPEED, 53, 2);         /* 5.88 rpm */
     brake.speed = 5.88 * RPM * 0.99;
     put(servo, SERVO_GOAL, 1000, 2);
     wire_wait(&wire, 40000 * MS);
-    TEST_ASSERT_TRUE(brake.torque > 0.75); /* a little too slow for long: it pushes harder and harder */
+    TEST_ASSERT_TRUE(brake.torque > 0.75); /* slightly too slow for long, so the torque increases */
     brake.speed = 5.88 * RPM * 1.2;
     wire_wait(&wire, 5000 * MS);
-    TEST_ASSERT_TRUE(brake.torque < 0); /* too fast: it brakes */
+    TEST_ASSERT_TRUE(brake.torque < 0); /* too fast, so it brakes */
 }
 
 static void test_heat_goes_with_the_square_of_the_torque(void)
@@ -165,7 +165,7 @@ static void test_full_duty_without_motion_for_a_second_is_overload(void)
     TEST_ASSERT_EQUAL_HEX8(0, servo->alarms);
     wire_wait(&wire, 20 * MS);
     TEST_ASSERT_EQUAL_HEX8(SERVO_ERR_OVERLOAD, servo->alarms);
-    TEST_ASSERT_FLOAT_WITHIN(1e-6, 0, brake.torque + 1.55 * servo->output); /* the cut comes with the next step */
+    TEST_ASSERT_FLOAT_WITHIN(1e-6, 0, brake.torque + 1.55 * servo->output); /* the torque is cut at the next step */
 }
 
 static void test_body_is_stepped_1024_times_a_second_and_shows_in_the_registers(void)
@@ -179,7 +179,7 @@ static void test_body_is_stepped_1024_times_a_second_and_shows_in_the_registers(
     TEST_ASSERT_EQUAL_UINT16(412, register_of(&wire, servo, SERVO_PRESENT, 2));
     TEST_ASSERT_UINT16_WITHIN(1, 90, register_of(&wire, servo, SERVO_PRESENT_SPEED, 2)); /* 10 / 0.111 */
     TEST_ASSERT_EQUAL_UINT8(1, servo->table[SERVO_MOVING]);
-    servo_push_to(servo, wire.now, 900); /* in a body nobody sets an angle */
+    servo_push_to(servo, wire.now, 900); /* no effect: the body sets the angle */
     TEST_ASSERT_EQUAL_UINT16(412, register_of(&wire, servo, SERVO_PRESENT, 2));
 }
 
@@ -188,7 +188,7 @@ static void test_blocked_in_a_body_the_shaft_is_held_as_by_a_hand(void)
     servo_t *servo = on_the_brake(SERVO_AX12, 12);
     wire_wait(&wire, 5 * MS);
     servo_bus_fault(wire.bus, wire.now, servo, SERVO_FAULT_BLOCKED, SERVO_FAULT_ALWAYS);
-    brake.angle = 0.01; /* torque of a limp servo whose blocked horn is bent: back to where it was blocked */
+    brake.angle = 0.01; /* limp servo with a blocked horn that is bent: torque back to the blocked position */
     wire_wait(&wire, 5 * MS);
     TEST_ASSERT_FLOAT_WITHIN(0.001, -1.0, brake.torque);
 }

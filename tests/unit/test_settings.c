@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Settings in EEPROM: defaults, two copies, and every place the power can be cut. */
+ * Settings in EEPROM: defaults, two copies, and a power cut at every write. */
 #include "crc16.h"
 #include "eeprom.h"
 #include "fake_eeprom.h"
@@ -141,7 +141,7 @@ static void test_field_out_of_range_is_damage(void)
     TEST_ASSERT_EQUAL(4, loaded.pair[3]);
 }
 
-/* What version 1.0.0 wrote: 41 bytes of settings. The CRC is Python's binascii.crc_hqx(all before it, 0xFFFF). */
+/* Written by version 1.0.0: 41 bytes of settings. The CRC is Python's binascii.crc_hqx(all bytes before it, 0xFFFF). */
 static void test_record_of_an_older_program_keeps_its_settings(void)
 {
     static const uint8_t written[] = {
@@ -156,7 +156,7 @@ static void test_record_of_an_older_program_keeps_its_settings(void)
     TEST_ASSERT_EQUAL(77, loaded.approach_deg_s);
     TEST_ASSERT_EQUAL(0, loaded.talk);
     TEST_ASSERT_EQUAL(17, loaded.pair[18]);
-    TEST_ASSERT_EQUAL(1, loaded.centre_page);   /* the defaults of what it did not know */
+    TEST_ASSERT_EQUAL(1, loaded.centre_page);   /* defaults of settings that it did not have */
     TEST_ASSERT_EQUAL(10, loaded.drive_ds);
 }
 
@@ -173,7 +173,8 @@ static void test_saving_in_steps_never_blocks_and_ends(void)
     TEST_ASSERT_FALSE(settings_save_poll(&store, &settings));
 }
 
-/* Old, then a save cut at its n-th EEPROM write with a given torn byte. Returns whether the cut happened. */
+/* Saves `old`, then cuts a second save at its n-th EEPROM write with a given torn byte. Returns whether the cut
+ * happened. */
 static bool cut_save(uint32_t operation, int torn, settings_t *old, settings_t *fresh)
 {
     jmp_buf power;
@@ -220,7 +221,7 @@ static void test_power_cut_at_every_write_leaves_old_or_new(void)
     printf("settings: %u power cuts, %u old, %u new, 0 other\n", cuts, olds, news);
 }
 
-/* A first save, cut at its n-th EEPROM write. Returns whether the cut happened. */
+/* Cuts a first save at its n-th EEPROM write. Returns whether the cut happened. */
 static bool cut_first_save(uint32_t operation, int torn)
 {
     jmp_buf power;
@@ -235,7 +236,7 @@ static bool cut_first_save(uint32_t operation, int torn)
     return true;
 }
 
-/* Nothing was there that could be lost. */
+/* There were no settings to lose. */
 static void test_first_save_that_is_cut_off_is_no_damage(void)
 {
     static const int torn_values[] = { -1, 0xFF };

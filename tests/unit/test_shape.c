@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_shape.c - what is set while a motion plays: ranges, neutral, and what it makes of steps. Values by hand from
- * SHAPING.md; tests/models/shaped.py compares any with a model. */
+ * test_shape.c - shaping during a play: ranges, neutral values, and effect on steps. Values by hand from SHAPING.md;
+ * tests/models/shaped.py compares any values with a model. */
 #include <string.h>
 #include "player.h"
 #include "shape.h"
@@ -226,12 +226,12 @@ static uint16_t ticks_of_a_play(player_law_t law)
     return ticks;
 }
 
-/* classic needs one call more to find out that nothing follows */
+/* The classic law needs one more call to find out that no page follows. */
 static void test_shape_rate_is_that_of_both_laws(void)
 {
     static const uint16_t rates[] = {100, 50, 200, 400, 10, 75};
     static const uint16_t ticks[] = {40, 80, 20, 10, 400, 53};
-    pages[PAGE][2] = pages[PAGE][3] = 520; /* no joint has to be fast */
+    pages[PAGE][2] = pages[PAGE][3] = 520; /* no joint needs to be fast */
     pages[PAGE][0] = 560;
     pages[PAGE][1] = 470;
     for (uint8_t i = 0; i < sizeof rates / sizeof rates[0]; i++) {
@@ -241,18 +241,18 @@ static void test_shape_rate_is_that_of_both_laws(void)
     }
 }
 
-/* Joint 2 goes from 512 to 50 in 40 ticks: 11.55 a tick. At 11.1 V 7.83 are allowed: 59 ticks (7.8125 in sixteenths:
- * 59.1). */
+/* Joint 2 goes from 512 to 50 in 40 ticks, 11.55 a tick. At 11.1 V 7.83 are allowed: 59 ticks (59.1 with
+ * 7.8125 in sixteenths). */
 static void test_shape_limit_stretches_a_step_that_is_too_fast(void)
 {
     shape_set_voltage(&shape, 111);
-    TEST_ASSERT_EQUAL_UINT16(40, ticks_of_a_play(PLAYER_LAW_EXACT)); /* not while nothing is set */
+    TEST_ASSERT_EQUAL_UINT16(40, ticks_of_a_play(PLAYER_LAW_EXACT)); /* no limit while no shaping is set */
     TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_rate(&shape, 101));
     TEST_ASSERT_UINT16_WITHIN(1, 59, ticks_of_a_play(PLAYER_LAW_EXACT));
     TEST_ASSERT_UINT16_WITHIN(1, 60, ticks_of_a_play(PLAYER_LAW_CLASSIC));
 }
 
-/* A step of classic that would be played is not made so short that the law skips it. */
+/* The rate never shortens a classic step so far that the law skips it. */
 static void test_shape_rate_never_makes_classic_skip_a_step(void)
 {
     pages[PAGE][2] = 520;
@@ -269,10 +269,10 @@ static void test_shape_rate_never_makes_classic_skip_a_step(void)
 
 /* --- a step is shaped once, all of it by one shape ----------------------------------------------------------------- */
 
-#define MANY 5u       /* page of the centre: all joints on 512 */
+#define MANY 5u       /* centre page: all joints at 512 */
 static uint8_t many_ticks;
 
-/* Page MANY + 1: seven steps of many_ticks with all joints, to 612 and 412 in turn, round and round. */
+/* Page MANY + 1: seven steps of many_ticks with all joints, to 612 and 412 in turn, in a loop. */
 static void read_many(void *context, uint8_t page, uint16_t offset, void *to, uint8_t count)
 {
     (void)context;
@@ -290,8 +290,8 @@ static void read_many(void *context, uint8_t page, uint16_t offset, void *to, ui
 
 static const page_source_t many_source = {0, read_many, check_page};
 
-/* The amplitude changes behind every tick; the joints of a step agree all the same, and the step is one of those amplitudes
- * about 512. No tick is without output. */
+/* The amplitude changes after every tick. All joints of a step must still agree, and the step must have one of those
+ * amplitudes about 512. Under the exact law every tick has output. */
 static void expect_one_shape_a_step(player_law_t law, uint8_t ticks, uint8_t tolerance)
 {
     uint16_t pose[PAGE_JOINTS];
@@ -315,7 +315,7 @@ static void expect_one_shape_a_step(player_law_t law, uint8_t ticks, uint8_t tol
         for (uint8_t i = 1; i < PAGE_JOINTS; i++) {
             TEST_ASSERT_EQUAL_UINT16(player_goal(&player, 0), player_goal(&player, i));
         }
-        if ((events & PLAYER_EV_STEP) != 0) { /* it was on the way-point: 512 +- A for A in tens */
+        if ((events & PLAYER_EV_STEP) != 0) { /* the last goal was the way-point 512 +- A, with A a multiple of ten */
             uint16_t way = (uint16_t)(before_pos > 512 ? before_pos - 512 : 512 - before_pos);
             TEST_ASSERT_UINT16_WITHIN(tolerance, (way + 5) / 10 * 10, way);
             steps++;

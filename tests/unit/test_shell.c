@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What the shell makes of a line: words, numbers, dispatch; and how text is printed. */
+ * How the shell parses a line: words, numbers, dispatch; and how it prints text. */
 #include "shell_stage.h"
 #include "unity.h"
 

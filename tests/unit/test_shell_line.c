@@ -68,7 +68,7 @@ static void test_shell_escape_sequences_leave_no_trace(void)
     TEST_ASSERT_EQUAL_STRING("ab", out);
 }
 
-/* A terminal sends ESC alone for the key of that name; nobody waits until the next key is not a part of it. */
+/* A terminal sends ESC alone for the Escape key; the next key is not part of a sequence then. */
 static void test_shell_a_lone_escape_takes_no_key_with_it(void)
 {
     keys("abc\x1Bxyz\x1B\x08");

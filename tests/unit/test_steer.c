@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * Driving with the remote: left and right steer a page that has partners. */
+ * Driving with the remote: left and right steer a page with partners. */
 #include "inputs_stage.h"
 #include "unity.h"
 
-/* A hand that holds `buttons` for `count` ticks: the remote repeats its packet. */
+/* Holds `buttons` for `count` ticks: the remote repeats its packet. */
 static void hold(uint16_t buttons, uint8_t count)
 {
     for (; count > 0; count--) {
@@ -35,7 +35,7 @@ static void test_steer_left_and_right_steer_to_the_full_in_a_second_and_back(voi
     TEST_ASSERT_EQUAL_INT8(0, performer.shape.blend_percent);
     hold(REMOTE_LEFT, 136);
     TEST_ASSERT_EQUAL_INT8(-100, performer.shape.blend_percent);
-    ticks(200); /* the remote falls silent: nothing is held any more */
+    ticks(200); /* no packets from the remote: all buttons count as released */
     TEST_ASSERT_EQUAL_INT8(0, performer.shape.blend_percent);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_step_ticks.c - how long a step and its pause take (PAGE_FORMAT.md; LAWS.md, section 1 rules 3 and 5, section 2 rule
- * 1): lengths by hand, and plays of the longest there are. */
+ * test_step_ticks.c - the lengths of a step and its pause (PAGE_FORMAT.md; LAWS.md, section 1 rules 3 and 5, section 2
+ * rule 1): values by hand, and plays of the longest ones. */
 #include <stdlib.h>
 #include "sparse_pages.h"
 #include "step_ticks.h"
@@ -10,7 +10,7 @@
 #define BASE_SPEED PAGE_SCHEDULE_SPEED
 #define MOST STEP_TICKS_MAX
 
-/* A step of `way` units with its pause, and what it takes. */
+/* A step over `way` units with its pause, and the expected ticks. */
 typedef struct {
     player_law_t law;
     uint8_t schedule, page_speed, time, pause;
@@ -75,8 +75,8 @@ static void test_step_ticks_lengths_by_hand(void)
     }
 }
 
-/* Ticks from the beginning of the first step to that of the second. No joint leaps: of a step of N ticks and a way M each
- * makes 2 M / N at most (section 2, rule 2), and a unit for the rounding. */
+/* Ticks from the start of the first step to that of the second. No joint jumps: in a step of N ticks over M units it
+ * moves at most 2 M / N a tick (section 2, rule 2), plus one unit of rounding. */
 static uint32_t play_first_step(const length_t *length)
 {
     const int most = 2 * length->way / length->step_ticks + 1;
@@ -91,7 +91,7 @@ static uint32_t play_first_step(const length_t *length)
     return ticks;
 }
 
-/* The second step is as slow, so a first one that is cut short shows as a leap or as a length. */
+/* The second step is as slow, so cutting the first one short shows as a jump or a wrong length. */
 static void test_step_ticks_longest_steps_are_played_whole(void)
 {
     for (const length_t *length = lengths; length < &lengths[LENGTHS]; length++) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * player_cycles.c - what a tick of the player costs on the ATmega128 with 31 joints all moving, by its own timer: for each
- * law and kind of page the longest tick that begins a step, and the longest of the others. Prints a table on UART1 and fails
- * when a tick takes more than half of the time that it has, also with a layer, code-made motion and shaping. */
+ * player_cycles.c - cycles of a player tick on the ATmega128 with all 31 joints moving, by its own timer. For each law
+ * and kind of page, it prints the longest tick that begins a step and the longest other tick on UART1. Fails if a tick
+ * takes more than half of its period, also with a layer, code-made motion and shaping. */
 #include <avr/io.h>
 #include <stdio.h>
 #include "flash.h"
@@ -10,7 +10,7 @@
 #include "player.h"
 #include "unity.h"
 
-#define TICK_BUDGET 62500u /* of 125,000 */
+#define TICK_BUDGET 62500u /* cycles; a tick has 125,000 */
 
 #define WORD(p) (uint8_t)(p), (uint8_t)((p) >> 8)
 #define WORDS5(p) WORD(p), WORD((p) + 3), WORD((p) + 1), WORD((p) + 7), WORD((p) + 2)
@@ -47,7 +47,7 @@ static const kind_t kinds[] PROGMEM = {
 static uint8_t kind;
 static player_t player;
 static player_joint_t joints[PAGE_JOINTS];
-static uint16_t goals_of_all[PAGE_JOINTS]; /* of the layers */
+static uint16_t goals_of_all[PAGE_JOINTS]; /* output of the layers */
 static link_t l;
 
 void setUp(void)
@@ -74,7 +74,7 @@ static uint8_t check_page(void *context, uint8_t page)
 static const page_source_t source = {0, read_page, check_page};
 
 typedef struct {
-    uint16_t begin, other; /* longest tick that begins a step; other one */
+    uint16_t begin, other; /* cycles of the longest tick that begins a step, and of the longest other tick */
 } longest_t;
 
 static void print(const char *name, player_law_t law, const longest_t *longest)
@@ -142,7 +142,7 @@ static void test_player_tick_of_classic_keeps_its_budget(void)
     measure(PLAYER_LAW_CLASSIC);
 }
 
-/* Rate, amplitude and blend set, a page layer on half of the joints, four of the others swinging. */
+/* Rate, amplitude and blend set, a page layer on 15 joints, code-made swings on others. */
 static void measure_all_in_force(player_law_t law)
 {
     static layers_t layers;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * target_main.c - runs a Unity test file on the ATmega128: results on UART1 at 57,600 8N1, then the last line
- * "target: done, N failed", then sleep with interrupts off. A run that ends without that line has failed. */
+ * target_main.c - runs a Unity test file on the ATmega128. Prints the results on UART1 at 57,600 8N1, then the line
+ * "target: done, N failed", then sleeps with interrupts off. A run without that last line has failed. */
 #define TARGET_MAIN
 #include <avr/interrupt.h>
 #include <avr/io.h>

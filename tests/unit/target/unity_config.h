@@ -7,7 +7,7 @@
 #define UNITY_INT_WIDTH 16
 #define UNITY_LONG_WIDTH 32
 #define UNITY_POINTER_WIDTH 16
-/* Unity puts its strings into flash on AVR and then reads them as RAM: keep them in RAM. */
+/* With AVR defined, Unity puts its strings into flash but reads them as RAM. */
 #undef AVR
 
 #define UNITY_EXCLUDE_FLOAT
