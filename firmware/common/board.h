@@ -10,17 +10,17 @@
 #include "pgm.h"
 #include "settings.h"
 
-/* First call of main. Takes the reset cause, initializes panel, tick, clock, console and bus whatever the loader left
- * running, turns the watchdog on and enables interrupts. Nothing is sent to a servo. */
+/* First call of main. Takes the reset cause, initializes panel, tick, clock, console and bus regardless of what the loader
+ * left running, turns the watchdog on and enables interrupts. Sends nothing to a servo. */
 void board_start(void);
 
-/* Sleeps until an interrupt, unless a tick is due, a console byte waits or the bus has news (an image that sends must
- * therefore poll the bus). Kicks the watchdog.
+/* Kicks the watchdog. Sleeps until an interrupt, unless a tick is due, a console byte waits or the bus has news (so an
+ * image that sends must poll the bus).
  * The main loop is  for (;;) { ...look at everything once...; board_idle(); }. */
 void board_idle(void);
 
-/* Restarts the controller. Use it for every restart on purpose: it first completes a save of settings that is under way
- * (up to 0.45 s) and sends the text that still waits. Nothing may be moving. */
+/* Restarts the controller. Use it for every intentional restart: it first completes a pending save of settings
+ * (up to 0.45 s) and sends the buffered text. Nothing may be moving. */
 void board_restart(settings_store_t *store, const settings_t *settings) __attribute__((noreturn));
 
 /* The record of the running image (app_record.h). false: it has no magic or was not filled in. */

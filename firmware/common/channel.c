@@ -10,7 +10,7 @@ enum { CR = '\r', DEL = 0x7F, CRC_DIGITS = 4, CUT_OFF_TICKS = 32 };
 
 static struct {
     bool printing;
-    uint8_t length;       /* of `line`; 0: no request is on its way */
+    uint8_t length;       /* of `line`; 0: no request has begun */
     uint8_t last_tick;    /* of the last byte, modulo 256 */
     char line[1 + CHANNEL_LINE_CHARS + 1];   /* CHANNEL_BEGIN, the request, NUL */
 } channel;
@@ -35,8 +35,8 @@ channel_event_t channel_byte(uint8_t byte)
     if (byte == CR) {
         return CHANNEL_LINE;
     }
-    /* Only text is kept, for a refusal shows it: an XOFF in it would stop the terminal. The CRC of a line that is cut at the
-     * end of the buffer does not fit. */
+    /* Only text is kept, because a refusal prints it and an XOFF would stop the terminal. A line that is cut at the end of
+     * the buffer fails its CRC. */
     const bool is_text = byte >= ' ' && byte < DEL;
     if ((is_text || channel.length == 0) && channel.length < sizeof channel.line - 1u) {
         channel.line[channel.length++] = (char)byte;
@@ -49,7 +49,7 @@ bool channel_is_cut_off(void)
     return channel.length != 0 && (uint8_t)(tick_now16() - channel.last_tick) >= CUT_OFF_TICKS;
 }
 
-/* Takes the CRC off the end of a line of `length` characters. false: it does not fit. */
+/* Removes the CRC from the end of a line of `length` characters. false: the CRC is wrong. */
 static bool take_crc(char *line, uint8_t length)
 {
     uint16_t crc;
@@ -73,7 +73,7 @@ char *channel_take(uint8_t *fault)
     return line;
 }
 
-/* ---- what is printed ---- */
+/* ---- output ---- */
 
 bool channel_is_printing(void)
 {

@@ -13,8 +13,8 @@
 ONE_COPY uint16_t crc16_byte(uint16_t crc, uint8_t byte);
 ONE_COPY uint16_t crc16_bytes(uint16_t crc, const void *from, uint16_t bytes);
 
-/* The usual division bit by bit, for eight bits at once: (x = high ^ byte; x ^= x >> 4) are the eight quotient bits.
- * x times the polynomial is x << 12 ^ x << 5 ^ x, added byte by byte on this 8-bit machine. */
+/* Polynomial division by eight bits at once. x = high ^ byte; x ^= x >> 4 gives the eight quotient bits. x times the
+ * polynomial is x << 12 ^ x << 5 ^ x, added byte by byte on this 8-bit machine. */
 ONE_COPY uint16_t crc16_byte(uint16_t crc, uint8_t byte)
 {
     uint8_t x = (uint8_t)((uint8_t)(crc >> 8) ^ byte);

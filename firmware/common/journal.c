@@ -33,7 +33,7 @@ NOINLINE static uint16_t slot_page(uint8_t slot)
     return (uint16_t)(FIRST_PAGE + slot * JOURNAL_SLOT_PAGES);
 }
 
-static bool has_target(uint16_t page)   /* wider than a page's number: a PC has all that a byte can name */
+static bool has_target(uint16_t page)   /* 16 bits: with the 256 pages of a PC, an 8-bit comparison is always true */
 {
     return page < TARGET_MOTION_PAGES;
 }
@@ -119,7 +119,7 @@ journal_result_t journal_recover(uint8_t work[JOURNAL_TARGET_BYTES])
     if (slot == NO_SLOT || record.state == STATE_DONE) {
         return JOURNAL_CLEAN;
     }
-    journal_result_t result = JOURNAL_CLEAN; /* only the mark itself was torn */
+    journal_result_t result = JOURNAL_CLEAN; /* if only the mark was torn */
     if (record.state == STATE_PENDING) {
         flash_read(flash_addr(slot_page(slot)), work, JOURNAL_TARGET_BYTES);
         if (crc16_bytes(CRC16_START, work, JOURNAL_TARGET_BYTES) != record.content_crc) {

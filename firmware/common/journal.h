@@ -13,11 +13,11 @@
  *   save:     data -> record -> target (flash pages that differ) -> state := 0 (programmed, no erase)
  *   recover:  newest record pending -> target (pages that differ) -> state := 0
  *
- * The newest record is the one with the highest sequence (modulo 65536) among those whose own CRC fits. Only that one
- * takes effect; older ones are done whatever their state says. A save uses the slot after the newest, so every flash page of
- * the area is erased once in JOURNAL_SLOTS saves.
- * A power cut before the record is complete leaves an invalid record, hence the old page. From a complete record on the
- * next start finishes the target, however often the power fails while it does so. */
+ * The newest record is the one with the highest sequence (modulo 65536) among those whose own CRC is correct. Only that one
+ * takes effect; older ones count as done, whatever their state. A save uses the slot after the newest, so every flash page
+ * of the area is erased once in JOURNAL_SLOTS saves.
+ * A power cut before the record is complete leaves an invalid record, hence the old page. Once the record is complete, the
+ * next start finishes the target, however often the power fails meanwhile. */
 #ifndef JOURNAL_H
 #define JOURNAL_H
 
@@ -33,7 +33,7 @@
 #define JOURNAL_TARGET_BYTES 512u
 
 /* Replaces motion page `motion_page` (0..127). Call journal_recover once after start, before the first save.
- * Writes nothing when the page holds `data` already. At most 6 flash operations: five of 9 ms, the last one 4.5 ms.
+ * Writes nothing if the page already holds `data`. At most 6 flash operations: five of 9 ms, the last one 4.5 ms.
  * FLASH_ERR_RANGE, FLASH_ERR_NO_WRITER : nothing was touched
  * FLASH_ERR_VERIFY : the page is old, or undefined with a pending record that the next recovery carries out */
 MUST_CHECK flash_status_t journal_save(uint8_t motion_page, const uint8_t data[JOURNAL_TARGET_BYTES]);
@@ -41,8 +41,8 @@ MUST_CHECK flash_status_t journal_save(uint8_t motion_page, const uint8_t data[J
 typedef enum {
     JOURNAL_CLEAN = 0, /* nothing was pending */
     JOURNAL_RESTORED,  /* the pending page was written */
-    JOURNAL_LOST,      /* the data of the pending record no longer fit their CRC (not by a power cut); dropped */
-    JOURNAL_FAILED     /* the write failed or nobody can write flash; still pending */
+    JOURNAL_LOST,      /* the data of the pending record fail their CRC (not caused by a power cut); dropped */
+    JOURNAL_FAILED     /* the write failed, or no program here can write flash; still pending */
 } journal_result_t;
 
 /* Completes a save that a power cut interrupted. work : undefined afterwards. */

@@ -2,7 +2,7 @@
  * page_save.h - saves a motion page so that a power cut leaves the old page or the new one (journal.h), through whatever
  * can write flash here (page_service.h). page_store.h is the reading side. Main loop only, nothing may be moving. No RAM.
  * After a start call journal_recover first, then page_store_init. A save takes at most 60 ms: six flash pages of 9 ms.
- * Flow control keeps the PC silent meanwhile; our loader's service keeps what still arrives. */
+ * Flow control stops the PC meanwhile; our loader's service keeps the bytes that still arrive. */
 #ifndef PAGE_SAVE_H
 #define PAGE_SAVE_H
 
@@ -13,17 +13,17 @@
 
 typedef enum {
     PAGE_SAVE_OK = 0,
-    PAGE_SAVE_UNCHANGED,       /* flash holds the page already: nothing was written */
+    PAGE_SAVE_UNCHANGED,       /* flash already holds the page: nothing was written */
     PAGE_SAVE_ERR_VERIFY,      /* the write failed: flash has the old page, or the next start completes the new one */
     PAGE_SAVE_ERR_NO_WRITER    /* no program here can write flash; try page_save_by_mailbox */
 } page_save_status_t;
 
-/* Sets the checksum byte, saves and reads back. Call page_store_refresh afterwards, whatever the result: it is not done
- * here, so that the user sees the answer first. */
+/* Sets the checksum byte, saves and reads back. Call page_store_refresh afterwards, whatever the result. This function does
+ * not, so that the user sees the answer first. */
 MUST_CHECK page_save_status_t page_save(uint8_t page, uint8_t bytes[PAGE_BYTES]);
 
-/* Sets the checksum byte and leaves the page in the mailbox of the factory loader, which saves it at the next start (4.5 s):
- * board_restart has to follow. */
+/* Sets the checksum byte and leaves the page in the mailbox of the factory loader (4.5 s), which saves it at the next
+ * start: call board_restart next. */
 void page_save_by_mailbox(uint8_t page, uint8_t bytes[PAGE_BYTES]);
 
 #endif

@@ -10,8 +10,8 @@
 #include <stddef.h>
 #include <string.h>
 
-/* The factory loader 1.31, boot/ORIGINAL.md section 7b. The CRCs of two ranges and a sum, because one CRC-16 is too
- * weak a proof before a jump into foreign code. The CRC-32 of the spec would need code that nothing else uses. */
+/* The factory loader 1.31, boot/ORIGINAL.md section 7b. Two CRCs and a sum, because one CRC-16 is too weak a proof before a
+ * jump into foreign code. The CRC-32 of the spec would need code that nothing else uses. */
 #define FACTORY_CRC_ALL 0xD53Eu
 #define FACTORY_CRC_USED 0x7406u
 #define FACTORY_SUM_ALL 0x000F9AF0ul
@@ -35,7 +35,7 @@ static bool is_ours(void)
            (head.features & (BOOT_HAS_WRITE | BOOT_HAS_PROGRAM)) == (BOOT_HAS_WRITE | BOOT_HAS_PROGRAM);
 }
 
-/* Which loader the boot section holds if it is not ours: one pass over 8 KiB. */
+/* Identifies a loader that is not ours, in one pass over the 8 KiB of the boot section. */
 static page_service_kind_t recognise(void)
 {
     uint8_t piece[16];
@@ -99,18 +99,18 @@ flash_status_t flash_program(uint16_t page, const uint8_t *data, uint16_t bytes)
     return write_page(page, data, bytes, BOOT_MODE_PROGRAM);
 }
 
-/* NOINLINE: else its bytes would lie on the stack while a page is written. */
+/* NOINLINE: inlined, its variables would stay on the stack while a page is written. */
 static NOINLINE void set_byte(uint16_t addr, uint8_t value)
 {
     eeprom_update(addr, &value, 1);
 }
 
-static bool has_page(uint16_t page)   /* wider than a page's number: a PC has all that a byte can name */
+static bool has_page(uint16_t page)   /* 16 bits: with the 256 pages of a PC, an 8-bit comparison is always true */
 {
     return page < TARGET_MOTION_PAGES;
 }
 
-/* Clears FF4 first and sets it last, so that a power cut in between leaves no half page to be written. */
+/* Clears FF4 first and sets it last: after a power cut in between, the loader finds no half-written page. */
 bool page_service_post(uint8_t motion_page, const uint8_t data[512])
 {
     if (!has_page(motion_page)) {

@@ -37,7 +37,7 @@ static uint8_t source_check(void *context, uint8_t page)
     return page_store_check(context, page);
 }
 
-/* The result of page_check, without a page of RAM: reads 64 bytes at a time. */
+/* Reads 64 bytes at a time, so that it needs no RAM for a whole page. */
 page_status_t page_store_look(uint8_t page)
 {
     uint8_t block[PAGE_STEP_BYTES];

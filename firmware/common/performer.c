@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * performer.c - the life of a play and of a move: start, approach, tick, stop, pause, end. performer_watch.c judges the
- * faults of servos; performer_shape.h has layers and driving by a program. */
+ * performer.c - plays and moves: start, approach, tick, stop, pause, end. performer_watch.c handles servo faults;
+ * performer_shape.h has layers and driving by a program. */
 #include "performer.h"
 
 #include <string.h>
@@ -37,7 +37,7 @@ void performer_set_source(performer_t *performer, const page_source_t *source)
     fresh_player(performer);
 }
 
-/* ---- what it is doing ---- */
+/* ---- state ---- */
 
 bool performer_is_still(const performer_t *performer)
 {
@@ -57,7 +57,7 @@ uint8_t *performer_spare(performer_t *performer)
 
 /* ---- start ---- */
 
-/* Starts a fresh player at `page` from the present goals, by the law of the settings. */
+/* Starts a fresh player at `page` from the current goals, with the law of the settings. */
 static player_status_t start_player(performer_t *performer, uint8_t page, uint32_t joints)
 {
     const player_law_t law = performer->settings->law == PLAYER_LAW_CLASSIC ? PLAYER_LAW_CLASSIC : PLAYER_LAW_EXACT;
@@ -65,7 +65,7 @@ static player_status_t start_player(performer_t *performer, uint8_t page, uint32
     return player_start(&performer->player, &performer->link, page, law, performer->goal_pos, joints);
 }
 
-/* Whether one of `joints` can. */
+/* PERFORMER_OK if at least one of `joints` can move now. */
 static performer_status_t somebody_can_move(const performer_t *performer, uint32_t joints)
 {
     if (!performer_is_idle(performer)) {
@@ -77,7 +77,6 @@ static performer_status_t somebody_can_move(const performer_t *performer, uint32
     return (performer_usable(performer) & joints) == 0 ? PERFORMER_ERR_RELEASED : PERFORMER_OK;
 }
 
-/* Begins the state READY. */
 static void get_ready(performer_t *performer)
 {
     performer->ready_left = performer_usable(performer);
@@ -137,7 +136,7 @@ performer_status_t performer_move(performer_t *performer, const uint16_t to_pos[
     if (status != PERFORMER_OK) {
         return status;
     }
-    performer_layers_drop(performer, joints);   /* the last word counts: code no longer moves them */
+    performer_layers_drop(performer, joints);   /* the newest command wins: code no longer moves them */
     memcpy(performer->player.next_pos, to_pos, sizeof performer->player.next_pos);
     performer->page = 0;
     performer->move_deg_s = deg_s;
@@ -176,7 +175,7 @@ static void resume_if_paused(performer_t *performer)
     }
 }
 
-/* State PLAY: through the exit page; ends a pause. */
+/* State PLAY: stops through the exit page; ends a pause. */
 static void stop_softly(performer_t *performer)
 {
     link_stop(&performer->link);
@@ -199,7 +198,7 @@ void performer_break(performer_t *performer)
     }
 }
 
-/* Counts a stop. true: it was the second within a second, or came before the first step, and was carried out as a break. */
+/* Registers a stop. true: it was the second within a second, or came before the first step, and is now a break. */
 static bool stop_is_break(performer_t *performer)
 {
     const bool again = performer->since_stop_ticks < SECOND_STOP_TICKS;
@@ -255,7 +254,7 @@ void performer_code(performer_t *performer, uint8_t code)
     if (code == LINK_CODE_STOP) {
         resume_if_paused(performer);
     }
-    /* A hand that lets go before the first step: there is no page yet to leave softly. */
+    /* The button was released before the first step: there is no page yet whose exit could be played. */
     if (performer->state != PERFORMER_PLAY && link_is_stopping(&performer->link)) {
         performer_break(performer);
     }
@@ -324,9 +323,9 @@ uint32_t performer_off(performer_t *performer, uint32_t joints)
     return servo_link_torque_off(performer->servos, joints);
 }
 
-/* ---- from one state to the next ---- */
+/* ---- state transitions ---- */
 
-/* Begins the play, or ends the move: every joint is at its place. */
+/* Begins the play, or ends the move: every joint is in position. */
 static void begin(performer_t *performer)
 {
     if (performer->move_deg_s != 0) {
@@ -356,15 +355,15 @@ static bool ask_one_joint(performer_t *performer)
         performer_event_put(&performer->events, PERFORMER_EV_SILENT, id, 0, 0);
         return performer->settings->fault_rule == SETTINGS_FAULT_LIMP;
     }
-    if (!of_layer) {   /* else its goal is its place */
+    if (!of_layer) {   /* a layer keeps goal_pos up to date */
         performer->goal_pos[id] = performer->servos->present_pos[id];
     }
     servo_link_put(&performer->joints, id, true);
     return true;
 }
 
-/* Puts the target of the approach into next_pos: the positions of the first step. (The pose of a move is there already.)
- * Returns the joints that have one. */
+/* Puts the target of the approach, the positions of the first step, into next_pos. For a move it is there already.
+ * Returns the joints that have a target. */
 static uint32_t take_first_pose(performer_t *performer)
 {
     uint16_t *to_pos = performer->player.next_pos;
@@ -375,7 +374,7 @@ static uint32_t take_first_pose(performer_t *performer)
     return joints & performer->joints & ~performer_layers_joints(performer);
 }
 
-/* false: there is no approach, or the joints are where it ends. */
+/* Plans the approach or move and queues its event. false: there is no approach, or the joints are there already. */
 static bool plan_approach(performer_t *performer)
 {
     const uint16_t limit_deg_s = performer->move_deg_s != 0 ? performer->move_deg_s
@@ -410,7 +409,7 @@ static void poll_ready(performer_t *performer)
         } else {
             begin(performer);
         }
-        tick_forgive();   /* asking servos and planning take long, and nothing has moved: the first goals leave on time */
+        tick_forgive();   /* asking servos and planning is slow, but nothing has moved: the first goals are on time */
     }
 }
 
@@ -437,10 +436,10 @@ static void act_on(performer_t *performer, performer_verdict_t verdict, uint32_t
     if (verdict == WATCH_LIMP) {
         servo_link_t *servos = performer->servos;
         (void)servo_link_torque_off(servos, joint);
-        servos->torque |= joint & servos->silent;   /* else one that comes back limp would have lost nothing, and be well */
+        servos->torque |= joint & servos->silent;   /* so that a servo that comes back limp is still reported as faulty */
         return;
     }
-    performer->end_reason = PERFORMER_END_SERVO; /* used if a play is on */
+    performer->end_reason = PERFORMER_END_SERVO; /* used only during a play or move */
     if (verdict == WATCH_EXIT) {
         stop_softly(performer);
     } else {
@@ -448,13 +447,13 @@ static void act_on(performer_t *performer, performer_verdict_t verdict, uint32_t
     }
 }
 
-/* What only a computer does to a robot; on a board both answers are constants. */
+/* Events that only a PC has; on a board both functions return a constant. */
 static void watch_computer(performer_t *performer)
 {
     if (bus_was_lost()) {
         performer_event_put(&performer->events, PERFORMER_EV_BUS_LOST, 0, 0, 0);
         release(performer, SERVO_LINK_ALL);
-        performer->servos->torque = 0;   /* until somebody answers */
+        performer->servos->torque = 0;   /* until a servo answers */
     }
     if (system_is_asked_to_end()) {
         performer_break(performer);
@@ -470,7 +469,7 @@ void performer_poll(performer_t *performer)
     servo_link_poll(performer->servos);
     watch_computer(performer);
     const performer_verdict_t verdict = performer_watch(performer, &failed);
-    if (verdict != WATCH_GO_ON) { /* one a turn: it may block for 3 ms */
+    if (verdict != WATCH_GO_ON) { /* one per turn: it may block for 3 ms */
         act_on(performer, verdict, failed);
     }
     if (performer->state == PERFORMER_READY) {
@@ -485,7 +484,7 @@ static void send_goals(performer_t *performer, uint32_t joints)
     servo_link_goals(performer->servos, performer->goal_pos, joints | performer_layers_joints(performer));
 }
 
-/* Sets the compliance bytes of the pages that play. NOINLINE: else every tick needs 31 bytes of stack more. */
+/* Sets the compliance bytes of the playing pages. NOINLINE: inlined, every tick would need 31 more bytes of stack. */
 static NOINLINE void set_slopes(performer_t *performer)
 {
     uint8_t compliance[PAGE_JOINTS];
@@ -506,7 +505,7 @@ static void approach_tick(performer_t *performer)
     if ((events & PLAYER_EV_ENDED) != 0 && performer->leaving) {
         go_idle(performer, performer->end_reason);
     } else if ((events & PLAYER_EV_ENDED) != 0) {
-        /* Joints that code has given back meanwhile have their way to the first pose still before them. */
+        /* Joints that code has freed meanwhile still have to move to the first pose. */
         const uint32_t left_out = performer->joints & ~player->joints & ~performer_layers_joints(performer);
         if (left_out == 0 || !plan_approach(performer)) {
             begin(performer);
@@ -534,7 +533,7 @@ static void tell(performer_t *performer, uint8_t events)
     }
 }
 
-/* What can be done after the goals are on their way is done then. So the frames of all ticks begin at the same time. */
+/* Sends the goals first and does the rest afterwards, so that the goals of every tick leave at the same time. */
 static void play_tick(performer_t *performer)
 {
     const uint8_t events = performer_layers_tick(performer, true);
@@ -558,7 +557,7 @@ static void idle_tick(performer_t *performer)
     }
 }
 
-/* A play whose goals paused for so long would go on with a jerk that nobody has asked for. */
+/* Breaks off after too long a gap between goals, because motion would resume with a jerk. */
 static void watch_ticks(performer_t *performer)
 {
     if (tick_late() >= LATE_TICKS && !performer->leaving && performer->state != PERFORMER_READY &&

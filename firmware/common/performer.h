@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * performer.h - the one play engine of Play and Edit: pages + links + approach + servos, from "play page 5" to the end.
+ * performer.h - the play engine of Play and Edit: pages, links, approach and servos, from "play page 5" to the end.
  * Knows no console, no remote and no panel; reports through a queue of events, which the image prints.
- * Main loop only. Caller-owned. The approach is a play too, one without a page (player_move).
+ * Main loop only. Caller-owned. The approach is a play without a page (player_move).
  *
  *          start, move          pose read, torque on           there, or no approach
  *   IDLE --------------> READY ---------------------> APPROACH -----------------------> PLAY
@@ -9,9 +9,9 @@
  *    |                     | break, silent servo       | break                            | break, end
  *    +---------------------+---------------------------+----------------------------------+
  *
- * READY works joint by joint between ticks, at most 5 ms each. Nothing moves before READY is complete. Joints that do not
- * answer or were switched off by hand are never driven. With the setting `approach` 0 there is no approach: the first step
- * starts from the present pose, as recorded traces do. */
+ * READY handles one joint at a time between ticks, at most 5 ms each. Nothing moves before READY is complete. Joints that do
+ * not answer or were switched off by hand are never driven. With the setting `approach` 0 there is no approach: the first
+ * step starts from the present pose, as in the recorded traces. */
 #ifndef PERFORMER_H
 #define PERFORMER_H
 
@@ -51,15 +51,15 @@ typedef struct {
     uint8_t page;               /* requested, or playing */
     uint8_t fault_page, fault;  /* the page that caused PERFORMER_ERR_PAGE or _EMPTY, and its page_status_t */
     uint32_t released;          /* joints switched off by hand: not driven until performer_on */
-    uint32_t faulty;            /* joints with a fault that is not over: silent, errors, torque lost; cleared at a start */
+    uint32_t faulty;            /* joints whose fault persists: silent, errors, torque lost; cleared at a start */
     /* Private. */
     uint8_t first_page;         /* the page that plays first: the requested one, or the one its links lead to */
     uint8_t end_reason;         /* performer_end_t to report */
     uint8_t since_stop_ticks;   /* since the last stop, for "a second stop within a second" */
-    bool leaving;           /* a break is under way, or has ended the play. Read only for callers */
-    bool slopes_due;        /* PLAY: set the compliance of the pages anew in this tick */
+    bool leaving;           /* a break is in progress, or has ended the play. Read only for callers */
+    bool slopes_due;        /* PLAY: set the compliance of the pages again in this tick */
     bool is_driven;         /* performer_drive has set the shape */
-    bool battery_reported, heat_reported; /* each is reported once a play. Read only for callers */
+    bool battery_reported, heat_reported; /* each is reported once per play. Read only for callers */
     uint16_t move_deg_s;        /* a move's speed limit; 0: a play */
     uint32_t joints;            /* the joints that this play may drive */
     uint32_t ready_left;        /* READY: joints not asked yet */
@@ -68,7 +68,7 @@ typedef struct {
     servo_link_t *servos;
     const settings_t *settings;
     layers_t *layers;           /* performer_shape.h; NULL in an image without layers */
-    uint16_t drive_left_ticks;  /* time left for the next performer_drive; 0: not driven */
+    uint16_t drive_left_ticks;  /* until the next performer_drive is overdue; 0: not driven */
     uint8_t shape_voltage_dv;   /* the voltage that the shape's limit follows */
     shape_t shape;              /* of the main play. Set it with the functions of shape.h at any time */
     link_t link;                /* read only for callers */
@@ -78,7 +78,7 @@ typedef struct {
     player_joint_t joint[PAGE_JOINTS];
 } performer_t;
 
-/* Starts idle; sends nothing. Source, servos and settings stay the caller's and are used from now on. */
+/* Starts idle; sends nothing. Keeps using the caller's source, servos and settings. */
 void performer_init(performer_t *performer, const page_source_t *source, servo_link_t *servos,
                     const settings_t *settings);
 
@@ -86,36 +86,35 @@ void performer_init(performer_t *performer, const page_source_t *source, servo_l
 void performer_set_source(performer_t *performer, const page_source_t *source);
 
 /* Begins to play `page`, called by `code` (0: by its number). Checks the page and that a joint can move; performer_tick and
- * performer_poll do the rest. Any error: nothing happens, nothing is queued. */
+ * performer_poll do the rest. On an error nothing happens and nothing is queued. */
 MUST_CHECK performer_status_t performer_start(performer_t *performer, uint8_t page, uint8_t code);
 
-/* Moves `joints` to a pose (page coordinates) with at most deg_s degrees/s (1..360), ramped. Those that are not there are
- * left out; PERFORMER_ERR_NO_SERVOS: none of them is; PERFORMER_ERR_RELEASED: all of them are switched off. */
+/* Moves `joints` to a pose (page coordinates) at up to deg_s degrees/s (1..360), ramped. Leaves absent joints out.
+ * PERFORMER_ERR_NO_SERVOS: none is present; PERFORMER_ERR_RELEASED: all present ones are switched off. */
 MUST_CHECK performer_status_t performer_move(performer_t *performer, const uint16_t to_pos[PAGE_JOINTS],
                                              uint32_t joints, uint16_t deg_s);
 
-/* A soft stop: through the exit page. Ends a pause. The second one within a second is a break, and so is one during the
- * approach. No effect when idle. */
+/* A soft stop: through the exit page. Ends a pause. A second one within a second is a break, as is one during the approach.
+ * No effect when idle. */
 void performer_stop(performer_t *performer);
 
-/* Ends with the present repetition, without the exit page. A break during the approach. */
+/* Ends after the current repetition, without the exit page. A break during the approach. */
 void performer_stop_without_exit(performer_t *performer);
 
-/* A break: all joints, those moved by code too, slow down and stop; torque stays on. */
+/* A break: all joints, including those moved by code, slow down and stop; torque stays on. */
 void performer_break(performer_t *performer);
 
-/* pause stops all joints, with torque on; resume continues. false: nothing to pause or resume (a move cannot be
- * paused). */
+/* pause stops all joints, with torque on; resume continues. false: nothing to pause or resume. A move cannot be paused. */
 bool performer_pause(performer_t *performer);
 bool performer_resume(performer_t *performer);
 
-/* Sets the code in force during a play (0: released; 255: stop). No effect when idle: to start a play by code, look the page
- * up. */
+/* Sets the current code during a play (0: released; 255: stop). No effect when idle: to start a play by code, look up its
+ * page. */
 void performer_code(performer_t *performer, uint8_t code);
 
-/* Switch the torque of `joints` that are present. on blocks 3 ms a servo and returns the joints that are on now; during a
- * play it returns 0. off also takes the joints out of a play; they are not driven until switched on again; returns the
- * joints that have confirmed it. */
+/* Switch the torque of `joints` that are present. on blocks 3 ms per servo and returns the joints that are on now; during a
+ * play it returns 0. off also removes the joints from a play, and they are not driven until switched on again; it returns
+ * the joints that confirmed it. */
 uint32_t performer_on(performer_t *performer, uint32_t joints);
 uint32_t performer_off(performer_t *performer, uint32_t joints);
 
@@ -126,7 +125,7 @@ static inline bool performer_is_idle(const performer_t *performer)    /* no play
     return performer->state == PERFORMER_IDLE;
 }
 
-/* The page that plays, and player.now.step with it, or that a play begins with; 0: none. */
+/* The page that is playing (player.now.step is its step), or with which a play begins; 0: none. */
 static inline uint8_t performer_page(const performer_t *performer)
 {
     const uint8_t page = performer->state == PERFORMER_PLAY ? performer->player.now.page : performer->page;
@@ -144,11 +143,11 @@ static inline uint32_t performer_usable(const performer_t *performer)
     return performer->servos->present & ~performer->released;
 }
 
-/* PAGE_BYTES of RAM that only a play needs: use it for what may be lost at the next play or move. NULL unless idle. */
+/* PAGE_BYTES of spare RAM that the next play or move overwrites. NULL unless idle. */
 uint8_t *performer_spare(performer_t *performer);
 
-/* Call once a tick: computes the goals and sends them to the servos. Cost: that of player_tick and servo_link_goals. */
-void performer_tick(performer_t *performer) NOINLINE; /* by itself, so that the bench can measure it */
+/* Call once per tick: computes the goals and sends them to the servos. Cost: that of player_tick and servo_link_goals. */
+void performer_tick(performer_t *performer) NOINLINE; /* a symbol of its own, so that the bench can measure it */
 
 /* Call in every turn of the main loop: bus traffic, faults, READY. Blocks at most 5 ms, and only while nothing moves. */
 void performer_poll(performer_t *performer);

@@ -2,14 +2,14 @@
 #include "performer_event.h"
 
 #define ROOM_FOR_STEPS (PERFORMER_EVENTS - 6u)  /* the rest is for more important events */
-#define ROOM_FOR_OTHERS (PERFORMER_EVENTS - 1u) /* the last place is for the end of a play */
+#define ROOM_FOR_OTHERS (PERFORMER_EVENTS - 1u) /* the last slot is for the end of a play */
 
 static uint8_t room_for(uint8_t kind)
 {
     return kind == PERFORMER_EV_STEP ? ROOM_FOR_STEPS : kind == PERFORMER_EV_ENDED ? PERFORMER_EVENTS : ROOM_FOR_OTHERS;
 }
 
-/* Wraps an index at the end of the array. A division would take 200 cycles of a tick. */
+/* Wraps an index at the end of the array, without a division of 200 cycles. */
 static uint8_t wrapped(uint8_t at)
 {
     return at >= PERFORMER_EVENTS ? (uint8_t)(at - PERFORMER_EVENTS) : at;

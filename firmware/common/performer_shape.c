@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * performer_shape.c - a second page over the play, joints moved by code, driving by a program. */
+ * performer_shape.c - a second page over the main play, joints moved by code, driving by a program. */
 #include "performer_shape.h"
 
 void performer_set_layers(performer_t *performer, layers_t *layers)
@@ -8,7 +8,7 @@ void performer_set_layers(performer_t *performer, layers_t *layers)
     layers_init(layers, performer->goal_pos);
 }
 
-/* Sets the speed of what joins or leaves a play: that of the approach. */
+/* Joints join and leave a play at the speed of the approach. */
 static void set_speed(performer_t *performer)
 {
     layers_set_speed(performer->layers, performer->settings->approach_deg_s);
@@ -51,7 +51,7 @@ layers_status_t performer_take_for_code(performer_t *performer, uint8_t id)
         return LAYERS_ERR_FULL;
     }
     if ((layers_joints(performer->layers) & joint) != 0 || performer->state == PERFORMER_PLAY) {
-        return LAYERS_OK; /* its goal is where it is */
+        return LAYERS_OK; /* its goal is up to date */
     }
     if (!performer_is_idle(performer)) {
         return LAYERS_ERR_BUSY;
@@ -136,7 +136,7 @@ void performer_layers_pause(performer_t *performer, bool pause)
     }
 }
 
-/* ---- driving by a program: when it falls silent, the play stops ---- */
+/* ---- driving by a program: if it falls silent, the play stops ---- */
 
 bool performer_drive(performer_t *performer, int16_t blend, uint16_t rate, uint16_t amplitude)
 {
@@ -149,7 +149,7 @@ bool performer_drive(performer_t *performer, int16_t blend, uint16_t rate, uint1
         shape->rate_percent = rate_before;
         return false;
     }
-    /* Tenths of a second. */
+    /* 12.8 ticks per 0.1 s. */
     performer->drive_left_ticks = (uint16_t)(performer->settings->drive_ds * (PLAYER_TICKS_PER_SECOND / 2) / 5);
     performer->is_driven = true;
     return true;

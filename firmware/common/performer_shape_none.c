@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * performer_shape_none.c - for images whose plays are not shaped from outside: the functions for performer*.c, empty. */
+ * performer_shape_none.c - for images without layers and driving: empty versions of the functions for performer*.c. */
 #include "performer_shape.h"
 
 uint32_t performer_layers_joints(const performer_t *performer)

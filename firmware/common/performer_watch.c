@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * performer_watch.c - faults of servos and the rule for them, battery, heat. */
+ * performer_watch.c - servo faults and the fault rule, battery, heat. */
 #include "performer_watch.h"
 
 #include "dxl.h"
 #include "performer_shape.h"
 
-/* Errors for the fault rule. A voltage error is reported but ends nothing: the battery is low long before it is empty. */
+/* Errors that trigger the fault rule. A voltage error is only reported: the battery is low long before it is empty. */
 #define ERRORS_GRAVE (DXL_ERR_ANGLE | DXL_ERR_HEAT | DXL_ERR_OVERLOAD)
 
 static void tell(performer_t *performer, uint8_t kind, uint8_t a, uint8_t b)
@@ -15,13 +15,12 @@ static void tell(performer_t *performer, uint8_t kind, uint8_t a, uint8_t b)
 
 /* ---- faults ---- */
 
-/* The kinds of events are in the order of the kinds of faults. */
 STATIC_ASSERT(PERFORMER_EV_BACK - PERFORMER_EV_SILENT == SERVO_FAULT_BACK - SERVO_FAULT_SILENT &&
                   PERFORMER_EV_ERRORS - PERFORMER_EV_SILENT == SERVO_FAULT_ERRORS - SERVO_FAULT_SILENT &&
                   PERFORMER_EV_TORQUE - PERFORMER_EV_SILENT == SERVO_FAULT_TORQUE - SERVO_FAULT_SILENT,
               "faults and events in one order");
 
-/* Reports one fault. true: the rule for faults acts on it. */
+/* Reports one fault. true: the fault rule applies to it. */
 static bool take_fault(performer_t *performer, const servo_fault_t *fault)
 {
     const bool is_errors = fault->kind == SERVO_FAULT_ERRORS;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * ranges.h - the ranges of the numbers in commands, for the tables of commands (shell.h). The ranges of requests are here.
+ * ranges.h - the ranges of the numbers in commands, for the command tables (shell.h). The ranges of requests are here.
  * Those of an image are in its ranges_own.h, numbered from RANGE_OWN on. */
 #ifndef RANGES_H
 #define RANGES_H
@@ -24,7 +24,7 @@ enum {
 /* The image's own ranges, from RANGE_OWN on. */
 extern const shell_range_t ranges_own_P[];
 
-/* Adds the joints that the words from `first` on name ("3", "1-6", "6-1") to the mask *joints. false: return
+/* Adds the joints named by the words from `first` on ("3", "1-6", "6-1") to the mask *joints. false: return
  * SHELL_ERR_RANGE. */
 MUST_CHECK bool ranges_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joints);
 

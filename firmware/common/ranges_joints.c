@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * ranges_joints.c - the joints that words name. A file of its own because it uses shell_words.c, which uses ranges.c. */
+ * ranges_joints.c - parses joint IDs. Separate from ranges.c, because it uses shell_words.c, which uses ranges.c. */
 #include "ranges.h"
 
 #include <stddef.h>
@@ -10,7 +10,7 @@ bool ranges_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joint
 {
     for (uint8_t i = first; i < args->count; i++) {
         const char *first_id = shell_word(args, i), *last_id = first_id;
-        char *dash = strchr(first_id, '-');   /* the line is RAM of the caller: it may be cut here */
+        char *dash = strchr(first_id, '-');   /* the line is in the caller's RAM and may be cut here */
         uint16_t from, to;
         if (dash != NULL) {
             *dash = '\0';

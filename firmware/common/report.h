@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * report.h - prints what happened as a sentence, in the same words in Play and in Edit.
+ * report.h - prints events and errors as sentences, in the same words in Play and in Edit.
  * Knows no console (text.h) and no command. Main loop only. No RAM of its own. No function ends the line. */
 #ifndef REPORT_H
 #define REPORT_H
@@ -18,8 +18,8 @@ void report_bad_page(uint8_t page, uint8_t fault);
 /* Why a play did not start: report_bad_page, "Busy: stop what is playing first". Prints nothing for PERFORMER_OK. */
 void report_refusal(performer_status_t status, uint8_t page, uint8_t fault);
 
-/* "Failed: line 47, 0x2468. Report it. " once after a failed ASSERT (trap.h) has restarted the program; else nothing.
- * The second number is the byte address it was called from, for avr-addr2line. */
+/* "Failed: line 47, 0x2468. Report it. ", once after a failed ASSERT (trap.h) restarted the program; otherwise nothing.
+ * The second number is the byte address of the call, for avr-addr2line. */
 void report_failed_assert(void);
 
 /* The version in an image's record: "1.0.0". */

@@ -54,7 +54,7 @@ void report_voltage(uint8_t dv)
     TEXT(" V");
 }
 
-/* ---- one function a sentence, or a group of sentences ---- */
+/* ---- one function per sentence or group of sentences ---- */
 
 static void report_servo(uint8_t id, const char *what_P)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * requests.c - the requests of both images about the robot: what it does now, and what moves it; and which line runs which
- * request. An answer is ` field=...` pieces and an end, OK or ERR; requests_line prints the end. A request that fails prints
- * nothing before its error. */
+ * requests.c - the requests of both images that report the robot's state or move it, and the dispatch of lines to requests.
+ * An answer has ` field=...` pieces and an end, OK or ERR, which requests_line prints. A request that fails prints nothing
+ * before its error. */
 #include "requests.h"
 
 #include <stddef.h>
@@ -16,14 +16,14 @@
 #define WATCH_TICKS_MIN 6u   /* 47 ms; a @now line of 31 joints takes 37 ms */
 
 static struct {
-    uint16_t every_ticks;    /* 0: nobody watches */
+    uint16_t every_ticks;    /* 0: off */
     uint16_t last_tick;
-    bool on_channel;         /* asked for there */
+    bool on_channel;         /* requested through the channel */
 } watch;
 
-/* ---- the robot as it is now ---- */
+/* ---- state ---- */
 
-/* Prints id:position:torque for each joint, position "?" if the servo does not answer. */
+/* Prints id:position:torque for each joint; the position is "?" if unknown. */
 static uint8_t do_pose(const shell_args_t *args)
 {
     const servo_link_t *servos = requests_image.servos;
@@ -148,9 +148,9 @@ void requests_print_now(void)
     channel_print_end();
 }
 
-/* ---- what moves it ---- */
+/* ---- motion ---- */
 
-/* Reads three digits a joint, from joint `id` on, into to_pos; --- skips a joint. Returns the joints read; 0: bad digits. */
+/* Parses three digits per joint, from joint `id` on, into to_pos; --- skips a joint. Returns the joints read; 0: error. */
 static uint32_t parse_pose(uint8_t id, const char *digits, uint16_t to_pos[PAGE_JOINTS])
 {
     uint32_t joints = 0;
@@ -198,7 +198,7 @@ static uint8_t switch_named(const shell_args_t *args, uint8_t first, bool on)
     if (status != REQUEST_OK) {
         return status;
     }
-    if (on && !performer_is_idle(requests_image.performer)) {   /* off may always be sent, so the table cannot refuse both */
+    if (on && !performer_is_idle(requests_image.performer)) {   /* not in the table, because off is always allowed */
         return SHELL_ERR_MOVING;
     }
     return requests_no_answer(joints & ~requests_switch_torque(joints, on));
@@ -228,7 +228,7 @@ uint8_t request_play(const shell_args_t *args)
     return requests_refusal(performer_start(requests_image.performer, (uint8_t)args->number[0], (uint8_t)args->number[1]));
 }
 
-/* These four answer OK even if there is nothing to do: a program asks @where. */
+/* These four answer OK even if there is nothing to do. A program can ask @where. */
 uint8_t request_stop(const shell_args_t *args)
 {
     performer_stop(requests_image.performer);
@@ -276,7 +276,7 @@ static uint8_t do_ver(const shell_args_t *args)
     return REQUEST_OK;
 }
 
-/* A program follows it with '#': the boot loader listens for 60 ms before it starts an image again. */
+/* A program sends '#' next: the boot loader listens for 60 ms before it starts an image again. */
 static uint8_t do_reset(const shell_args_t *args)
 {
     requests_image.restart();

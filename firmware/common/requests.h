@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * requests.h - the line protocol for programs: one request line, one answer line, the same in Play and in Edit. Lines that
- * a person types in Play go the same way.
+ * requests.h - the line protocol for programs: one request line, one answer line, the same in Play and in Edit. Play also
+ * runs the lines that a person types through it.
  * Knows no screen and no prompt: takes words, prints text (text.h). Main loop only.
  *
- * Every word of a program begins with '@', which no typed word does, and so does every answer line:
+ * Every request of a program begins with '@', which no typed word does, and so does every answer line:
  *
  *     @where                                       the request
  *     @where state=idle page=0 ... OK              the answer: the word, fields, OK
@@ -35,14 +35,14 @@ typedef enum {
     REQUEST_ERR_EMPTY = 6,     /* the page has no action */
     REQUEST_ERR_SERVOS = 7,    /* no servo answers */
     REQUEST_ERR_RELEASED = 8,  /* torque was switched off by hand */
-    REQUEST_ERR_CRC = 9,       /* the CRC does not fit: nothing was changed */
+    REQUEST_ERR_CRC = 9,       /* the CRC is wrong: nothing was changed */
     REQUEST_ERR_IMAGE = 10,    /* not in this image */
     REQUEST_ERR_SAVE = 11,     /* the page could not be saved */
     REQUEST_ERR_UNSAVED = 12,  /* the page in RAM has edits that would be lost */
-    REQUEST_ERR_FULL = 13,     /* code moves as many joints as it can */
+    REQUEST_ERR_FULL = 13,     /* code already moves as many joints as it can */
     REQUEST_ERR_IDLE = 14,     /* nothing is playing */
     REQUEST_ERR_LINE = 15,     /* bytes of the line were lost, or it is too long: nothing was done */
-    REQUEST_ERR_ASKED = 16     /* Edit waits for a person's name or answer about the page */
+    REQUEST_ERR_ASKED = 16     /* Edit waits for a person to type a name or an answer about the page */
 } request_status_t;
 
 /* The words that an image adds. */
@@ -54,30 +54,30 @@ typedef struct {
 /* What requests work on, and what the image adds. Each image defines the one instance. */
 typedef struct {
     const char *name_P;                /* "play" */
-    const char *can_P;                 /* what @ver adds to the list of what all images can: ",open,save"; or NULL */
+    const char *can_P;                 /* what @ver appends to its common list of capabilities: ",open,save"; or NULL */
     performer_t *performer;
     servo_link_t *servos;
     page_store_t *pages;
     /* The image's own words, without '@'. Their handlers return SHELL_OK, SHELL_ERR_RANGE or _MOVING, or
      * SHELL_ERR_REPORTED after requests_error. */
     const requests_table_t *own;
-    void (*where)(void);               /* prints further fields of @where, each after a blank; or NULL */
-    void (*serve)(void);               /* does what cannot wait; called between the parts of a long request */
+    void (*where)(void);               /* prints further fields of @where, each after a space; or NULL */
+    void (*serve)(void);               /* does urgent work; called between the parts of a long request */
     void (*restart)(void);             /* calls board_restart with the image's settings; does not return */
 } requests_image_t;
 extern const requests_image_t requests_image;
 
-/* Runs a program's line, which begins with '@', and prints the answer line with its CR LF. The line is split in place.
- * fault: SHELL_OK; or why it is refused, SHELL_ERR_LOSSY or SHELL_ERR_LONG. */
+/* Runs a program's line, which begins with '@', and prints the answer line with its CR LF. Splits the line in place.
+ * fault: SHELL_OK, or why the line is refused: SHELL_ERR_LOSSY or SHELL_ERR_LONG. */
 void requests_line(char *line, uint8_t fault);
 
-/* The same for the request that has ended in the channel (channel.h). */
+/* The same for a completed request in the channel (channel.h). */
 void requests_answer_channel(void);
 
-/* Runs a line that a person typed, with a word of requests_image.own or of `typed_P`, whose words programs do not have. */
+/* Runs a typed line, whose word is in requests_image.own or in `typed_P`. Programs cannot use the words of `typed_P`. */
 void requests_run_typed(shell_args_t *args, const shell_command_t *typed_P, uint8_t typed_count);
 
-/* ---- @watch: a line with the state of the robot every so many milliseconds ---- */
+/* ---- @watch: periodic lines with the state of the robot ---- */
 
 /* Whether a @now line is due, and whether it goes to the channel (channel.h). If not, the image moves its cursor to the
  * start of a line before it calls requests_print_now. */
@@ -85,25 +85,25 @@ bool requests_now_is_due(void);
 bool requests_now_is_on_channel(void);
 void requests_print_now(void);
 
-/* Ends a @watch that was not asked for through the channel. */
+/* Ends a @watch that was not requested through the channel. */
 void requests_end_watch(void);
 
 /* ---- for handlers ---- */
 
-/* Whether a program sent the line that is being run. */
+/* Whether a program sent the current line. */
 bool requests_from_program(void);
 
-/* The joints that the words from `first` on name, or all present joints if there are no words. Returns REQUEST_OK, or the
- * status for the handler to return: a word names no joint, or a joint that is not present. */
+/* The joints named by the words from `first` on, or all present joints if there are no words. Returns REQUEST_OK, or the
+ * status for the handler to return: a word names no joint, or one that is not present. */
 MUST_CHECK uint8_t requests_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joints);
 
 /* Prints which servos did not answer and returns SHELL_ERR_REPORTED. REQUEST_OK if `joints` is empty. */
 uint8_t requests_no_answer(uint32_t joints);
 
-/* Turns a performer's refusal into an error with its sentence; REQUEST_OK for PERFORMER_OK. */
+/* Converts a performer's status into an error with its sentence; REQUEST_OK for PERFORMER_OK. */
 uint8_t requests_refusal(performer_status_t status);
 
-/* Notes who sent the line that is run next: a program, or a person. For requests.c only. */
+/* Sets whether a program or a person sent the next line. For requests.c only. */
 void requests_set_program(bool program);
 
 /* Handlers of requests_list.c, for requests.c: the pages in flash. */
@@ -121,14 +121,14 @@ uint8_t request_resume(const shell_args_t *args);
 uint8_t request_on(const shell_args_t *args);
 uint8_t request_off(const shell_args_t *args);
 
-/* Switches the torque of joints one at a time and calls serve in between, at most 3 ms apart. Returns the joints that
+/* Switches the torque of joints one at a time and calls serve in between, every 3 ms or less. Returns the joints that
  * switched. */
 uint32_t requests_switch_torque(uint32_t joints, bool on);
 
 /* Begins an error: prints " ERR n " for a program. The caller prints the sentence. Returns SHELL_ERR_REPORTED. */
 uint8_t requests_error(uint8_t status);
 
-/* The same with its sentence, a flash text (text.h). */
+/* The same including the sentence, a flash text (text.h). */
 uint8_t requests_refuse(uint8_t status, const char *sentence_P);
 
 #endif

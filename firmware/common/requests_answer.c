@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * requests_answer.c - what handlers answer with: errors and the joints that a line names. */
+ * requests_answer.c - helpers for handlers: errors, and the joints that a line names. */
 #include "requests.h"
 
 #include "ranges.h"

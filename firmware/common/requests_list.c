@@ -7,9 +7,9 @@
 #include "report.h"
 #include "text.h"
 
-#define CHUNK_BYTES 32u   /* a page is read in pieces of this size, on the stack */
+#define CHUNK_BYTES 32u   /* a page is read in chunks of this size, on the stack */
 
-/* Prints number:steps:"name", or number:!:"what is wrong". Nothing for an empty page. */
+/* Prints number:steps:"name", or number:!:"fault"; nothing for an empty page. */
 static void print_list_entry(uint8_t page)
 {
     uint8_t header[PAGE_AT_STEPS + 1];
@@ -37,7 +37,7 @@ static void print_list_entry(uint8_t page)
     text_put('"');
 }
 
-/* The last page of a request that names none (then all) or a first and a last one. */
+/* Takes the last page of a request that names a first and a last page, or none for all pages. */
 static uint8_t take_pages(const shell_args_t *args, uint8_t *last)
 {
     *last = args->count > 1 ? (uint8_t)args->number[1] : PAGE_COUNT - 1u;
@@ -66,7 +66,6 @@ uint8_t request_list(const shell_args_t *args)
     return REQUEST_OK;
 }
 
-/* Prints one byte of a page. */
 typedef void (*print_byte_t)(uint8_t byte);
 
 static void print_hex(uint8_t byte)
@@ -74,11 +73,11 @@ static void print_hex(uint8_t byte)
     text_hex(byte, 2);
 }
 
-/* Prints six bits a character: the low six of each byte, and after every three bytes (the first time after two) a character
- * with their high bits. */
+/* Prints six bits per character: the low six of each byte, and after every three bytes (the first time after two) a
+ * character with their high bits. */
 static struct {
     uint8_t high_bits;           /* of the newest byte in bits 7 and 6, of older ones below */
-    uint8_t bytes;               /* number of bytes whose high bits wait */
+    uint8_t bytes;               /* number of bytes whose high bits are not printed yet */
 } dense;
 
 static void print_dense(uint8_t byte)
@@ -91,7 +90,7 @@ static void print_dense(uint8_t byte)
     }
 }
 
-/* The CRC of the 512 bytes of a page in flash. print: prints each of them; or NULL. */
+/* Returns the CRC of the 512 bytes of a page in flash. print: called for each byte; or NULL. */
 static uint16_t page_crc(uint8_t page, print_byte_t print)
 {
     uint16_t crc = CRC16_START;
@@ -123,7 +122,7 @@ uint8_t request_page(const shell_args_t *args)
     return answer_page(args, print_hex);
 }
 
-/* The same in two thirds of the characters. */
+/* The same with two thirds of the characters. */
 uint8_t request_dense(const shell_args_t *args)
 {
     dense.high_bits = 0;
@@ -131,7 +130,7 @@ uint8_t request_dense(const shell_args_t *args)
     return answer_page(args, print_dense);
 }
 
-/* Four digits a page without blanks, so that 128 pages are 512 characters. */
+/* Prints four digits per page without spaces, so that 128 pages take 512 characters. */
 uint8_t request_crcs(const shell_args_t *args)
 {
     uint8_t last;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * servo_link.c - what happens in a tick: goals, slopes, servos that ignore SYNC WRITE, one health poll.
+ * servo_link.c - the bus traffic of a tick: goals, slopes, servos that ignore SYNC WRITE, one health poll.
  *
- * The phases of a tick. It begins at POLL, or at GOALS when there are goals; DEAF and ACTION may be skipped:
+ * The phases of a tick. It begins at POLL, or at GOALS if there are goals; DEAF and ACTION may be skipped:
  *
  *   GOALS -> DEAF -> ACTION -> POLL -> DONE
  *
- * The poll's answer may come after DONE; where it takes longer than a tick, the next ticks send their goals and poll nobody.
+ * The poll's answer may come after DONE. If it takes longer than a tick, the next ticks send goals but no poll.
  * QUIET: the bus is free for other callers until the next tick. */
 #include "servo_link.h"
 
@@ -20,7 +20,7 @@
 enum { PHASE_QUIET = 0, PHASE_GOALS, PHASE_DEAF, PHASE_ACTION, PHASE_POLL, PHASE_DONE };
 
 #define POS_MAX 1023
-/* A SYNC WRITE of two bytes a joint: 7 bytes before the joints, a checksum after them. */
+/* A SYNC WRITE of two bytes per joint: 7 bytes before the joints, a checksum after them. */
 STATIC_ASSERT(BUS_PACKET_BYTES >= 8u + 3u * SERVO_LINK_JOINTS, "all joints fit into one packet");
 
 /* The part of the control table that the health poll reads. */
@@ -79,7 +79,7 @@ void servo_link_slopes(servo_link_t *link, const uint8_t compliance[SERVO_LINK_J
     }
 }
 
-/* The slope registers of a compliance byte: 2^nibble, CW in the low byte. Nibbles 0 and above 7 are taken for 5. */
+/* The slope registers of a compliance byte: 2^nibble, CW in the low byte. Nibbles 0 and above 7 count as 5. */
 static uint16_t slopes_of(uint8_t compliance)
 {
     static const uint8_t slope[16] PROGMEM = { 32, 2, 4, 8, 16, 32, 64, 128, 32, 32, 32, 32, 32, 32, 32, 32 };
@@ -127,7 +127,7 @@ static void send_deaf(servo_link_t *link)
                      servo_link_write_answer(link, id), 1);
 }
 
-/* The deaf servos begin to move. */
+/* Starts the deaf servos. */
 static void send_action(void)
 {
     (void)bus_submit(dxl_build(bus_packet(), DXL_BROADCAST, DXL_ACTION, NULL, 0), BUS_NO_ANSWER, 1);
@@ -140,7 +140,7 @@ static void count_late(servo_link_t *link)
     }
 }
 
-/* Begins a round of REG WRITEs. If the last tick had no time to end its round, that one goes on with the new goals. */
+/* Begins a round of REG WRITEs. If the last tick could not finish its round, that round continues with the new goals. */
 static void begin_deaf(servo_link_t *link, uint32_t joints)
 {
     if (link->phase == PHASE_DEAF && link->deaf_left == 0) {
@@ -156,7 +156,7 @@ static void begin_deaf(servo_link_t *link, uint32_t joints)
 
 /* ---- the health poll ---- */
 
-/* At the end of a round, publishes its lowest voltage and highest temperature. */
+/* Publishes the lowest voltage and highest temperature of the round. */
 static void end_round(servo_link_t *link)
 {
     link->voltage_dv = link->round_voltage_dv;
@@ -166,7 +166,7 @@ static void end_round(servo_link_t *link)
     link->round_degrees = 0;
 }
 
-/* Asks the servo that did not answer again, or the next one. */
+/* Polls the next servo, or again the one that did not answer. */
 static void send_poll(servo_link_t *link)
 {
     link->phase = PHASE_DONE;
@@ -200,7 +200,7 @@ static void take_torque(servo_link_t *link, uint8_t id, const uint8_t *table)
     servo_link_put(&link->torque, id, on);
 }
 
-/* A servo that has lost its power has forgotten its slopes, even if it was away too shortly to be missed. */
+/* A servo that lost power has lost its slopes, even if it was off too briefly to count as silent. */
 static void take_slopes(servo_link_t *link, uint8_t id, const uint8_t *slope)
 {
     const uint16_t slopes = slopes_of(link->slopes[id]);
@@ -285,12 +285,12 @@ bool servo_link_next_fault(servo_link_t *link, servo_fault_t *fault)
     return false;
 }
 
-/* ---- the course of a tick ---- */
+/* ---- the tick ---- */
 
 void servo_link_tick(servo_link_t *link)
 {
-    /* The wait takes 1 ms at most, and only when the main loop was busy elsewhere. Without it our goals could collide with a
-     * servo's answer. */
+    /* Without this wait, our goals could collide with a servo's answer. It takes 1 ms at most, and only if the main loop was
+     * busy elsewhere. */
     if (link->poll_waits) {
         bus_wait_free();
         end_poll(link);
@@ -317,7 +317,7 @@ void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOI
     }
 }
 
-/* Sends the next packet that follows the goals, or waits until it can. false: there is none. */
+/* Sends the next packet that follows the goals, if the bus is free. false: no packet is left. */
 static bool send_rest(servo_link_t *link)
 {
     const uint32_t slopes = link->slopes_pending & link->goals_joints & ~link->no_sync;

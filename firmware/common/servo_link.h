@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
  * servo_link.h - the robot's joints: finds the servos, sends one tick's goals as one SYNC WRITE, reads one servo's health
- * in the rest of each tick. Callers use page coordinates; servo coordinates on the wire are trim added, limited to 0..1023.
- * Knows no pages. Works over bus.h (hal/DYNAMIXEL.md has the protocol). Main loop only. RAM: one servo_link_t.
+ * in the rest of each tick. Callers use page coordinates; on the wire the trim is added and the sum limited to 0..1023.
+ * Knows no pages. Uses bus.h (hal/DYNAMIXEL.md has the protocol). Main loop only. RAM: one servo_link_t.
  *
- *   servo_link.c         what happens in a tick
- *   servo_link_setup.c   search, torque, poses: what blocks
+ *   servo_link.c         the traffic of a tick
+ *   servo_link_setup.c   the blocking part: search, torque, poses
  *   servo_link_masks.c   masks of joints
  *
- * Nothing is ever written to a servo's EEPROM area.
+ * Never writes to a servo's EEPROM area.
  *
  * A tick on the bus at 1 Mbps with 31 joints (us after servo_link_goals). Slopes are sent only after they have changed:
  *
@@ -23,8 +23,8 @@
 
 #define SERVO_LINK_JOINTS 31u            /* joint = servo ID 0..30 */
 #define SERVO_LINK_ALL 0x7FFFFFFFul
-#define SERVO_LINK_TRIM_MAX 300          /* a trim beyond this is taken for damaged */
-#define SERVO_LINK_POLL_TRIES 3u         /* failed polls, one a tick, before a servo is taken for silent */
+#define SERVO_LINK_TRIM_MAX 300          /* a larger trim counts as damaged */
+#define SERVO_LINK_POLL_TRIES 3u         /* unanswered polls, one per tick, until a servo counts as silent */
 #define SERVO_LINK_NO_POSE 0xFFFFu       /* present_pos of a joint that was never read */
 
 /* A joint's bit in a mask. The macro is for constants, the functions for variables: on the AVR a 32-bit shift is a loop, and
@@ -33,11 +33,11 @@
 uint32_t servo_link_bit(uint8_t id) NOINLINE;
 bool servo_link_has(const uint32_t *mask, uint8_t id);
 void servo_link_put(uint32_t *mask, uint8_t id, bool on);
-uint8_t servo_link_lowest(const uint32_t *mask);   /* of a mask that is not empty */
+uint8_t servo_link_lowest(const uint32_t *mask);   /* the mask must not be empty */
 
-/* Faults of a servo, and their ends. */
+/* Faults of a servo, and recoveries. */
 typedef enum {
-    SERVO_FAULT_SILENT = 1,   /* does not answer any more */
+    SERVO_FAULT_SILENT = 1,   /* no longer answers */
     SERVO_FAULT_BACK,         /* answers again (its torque may be off: see `torque`) */
     SERVO_FAULT_ERRORS,       /* reports errors: DXL_ERR_ bits in `errors` (voltage, angle, heat, overload); 0: no more */
     SERVO_FAULT_TORQUE,       /* its torque went off by itself */
@@ -50,30 +50,30 @@ typedef struct {
     uint8_t errors;
 } servo_fault_t;
 
-/* Public fields are read only for callers. Small fields come first: the AVR reads 64 bytes from a pointer on cheaply. */
+/* Public fields are read only for callers. Small fields come first: the AVR accesses 64 bytes from a pointer on cheaply. */
 typedef struct {
-    uint32_t present;         /* answered the last scan at 1 Mbps; a silent servo stays in here */
-    uint32_t torque;          /* torque is on, as commanded or seen last (performer.c sets it for a silent one) */
+    uint32_t present;         /* answered the last scan at 1 Mbps; includes silent servos */
+    uint32_t torque;          /* torque is on, as last commanded or read (performer.c sets it for a silent one) */
     uint32_t silent;          /* present, but silent now */
     uint32_t no_sync;         /* present, but deaf to SYNC WRITE: served by REG WRITE and ACTION */
     uint32_t no_reply;        /* present, but answers READ only (status return level 1) */
     uint32_t slow;            /* answered at 57,142 bps: reported, not used (the monitor image makes them fast) */
     uint8_t voltage_dv;       /* lowest voltage heard in the last full round, 0.1 V; 0: none yet */
-    uint8_t hottest_degrees;  /* highest temperature heard in the last full round, and whose it was */
+    uint8_t hottest_degrees;  /* highest temperature of the last full round, and its servo */
     uint8_t hottest_id;
     uint8_t late;             /* ticks whose goals could not all be sent in time; stops at 255 */
     /* Private. */
     uint8_t phase;
     uint8_t poll_id, poll_misses;
-    bool poll_waits;                         /* for the poll's answer */
+    bool poll_waits;                         /* the poll's answer is outstanding */
     uint8_t round_voltage_dv, round_degrees, round_degrees_id;
     const uint16_t *goals_pos;
     uint32_t goals_joints;                   /* the joints that this tick's goals are for */
     uint32_t slopes_pending;                 /* joints whose slopes must still be sent */
     uint32_t deaf_left;                      /* deaf joints whose REG WRITE must still be sent */
-    uint32_t unreported[SERVO_FAULT_KINDS];  /* [kind - 1]: joints with a fault to return by servo_link_next_fault */
+    uint32_t unreported[SERVO_FAULT_KINDS];  /* [kind - 1]: joints whose fault servo_link_next_fault must still return */
     /* Public again. */
-    uint8_t errors[SERVO_LINK_JOINTS];       /* the DXL_ERR_ bits heard last: those of SERVO_FAULT_ERRORS */
+    uint8_t errors[SERVO_LINK_JOINTS];       /* last DXL_ERR_ bits received: those of SERVO_FAULT_ERRORS */
     uint16_t present_pos[SERVO_LINK_JOINTS]; /* last pose read, page coordinates, or SERVO_LINK_NO_POSE */
     int16_t trim_pos[SERVO_LINK_JOINTS];     /* the offset that is added to each goal */
     uint8_t slopes[SERVO_LINK_JOINTS];       /* private: the last compliance byte requested; 0 = none */
@@ -81,56 +81,56 @@ typedef struct {
 
 void servo_link_init(servo_link_t *link);
 
-/* ---- running: called every tick, never blocking longer than the end of a packet (1 ms) ---- */
+/* ---- running: called every tick, blocking no longer than the rest of a packet (1 ms) ---- */
 
 /* Joints that may be driven now: present, not silent, torque on. */
 uint32_t servo_link_drivable(const servo_link_t *link);
 
-/* Call first in each tick, also when nothing moves: ends the last tick's traffic and allows this tick's health poll. */
+/* Call first in each tick, even if nothing moves: ends the last tick's traffic and allows this tick's health poll. */
 void servo_link_tick(servo_link_t *link);
 
-/* Sends one tick's goals (page coordinates 0..1023) of `joints`, without those that are not drivable. goal_pos must not
+/* Sends one tick's goals (page coordinates 0..1023) of `joints`, except those that are not drivable. goal_pos must not
  * change during the tick: it is read again for deaf servos. Deaf servos take about 0.7 ms each (0.2 ms with a return delay
- * of 0, which no image sets). Those that do not fit into the tick follow in the next one, and `late` counts them. */
+ * of 0, which no image sets). Those that do not fit into the tick follow in the next one, which counts in `late`. */
 void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOINTS], uint32_t joints)
-    NOINLINE;   /* a name of its own in the image: the bench counts its cycles */
+    NOINLINE;   /* a symbol of its own: the bench counts its cycles */
 
-/* Sets the compliance bytes of a page (motion/PAGE_FORMAT.md: nibbles CW, CCW; 0 and above 7 are taken for 5). Those that
- * differ from what was sent last follow the next goals in a SYNC WRITE of their own; so do those of a servo in which a
- * health poll finds others. */
+/* Sets the compliance bytes of a page (motion/PAGE_FORMAT.md: nibbles CW, CCW; 0 and above 7 count as 5). Those that have
+ * changed follow the next goals in a SYNC WRITE of their own, as do those of a servo in which a health poll finds other
+ * slopes. */
 void servo_link_slopes(servo_link_t *link, const uint8_t compliance[SERVO_LINK_JOINTS]);
 
-/* Call in every turn of the main loop: continues this tick's traffic. One health poll (READ 24..43) a tick, round robin over
- * `present`: 31 servos take 0.24 s. A servo that does not answer is asked again in the following ticks and is
- * reported as silent after SERVO_LINK_POLL_TRIES tries, within 0.3 s. Silent servos stay in the round. */
+/* Call in every turn of the main loop: continues this tick's traffic. One health poll (READ 24..43) per tick, round robin
+ * over `present`: 31 servos take 0.24 s. A servo that does not answer is polled again in the following ticks and reported
+ * as silent after SERVO_LINK_POLL_TRIES tries, within 0.3 s. Silent servos stay in the round. */
 void servo_link_poll(servo_link_t *link);
 
-/* Takes the next new fault, or end of one. false: none. */
+/* Takes the next new fault or recovery. false: none. */
 bool servo_link_next_fault(servo_link_t *link, servo_fault_t *fault);
 
 /* Waits until the bus is quiet (at most 2 ms) and keeps it quiet until the next servo_link_tick. Call it before using bus.h
- * yourself. */
+ * directly. */
 void servo_link_quiet(servo_link_t *link);
 
-/* Page coordinates of a joint <-> servo coordinates: trim added or taken off, limited to 0..1023. */
+/* Page coordinates of a joint <-> servo coordinates: trim added or subtracted, limited to 0..1023. */
 uint16_t servo_link_to_servo(const servo_link_t *link, uint8_t id, uint16_t pos);
 uint16_t servo_link_to_page(const servo_link_t *link, uint8_t id, uint16_t servo_pos);
 
-/* Sets the offsets added to each goal (page_store_trim); NULL: none. An offset beyond +-SERVO_LINK_TRIM_MAX is taken for 0.
- * Drops all poses read before. */
+/* Sets the offsets added to each goal (page_store_trim); NULL: none. An offset beyond +-SERVO_LINK_TRIM_MAX counts as 0.
+ * Discards all poses read so far. */
 void servo_link_set_trim(servo_link_t *link, const int16_t trim_pos[SERVO_LINK_JOINTS]);
 
 /* Writes `count` (1..4) bytes from address `at` on to a servo that is present; blocks 0.4..0.9 ms. Call servo_link_quiet
- * first. For the RAM area (address 24 on). false: no answer, or the servo answered that it did not obey, or, if it does not
- * answer WRITE (no_reply), other bytes were read back (1.5 ms): in each of BUS_CALL_TRIES tries. Without any answer it
- * counts as silent. */
+ * first. For the RAM area (address 24 on). false: each of BUS_CALL_TRIES tries got no answer, or the servo rejected the
+ * write, or, if it does not answer WRITE (no_reply), other bytes were read back (1.5 ms). Without any answer it counts as
+ * silent. */
 MUST_CHECK bool servo_link_write(servo_link_t *link, uint8_t id, uint8_t at, const uint8_t *from, uint8_t count);
 
-/* Returns what bus_submit takes as answer_params for a WRITE to this servo: 0, or BUS_NO_ANSWER if it is in `no_reply`. */
+/* The answer_params of bus_submit for a WRITE to this servo: 0, or BUS_NO_ANSWER if it is in `no_reply`. */
 uint8_t servo_link_write_answer(const servo_link_t *link, uint8_t id);
 
-/* Call when a present joint did not answer your own bus call: it is silent from now on, so that servo_link_next_fault
- * reports when it answers again. The functions below do this themselves. */
+/* Call when a present joint did not answer your own bus call: it then counts as silent, and servo_link_next_fault reports
+ * when it answers again. The functions below do this themselves. */
 static inline void servo_link_lost(servo_link_t *link, uint8_t id)
 {
     servo_link_put(&link->silent, id, true);
@@ -139,23 +139,23 @@ static inline void servo_link_lost(servo_link_t *link, uint8_t id)
 /* ---- blocking, for set-up: nothing may be moving; these call servo_link_quiet and kick the watchdog ---- */
 
 /* Searches IDs 0..30 at 57,142 bps, then at 1 Mbps (where the bus stays), with two tries each: 0.25 s without servos. Finds
- * out which are deaf to SYNC WRITE (by the LED, which is off afterwards), reads poses and torque. */
+ * the ones deaf to SYNC WRITE (by the LED, which is off afterwards). Reads poses and torque. */
 void servo_link_scan(servo_link_t *link);
 
-/* Reads the present positions of `ids` into present_pos; returns those that answered. 0.3..0.9 ms a servo. */
+/* Reads the present positions of `ids` into present_pos; returns those that answered. 0.3..0.9 ms per servo. */
 uint32_t servo_link_read_pose(servo_link_t *link, uint32_t ids);
 
-/* Switches torque on where it is off: reads the pose, makes it the goal, reads that back, then enables torque, so that
- * nothing leaps. A torque limit that a shutdown has cut to 0 is restored from the maximum torque (address 14). A servo whose
- * pose or goal cannot be read stays off. 3 ms a servo. Returns those of `ids` that are on now. */
+/* Switches torque on where it is off. Reads the pose, makes it the goal, reads that back, then enables torque, so that no
+ * servo jumps. Restores a torque limit that a shutdown has set to 0 from the maximum torque (address 14). A servo whose
+ * pose or goal cannot be read stays off. 3 ms per servo. Returns those of `ids` that are on now. */
 uint32_t servo_link_torque_on(servo_link_t *link, uint32_t ids);
 
-/* Switches torque off: first of all at once by SYNC WRITE, then of each by a WRITE, which servos confirm. Returns those that
- * did; the others count as off as well, until a poll tells otherwise. */
+/* Switches torque off: first of all servos at once by SYNC WRITE, then of each by a WRITE, which servos confirm. Returns
+ * those that did; the others also count as off until a poll reads otherwise. */
 uint32_t servo_link_torque_off(servo_link_t *link, uint32_t ids);
 
-/* Makes servos ready for goals that come a tick apart: switches torque on as above, reads the pose, and sets the moving
- * speed to 0, which means full speed (a single move may have set a slow one). 4 ms a servo. Returns those that are ready. */
+/* Prepares servos for a goal every tick: switches torque on as above, reads the pose, and sets the moving speed to 0, which
+ * means full speed (a single move may have set a slow one). 4 ms per servo. Returns those that are ready. */
 uint32_t servo_link_engage(servo_link_t *link, uint32_t ids);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * servo_link_setup.c - the half of servo_link.h that blocks: search, torque, poses, changes on request. */
+ * servo_link_setup.c - the blocking half of servo_link.h: search, torque, poses, single writes. */
 #include "bus_call.h"
 #include "dxl_packet.h"
 #include "servo_link.h"
@@ -11,7 +11,7 @@
 
 #define PING_TRIES 2u
 #define WRITE_BYTES_MAX 4u
-/* The registers that torque_on and read_pose read: torque enable .. present position. */
+/* The registers that torque_on and read_pose read: torque enable to present position. */
 #define READ_FROM DXL_AT_TORQUE_ENABLE
 #define READ_BYTES (DXL_AT_PRESENT + 2u - READ_FROM)
 STATIC_ASSERT(READ_BYTES <= DXL_ANSWER_PARAMS, "the bus takes the answer");
@@ -21,12 +21,12 @@ static uint16_t word_at(const uint8_t *bytes)
     return bytes[0] | bytes[1] << 8;
 }
 
-/* ---- one after the other ---- */
+/* ---- one servo after the other ---- */
 
-/* Does something to one servo. true: success. */
+/* Acts on one servo. true: success. */
 typedef bool (*servo_action_t)(servo_link_t *link, uint8_t id);
 
-/* Does it to each of `ids`. Returns those with success. */
+/* Acts on each of `ids`. Returns those with success. */
 static uint32_t for_each(servo_link_t *link, uint32_t ids, servo_action_t action)
 {
     uint32_t done = 0;
@@ -39,7 +39,7 @@ static uint32_t for_each(servo_link_t *link, uint32_t ids, servo_action_t action
     return done;
 }
 
-/* Ends what the tick has begun, then does it to those of `ids` that are present. */
+/* Ends the tick's traffic, then acts on those of `ids` that are present. */
 static uint32_t for_present(servo_link_t *link, uint32_t ids, servo_action_t action)
 {
     servo_link_quiet(link);
@@ -51,7 +51,7 @@ static bool read_byte(uint8_t id, uint8_t at, uint8_t *byte)
     return bus_call_read(id, at, byte, 1, NULL) == BUS_OK;
 }
 
-/* For a servo that answers READ only: writes, and reads back. */
+/* For a servo that answers only READ: writes and reads back. */
 static bool write_and_read(servo_link_t *link, uint8_t id, const uint8_t *params, uint8_t count)
 {
     uint8_t read[WRITE_BYTES_MAX];
@@ -97,7 +97,7 @@ static bool ping(servo_link_t *link, uint8_t id)
     return bus_call_ping(id, PING_TRIES, NULL) == BUS_OK;
 }
 
-/* Finds out the status return level: a servo that answers no READ has level 0, one that answers no WRITE level 1. */
+/* Reads the status return level. At level 0 a servo answers no READ, at level 1 no WRITE. */
 static bool look_at_level(servo_link_t *link, uint8_t id)
 {
     uint8_t level = 0;
@@ -175,7 +175,7 @@ uint32_t servo_link_read_pose(servo_link_t *link, uint32_t ids)
     return for_present(link, ids, read_pose);
 }
 
-/* Makes the present position the goal, so that the servo stays where it is, and reads it back. */
+/* Makes the present position the goal, so that the servo does not move, and reads it back. */
 static bool hold_still(servo_link_t *link, uint8_t id, uint8_t table[READ_BYTES])
 {
     const uint16_t pos = word_at(table + (DXL_AT_PRESENT - READ_FROM)) & 1023u;
@@ -183,8 +183,8 @@ static bool hold_still(servo_link_t *link, uint8_t id, uint8_t table[READ_BYTES]
            word_at(table + (DXL_AT_GOAL - READ_FROM)) == pos;
 }
 
-/* The goal comes first; then the torque limit, which a shutdown may have cut; then torque, which many servos switch on
- * themselves with the goal. */
+/* Writes the goal first, then the torque limit, which a shutdown may have set to 0, then torque, which many servos switch on
+ * by themselves with the goal. */
 static bool torque_on(servo_link_t *link, uint8_t id)
 {
     uint8_t table[READ_BYTES], maximum[2];

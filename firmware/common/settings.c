@@ -7,8 +7,8 @@
 #include <stddef.h>
 #include <string.h>
 
-/* One copy is this head, the settings, and the CRC-16 of both, low byte first. A program of another version may have
- * written fewer settings or more, because new ones are added at the end. Settings that a record lacks get defaults. */
+/* A copy has this head, the settings, and the CRC-16 of both, low byte first. Another version of the program may have
+ * written fewer or more settings, because new ones are added at the end. Missing settings get their defaults. */
 typedef struct {
     uint8_t magic;
     uint8_t layout;
@@ -19,8 +19,8 @@ typedef struct {
 #define COPY_BYTES 64u
 #define MAGIC 'S'
 #define LAYOUT 1u
-/* A save clears the magic, writes everything after it, and writes the magic last. So no mixture of old and new bytes ever
- * has the magic. Cleared is as never written: a first save that is cut off has damaged nothing. */
+/* A save clears the magic, writes everything after it, and writes the magic last. So a mixture of old and new bytes never
+ * has the magic. A cleared magic reads as never written, so a first save that is cut off does not count as damage. */
 #define CRC_BYTES 2u
 #define BODY_BYTES_MAX (COPY_BYTES - sizeof(head_t) - CRC_BYTES)
 #define RECORD_BYTES (sizeof(head_t) + sizeof(settings_t) + CRC_BYTES)
@@ -75,7 +75,7 @@ static bool is_sound(const settings_t *settings)
     return true;
 }
 
-/* Reads one copy; a setting that it lacks has its default. */
+/* Reads one copy. Missing settings get their defaults. */
 static settings_status_t load_copy(uint8_t copy, uint8_t *sequence, settings_t *settings)
 {
     struct {
@@ -127,7 +127,7 @@ void settings_save_start(settings_store_t *store)
     store->saving = true;
 }
 
-/* Byte `at` of the record to write. NOINLINE: else the record would lie on the stack of the main loop for good. */
+/* Byte `at` of the record to write. NOINLINE: inlined, the record would stay on the stack of the main loop. */
 static NOINLINE uint8_t byte_to_save(const settings_store_t *store, const settings_t *settings, uint8_t at)
 {
     const head_t head = { MAGIC, LAYOUT, store->sequence + 1u, sizeof *settings };
@@ -168,7 +168,7 @@ void settings_save_finish(settings_store_t *store, const settings_t *settings)
     }
 }
 
-/* ---- by name; a linker that finds no use for the texts drops them ---- */
+/* ---- by name; the linker drops unused texts ---- */
 
 #define NAME(name, field, low, high, first, meaning) \
     static const char name_of_##field[] PROGMEM = #name; \

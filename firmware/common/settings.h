@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * settings.h - the user's settings, kept in EEPROM: two copies with sequence number and CRC, written in turn, so that a
- * power cut during a save leaves the old or the new settings and nothing else.
- * Main loop only. RAM: one settings_t and one settings_store_t, the caller's.
+ * settings.h - the user's settings in EEPROM: two copies with sequence number and CRC, written in turn, so that a power
+ * cut during a save leaves either the old or the new settings.
+ * Main loop only. RAM: one settings_t and one settings_store_t, both the caller's.
  * EEPROM: MEM_EE_SETTINGS.. (two copies of 64 bytes), far from the loader's bytes. */
 #ifndef SETTINGS_H
 #define SETTINGS_H
@@ -19,22 +19,22 @@
 enum {
     SETTINGS_FAULT_HOLD = 0,  /* default: all joints slow down and stop, with torque on */
     SETTINGS_FAULT_EXIT = 1,  /* soft stop through the exit page */
-    SETTINGS_FAULT_LIMP = 2   /* the faulty joint's torque goes off, the play goes on without it */
+    SETTINGS_FAULT_LIMP = 2   /* the faulty joint's torque goes off, the play continues without it */
 };
 
 /* How a code of the remote acts. */
 enum {
-    SETTINGS_REMOTE_LATCH = 0, /* default: a code stays in force until another one comes (link_mode_t) */
-    SETTINGS_REMOTE_HOLD = 1,  /* while the button is held; letting go stops the play */
-    SETTINGS_REMOTE_DRIVE = 2  /* as latch, but L and R steer while a page with partners plays */
+    SETTINGS_REMOTE_LATCH = 0, /* default: a code stays in force until another one arrives (link_mode_t) */
+    SETTINGS_REMOTE_HOLD = 1,  /* a code is in force while its button is held; releasing it stops the play */
+    SETTINGS_REMOTE_DRIVE = 2  /* as latch, but L and R steer while a page with partners is playing */
 };
 
 /* The neutral positions of MIRROR: 512, or step 1 of page 1 if that page is valid. */
 enum { SETTINGS_NEUTRAL_512 = 0, SETTINGS_NEUTRAL_PAGE1 = 1 };
 
-/* Every setting but the pairs is a byte, and a row here: name in the shell, field, lowest value, highest value, value at
- * first, meaning. The rows are in the order of the record in EEPROM. New ones are added at the very end, so that older
- * records stay readable. */
+/* Every setting except the pairs is a byte and has a row here: name in the shell, field, lowest value, highest value,
+ * default, meaning. The rows are in the order of the record in EEPROM. Add new ones at the very end, so that older records
+ * stay readable. */
 #define SETTINGS_FIRST(ROW) \
     ROW(law, law, 0, 1, 0, "0 exact, 1 classic") \
     ROW(remote, remote_mode, 0, SETTINGS_REMOTE_DRIVE, SETTINGS_REMOTE_LATCH, "0 latch, 1 hold, 2 drive") \
@@ -55,7 +55,7 @@ enum { SETTINGS_NEUTRAL_512 = 0, SETTINGS_NEUTRAL_PAGE1 = 1 };
 #define SETTINGS_FIELD(name, field, low, high, first, meaning) uint8_t field;
 typedef struct {
     SETTINGS_FIRST(SETTINGS_FIELD)
-    uint8_t pair[SETTINGS_JOINTS]; /* partner of each joint for MIRROR, or SETTINGS_NO_PARTNER; at first 1-2, 3-4 .. 17-18 */
+    uint8_t pair[SETTINGS_JOINTS]; /* partner of each joint for MIRROR, or SETTINGS_NO_PARTNER; default 1-2, 3-4 .. 17-18 */
     SETTINGS_ADDED(SETTINGS_FIELD)
 } settings_t;
 #define SETTINGS_ITEMS (sizeof(settings_t) - SETTINGS_JOINTS)
@@ -76,16 +76,16 @@ typedef struct {
 
 void settings_defaults(settings_t *settings);
 
-/* Loads the newer valid copy, or the defaults. A copy with a field out of range is damaged. NOINLINE: else its records lie
- * on the stack while an image goes on starting. */
+/* Loads the newer valid copy, or the defaults. A copy with a field out of range counts as damaged. NOINLINE: inlined, its
+ * records would stay on the stack during the rest of the start-up. */
 settings_status_t settings_load(settings_store_t *store, settings_t *settings) NOINLINE;
 
-/* Begins to save. Then call settings_save_poll until it returns false: it writes at most one byte and never blocks; about 50
- * calls, 8.5 ms for each byte that changes. If `settings` change meanwhile, start again. */
+/* Begins to save. Then call settings_save_poll until it returns false. Each call writes at most one byte and never blocks:
+ * about 50 bytes, 8.5 ms for each that changes. If `settings` change meanwhile, start again. */
 void settings_save_start(settings_store_t *store);
 bool settings_save_poll(settings_store_t *store, const settings_t *settings);   /* true: not done yet */
 
-/* Blocks until the save under way is done, up to 0.45 s. Not while something moves. */
+/* Blocks until a save in progress is done, up to 0.45 s. Nothing may be moving. */
 void settings_save_finish(settings_store_t *store, const settings_t *settings);
 
 /* A setting by name, for a line shell. */
@@ -99,7 +99,7 @@ typedef struct {
 /* Item `index` 0..SETTINGS_ITEMS-1, copied from flash. */
 void settings_item(uint8_t index, settings_item_t *item);
 
-/* The values of `law` and of `remote` as words: lists in flash of words with their NULs, an empty one at the end.
+/* The values of `law` and of `remote` as words: lists in flash of NUL-terminated words, with an empty word at the end.
  * settings_word_P returns word `value` of such a list. */
 extern const char settings_laws_P[], settings_remotes_P[];
 const char *settings_word_P(const char *words_P, uint8_t value);
@@ -109,7 +109,7 @@ uint8_t settings_value(const settings_t *settings, const settings_item_t *item);
 /* false: out of range (low..high), nothing changed. */
 MUST_CHECK bool settings_set(settings_t *settings, const settings_item_t *item, uint16_t value);
 
-/* Makes a and b (0..30) partners; a == b: no partner. Former partners are left without one. */
+/* Makes a and b (0..30) partners; a == b: no partner. Former partners lose theirs. */
 void settings_pair(settings_t *settings, uint8_t a, uint8_t b);
 
 #endif

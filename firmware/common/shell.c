@@ -34,7 +34,7 @@ const shell_command_t *shell_find(const shell_command_t *table_P, uint8_t count,
     return NULL;
 }
 
-/* Parses the first two words after the command, if `ranges` has ranges for them. false: out of range. */
+/* Parses the first two words after the command if `ranges` has ranges for them. false: out of range. */
 static bool take_numbers(shell_args_t *args, uint16_t ranges)
 {
     for (uint8_t i = 0; i < ARRAY_COUNT(args->number); i++, ranges >>= 8) {

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT
  * shell.h - line editor (shell_line.c), words and numbers (shell_words.c), command dispatcher (shell.c).
- * Knows no command, no console and no screen: the caller hands in bytes and a table of commands, the echo goes through
- * text.h. Used by Play, Edit and Monitor. Main loop only. State and both buffers are the caller's, so that each image pays
- * for the length it needs.
+ * Knows no command, no console and no screen: the caller passes bytes and a table of commands, the echo goes through
+ * text.h. Used by Play, Edit and Monitor. Main loop only. The caller owns the state and both buffers, so that each image
+ * pays only for the length it needs.
  *
- * Keys: BS (0x08) and DEL (0x7F) delete; CR, LF and CR LF end a line once; Ctrl-A (0x01) and arrow-up put the line
- * typed before in place of this one (again: the one before that), arrow-down goes back; Ctrl-U (0x15) empties the
- * line. Other escape sequences and control characters have no effect, and ESC alone takes no other key with it: the rest of
- * a sequence comes at once, a typed key later (shell_quiet). Words are
- * separated by any number of space , . : ; (edit/ORIGINAL.md section 5). Case does not matter. */
+ * Keys: BS (0x08) and DEL (0x7F) delete. CR, LF and CR LF each end a line once. Ctrl-A (0x01) and arrow-up replace the line
+ * by the one typed before (again: the one before that); arrow-down goes back. Ctrl-U (0x15) empties the line. Other escape
+ * sequences and control characters have no effect. A lone ESC does not swallow the next key: the rest of a sequence follows
+ * at once, a typed key later (shell_quiet). Words are separated by any number of space , . : ; (edit/ORIGINAL.md section 5).
+ * Case does not matter. */
 #ifndef SHELL_H
 #define SHELL_H
 
@@ -20,13 +20,13 @@
 typedef enum {
     SHELL_TYPING = 0, /* the line is not complete */
     SHELL_LINE,       /* the line is complete: call shell_split and run it */
-    SHELL_REFUSED     /* the line is complete but has a fault: do not run it; say so with shell_print_refusal or
+    SHELL_REFUSED     /* the line is complete but has a fault: do not run it; report it with shell_print_refusal or
                        * requests_line, then call shell_clear */
 } shell_event_t;
 
 typedef struct {
     char *line;             /* what is typed; NUL-terminated once complete */
-    char *history;          /* earlier lines, newest first, each with its NUL; two NULs end it */
+    char *history;          /* earlier lines, newest first, NUL-terminated; two NULs end it */
     uint8_t line_bytes, history_bytes;
     uint8_t length;         /* characters in `line` */
     uint8_t recalled;       /* how many lines back the recalled line is; 0 = the line being typed */
@@ -43,19 +43,19 @@ void shell_init(shell_t *shell, char *line, uint8_t line_bytes, char *history, u
  * the image decides where its answer goes. */
 shell_event_t shell_byte(shell_t *shell, uint8_t byte);
 
-/* Call when no byte has come for 50 ms: an ESC was the key of that name, and `[` is a character again. */
+/* Call after 50 ms without a byte: a pending ESC was the Esc key, and `[` is a character again. */
 static inline void shell_quiet(shell_t *shell)
 {
     shell->escape = 0;
 }
 
-/* Tells how many bytes were lost before the next one. If any were, the line that it belongs to will be SHELL_REFUSED. */
+/* Reports `count` bytes lost before the next one. If any were lost, the current line will be SHELL_REFUSED. */
 void shell_lose(shell_t *shell, uint8_t count);
 
 /* Prints why a line was refused: "Bytes of this line were lost: nothing was done". */
 void shell_print_refusal(uint8_t fault);
 
-/* Drops the line without echo; the history stays. Call it after a complete line was run. */
+/* Clears the line without echo and keeps the history. Call it after running a complete line. */
 void shell_clear(shell_t *shell);
 
 /* The range of a number: its name in a sentence, and its bounds. In flash. */
@@ -73,35 +73,35 @@ typedef struct {
     uint8_t count;     /* word 0 is the command */
     bool hex;          /* numbers without prefix are hexadecimal */
     uint16_t number[2]; /* the first two words after the command, if the table gives their ranges; int16_t if the range has
-                         * negative numbers; 0 when not given */
+                         * negative numbers; 0 if absent */
 } shell_args_t;
 
-/* Puts the complete line into the history, then splits it in place. The words are valid until shell_clear; args->number is
- * left as it is.
+/* Puts the complete line into the history, then splits it in place. The words are valid until shell_clear. Does not set
+ * args->number.
  * hex: numbers without prefix are hexadecimal. */
 void shell_split(shell_t *shell, bool hex, shell_args_t *args);
 
-/* The same for a line that is in no shell: splits these characters in place. */
+/* The same for a line outside a shell: splits these characters in place. */
 void shell_words(char *line, bool hex, shell_args_t *args);
 
 /* Word `index`; an empty string when there is none. */
 const char *shell_word(const shell_args_t *args, uint8_t index);
 
-/* Whether the word equals `word_P` (in flash, lower case), in upper or lower case. */
+/* Whether the word equals `word_P` (in flash, lower case), ignoring case. */
 bool shell_word_is(const shell_args_t *args, uint8_t index, const char *word_P);
 
 /* Parses a whole word as a number up to 65535: decimal digits, or 0x and hexadecimal digits (always hexadecimal if `hex`).
- * Prints nothing. false: no such number; *value is untouched. */
+ * Prints nothing. false: no such number; *value is unchanged. */
 bool shell_parse(const char *word, bool hex, uint16_t *value);
 
-/* Parses `count` (1..4) hexadecimal digits. false: one of the characters is no digit. */
+/* Parses `count` (1..4) hexadecimal digits. false: a character is not a digit; *value is undefined. */
 bool shell_hex(const char *digits, uint8_t count, uint16_t *value);
 
-/* Prints "Page must be 0..127", the bounds in hexadecimal if `hex`. */
+/* Prints "Page must be 0..127", with hexadecimal bounds if `hex`. */
 void shell_print_range(const char *what_P, int16_t min, int16_t max, bool hex);
 
-/* Parses word `index` as a number within shell_range_P(range); with a minus if the range has negative numbers. Prints
- * nothing. false: *value is untouched; the handler returns SHELL_ERR_RANGE, and shell_print_range_error prints the range. */
+/* Parses word `index` as a number within shell_range_P(range), with a minus if the range has negative numbers. Prints
+ * nothing. false: *value is unchanged; the handler returns SHELL_ERR_RANGE, and shell_print_range_error prints the range. */
 MUST_CHECK bool shell_take(const shell_args_t *args, uint8_t index, uint8_t range, uint16_t *value);
 MUST_CHECK bool shell_take_word(const char *word, bool hex, uint8_t range, uint16_t *value);
 void shell_print_range_error(void);
@@ -139,15 +139,15 @@ enum {
     SHELL_OK = 0,
     SHELL_ERR_REPORTED = 1,  /* for handlers: failed, and the reason has been printed */
     SHELL_ERR_LOSSY = 250,   /* bytes of the line were lost: shell_print_refusal */
-    SHELL_ERR_LONG,          /* the line is too long: the same */
+    SHELL_ERR_LONG,          /* the line is too long: shell_print_refusal */
     SHELL_ERR_MOVING,  /* not while something moves. This one and the next three print nothing */
     SHELL_ERR_RANGE,         /* not a number, or out of range: shell_print_range_error */
     SHELL_ERR_UNKNOWN,       /* no such word */
     SHELL_ERR_COUNT          /* too few or too many words */
 };
 
-/* Looks word 0 up among `count` commands, checks the number of words and the ranges, and calls the handler.
- * moving: something moves now. Returns the handler's result, which may be a value of its own, 2..249. SHELL_OK for an empty
+/* Finds word 0 among `count` commands, checks the number of words and the ranges, and calls the handler.
+ * moving: something is moving. Returns the handler's result, which may be a value of its own, 2..249. SHELL_OK for an empty
  * line. */
 uint8_t shell_run(const shell_command_t *table_P, uint8_t count, shell_args_t *args, bool moving);
 

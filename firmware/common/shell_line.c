@@ -20,7 +20,7 @@ enum {
 /*            ESC            [ or O            0x40..0x7E
  *  ESC_NONE -----> ESC_BEGUN -----> ESC_BODY -----------> ESC_NONE
  *                     | any other byte                ^ (parameters stay in ESC_BODY)
- *                     +--> ESC_NONE, and the byte takes effect: it was the key ESC
+ *                     +--> ESC_NONE, and the byte takes effect: the ESC was the Esc key
  *  shell_quiet: ESC_NONE */
 enum { ESC_NONE = 0, ESC_BEGUN, ESC_BODY };
 
@@ -105,7 +105,7 @@ static const char *history_line(const shell_t *shell, uint8_t back)
     return NULL;
 }
 
-/* Replaces the line by the one typed `back` lines ago; 0 empties it. Nothing happens beyond the oldest line. */
+/* Replaces the line by the one typed `back` lines ago; 0 empties it. No effect beyond the oldest line. */
 static void recall(shell_t *shell, uint8_t back)
 {
     const char *line = back == 0 ? "" : history_line(shell, back);
@@ -119,7 +119,7 @@ static void recall(shell_t *shell, uint8_t back)
     }
 }
 
-/* Puts the line in front of the history. A line that no longer fits whole is dropped at the end. */
+/* Puts the line at the front of the history. Drops the oldest line if it no longer fits completely. */
 static void remember(shell_t *shell)
 {
     const uint8_t bytes = shell->length + 1;
@@ -139,7 +139,7 @@ static void remember(shell_t *shell)
     } while (end[-1] != '\0');
 }
 
-/* true: the byte belongs to an escape sequence. A control character ends one and takes effect. */
+/* true: the byte belongs to an escape sequence. A control character ends the sequence and takes effect. */
 static bool swallow_escape(shell_t *shell, uint8_t byte)
 {
     if (shell->escape == ESC_BEGUN && (byte == '[' || byte == 'O')) {

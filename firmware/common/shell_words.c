@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * shell_words.c - the words of a line, and the numbers among them. */
+ * shell_words.c - the words of a line, and their parsing as numbers. */
 #include "shell.h"
 
 #include <stddef.h>

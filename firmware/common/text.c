@@ -33,8 +33,7 @@ void text_open_P(text_reader_t *reader, const char *string_P)
     reader->depth = 0;
 }
 
-/* A code of a packed text stands for a pair: the second half waits, and the first half, which may be a code again, comes
- * next. */
+/* A code of a packed text stands for a pair. The first half, which may be a code too, comes next; the second half waits. */
 char text_next(text_reader_t *reader)
 {
     uint8_t code = reader->depth > 0 ? reader->waiting[--reader->depth] : pgm_read_byte(reader->at_P++);

@@ -25,14 +25,14 @@ static uint8_t do_servos(const shell_args_t *args)
     return REQUEST_OK;
 }
 
-/* ---- law, remote, settings: what EEPROM keeps ---- */
+/* ---- law, remote, settings: kept in EEPROM ---- */
 
 static void save(void)
 {
     settings_save_start(&the_play.store);
 }
 
-/* Sets 0, 1, ... by one of several words (settings_word_P). Prints the present word if the line has none. */
+/* Sets 0, 1, ... by one of several words (settings_word_P). Prints the current word if the line has none. */
 static uint8_t choose(const shell_args_t *args, uint8_t *setting, const char *words_P, const char *refusal_P)
 {
     const char *word_P;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * commands.h - the words of Play, for requests.h. An answer ends in " OK" or in one sentence about what is wrong.
+ * commands.h - the words of Play, for requests.h. An answer ends in " OK" or in one sentence that states the error.
  * Main loop only. play_service runs while an answer waits for room on the line. */
 #ifndef COMMANDS_H
 #define COMMANDS_H

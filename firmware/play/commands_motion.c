@@ -12,7 +12,7 @@
 
 /* ---- play, stop, break, pause, resume, code ---- */
 
-/* Whether the words of the page's name, parted as those of a line, are the words behind the command. */
+/* Whether the page's name, split into words like a line, equals the words after the command. */
 static bool has_name(uint8_t page, const shell_args_t *args)
 {
     char name[PAGE_NAME_BYTES];
@@ -37,7 +37,7 @@ static uint8_t next_of_name(uint8_t page, const shell_args_t *args)
     return 0;
 }
 
-/* The page with the name in the line; 0: none or several, and an error has been printed. */
+/* The page with the name in the line; 0: none or several, error printed. */
 static uint8_t page_of_name(const shell_args_t *args)
 {
     const uint8_t page = next_of_name(0, args);
@@ -60,7 +60,7 @@ static uint8_t page_of_name(const shell_args_t *args)
     return 0;
 }
 
-/* Plays a page by its number, or by its name, if the first word is no number; a code may follow the number, as if from the
+/* Plays a page by its number, or by its name if the first word is not a number. A code may follow the number, as if from the
  * remote. */
 uint8_t commands_do_play(const shell_args_t *args)
 {
@@ -127,7 +127,7 @@ uint8_t commands_do_code(const shell_args_t *args)
     return SHELL_ERR_REPORTED;
 }
 
-/* ---- rate, amplitude, blend, drive, shape: a motion is shaped while it plays (performer_shape.h) ---- */
+/* ---- rate, amplitude, blend, drive, shape: shaping while a page plays (performer_shape.h) ---- */
 
 uint8_t commands_do_rate(const shell_args_t *args)
 {
@@ -178,7 +178,7 @@ uint8_t commands_do_shape(const shell_args_t *args)
     return REQUEST_OK;
 }
 
-/* ---- layer, aim, swing, free: a second page over the play, and joints moved by code ---- */
+/* ---- layer, aim, swing, free: a second page over the main play, and joints moved by code ---- */
 
 static uint8_t answer_of(layers_status_t status)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * commands_motion.h - the words of Play that move something or shape a motion. Handlers of shell.h;
- * the results are those of requests.h. Main loop only. */
+ * commands_motion.h - the words of Play that move something or shape a motion. Handlers of shell.h; they return
+ * the results of requests.h. Main loop only. */
 #ifndef COMMANDS_MOTION_H
 #define COMMANDS_MOTION_H
 

@@ -14,7 +14,7 @@ void inputs_init(inputs_t *inputs, performer_t *performer, const page_store_t *p
     inputs->performer = performer;
     inputs->pages = pages;
     inputs->settings = settings;
-    inputs->remote_held.spent = UINT8_MAX;   /* what is down now is no press */
+    inputs->remote_held.spent = UINT8_MAX;   /* a button already held is not a press */
     remote_init(&inputs->remote);
     ring_init(&inputs->typed, inputs->typed_bytes, INPUTS_TYPED_BYTES);
 }
@@ -42,16 +42,15 @@ void inputs_code(inputs_t *inputs, uint8_t code)
     if (!performer_is_idle(inputs->performer)) {
         performer_code(inputs->performer, code);
     } else if (code == LINK_CODE_STOP) {
-        performer_stop(inputs->performer);   /* what code moves */
+        performer_stop(inputs->performer);   /* stops joints moved by code */
     } else if (code != LINK_CODE_NONE) {
         call(inputs, code);
     }
 }
 
-/* `down` are the buttons that a source holds now, `code` is what they ask for. A play that runs takes every code. A play
- * starts on a press only: other buttons than before, and one of them was not down during a play or a stop. So a held button
- * does not start again what somebody has stopped, nor do fingers that leave a chord one after the other; nor do those call
- * back a play that is stopping. */
+/* down: the buttons that a source holds now. code: their code. A running play takes every code. A play starts only on a
+ * press: the buttons have changed, and one of them was up during the last play or stop. So a held button, or a chord that
+ * is released finger by finger, does not restart a stopped play or revive one that is stopping. */
 static void take_buttons(inputs_t *inputs, inputs_held_t *held, uint8_t down, uint8_t code)
 {
     const bool are_new = (down & ~held->spent) != 0;
@@ -84,14 +83,14 @@ bool inputs_next_refusal(inputs_t *inputs, inputs_refusal_t *refusal)
     return true;
 }
 
-/* Whether L and R steer, and are no part of the code. */
+/* Whether L and R steer instead of being part of the code. */
 static bool steers(const inputs_t *inputs)
 {
     return inputs->settings->remote_mode == SETTINGS_REMOTE_DRIVE && steer_is_possible(inputs->performer);
 }
 
-/* A remote repeats its packet while buttons are down. Stop and pause act once, when they are pressed. Codes reach a play
- * with every packet, so that a lost one does not matter. */
+/* A remote repeats its packet while buttons are down. Stop and pause act once, when pressed. Codes reach a play with every
+ * packet, so that a lost packet does not matter. */
 static void take_packet(inputs_t *inputs)
 {
     const uint16_t buttons = inputs->remote.buttons;
@@ -124,7 +123,7 @@ static void note_hole(inputs_t *inputs, uint8_t count)
     inputs->holes = (uint8_t)(inputs->holes > INPUTS_HOLE_MAX - count ? INPUTS_HOLE_MAX : inputs->holes + count);
 }
 
-/* Keeps a typed byte, and before it how many were lost there. */
+/* Queues a typed byte, preceded by the number of bytes lost before it. */
 static void keep(inputs_t *inputs, uint8_t byte)
 {
     if (inputs->holes != 0 && ring_room(&inputs->typed) >= 2u) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * inputs.h - the sources of codes (remote control, panel, serial port) and the typed text between them.
- * Takes the console's bytes. Hands remote packets to the performer at once and keeps typed text for the shell, so that a
+ * Takes the console's bytes. Passes remote packets to the performer at once and queues typed text for the shell, so that a
  * stop on the remote never waits for a long answer. Prints nothing. Main loop only. Caller-owned;
  * RAM: one inputs_t. Source: REMOTE.md. */
 #ifndef INPUTS_H
@@ -16,23 +16,23 @@
 #include "steer.h"
 
 #define INPUTS_TYPED_BYTES 128u
-#define INPUTS_SILENCE_TICKS 64u  /* 500 ms without a packet: nothing is held any more; in hold mode a stop */
+#define INPUTS_SILENCE_TICKS 64u  /* 500 ms without a packet: all buttons are released; in hold mode a stop */
 #define INPUTS_LOST_MAX (UINT16_MAX - UINT8_MAX)   /* so that the sum with the console's own count fits 16 bits */
 #define INPUTS_QUIET_TICKS 4u     /* an unfinished packet is dropped after 24..31 ms */
-#define INPUTS_ESC_TICKS 8u       /* an ESC that nothing follows within 55..62 ms is the key, as in Edit */
+#define INPUTS_ESC_TICKS 8u       /* an ESC followed by nothing for 55..62 ms is the Esc key, as in Edit */
 
 /* Why a code did not start a play. */
 typedef struct {
     uint8_t code;
     bool no_page;           /* no page has this code */
-    uint8_t status;         /* else: performer_status_t, for `page` */
+    uint8_t status;         /* otherwise: performer_status_t, for `page` */
     uint8_t page, fault;
 } inputs_refusal_t;
 
 /* The buttons of one source. */
 typedef struct {
     uint8_t down;           /* held now */
-    uint8_t spent;          /* down since the start, a play or a stop: they start nothing until they were up */
+    uint8_t spent;          /* held since the start, a play or a stop: they start nothing until released */
 } inputs_held_t;
 
 typedef struct {
@@ -42,15 +42,15 @@ typedef struct {
     const page_store_t *pages;
     const settings_t *settings;
     remote_t remote;
-    uint8_t remote_act;        /* remote_act_t of the packet before, to find presses */
+    uint8_t remote_act;        /* remote_act_t of the last packet, to detect presses */
     inputs_held_t remote_held; /* the first eight buttons */
     inputs_held_t panel_held;  /* the arrows */
     uint8_t panel_buttons;
     uint8_t holes;             /* bytes lost before the next typed one */
     uint8_t silent_ticks;      /* since the start or the last packet with buttons; INPUTS_SILENCE_TICKS: none held */
     uint8_t quiet_ticks;       /* since the last byte; at most INPUTS_ESC_TICKS */
-    bool panel_was_free;   /* all buttons were up once: one held since the start is no press */
-    bool pc_waits;         /* the PC has been sent XOFF */
+    bool panel_was_free;   /* all buttons were up once; a button held since the start is not a press */
+    bool pc_waits;         /* XOFF was sent to the PC */
     bool refused;
     steer_t steer;
     inputs_refusal_t refusal;
@@ -60,31 +60,31 @@ typedef struct {
 
 void inputs_init(inputs_t *inputs, performer_t *performer, const page_store_t *pages, const settings_t *settings);
 
-/* Call in every turn of the main loop: takes the console's bytes. With the setting `flow` sends XOFF while the shell
- * cannot follow. A PC that ignores it loses typed bytes, never remote packets. */
+/* Call in every turn of the main loop: takes the console's bytes. With the setting `flow`, sends XOFF while the shell
+ * cannot keep up. A PC that ignores it loses typed bytes, never remote packets. */
 void inputs_take(inputs_t *inputs);
 
-/* Call once a tick, after panel_tick. */
+/* Call once per tick, after panel_tick. */
 void inputs_tick(inputs_t *inputs);
 
-/* The next typed byte (below 0x80), or INPUTS_HOLE + n: here n bytes were lost (at most INPUTS_HOLE_MAX). false: none. */
+/* The next typed byte (below 0x80), or INPUTS_HOLE + n: n bytes were lost here (at most INPUTS_HOLE_MAX). false: none. */
 #define INPUTS_HOLE 0x80u
 #define INPUTS_HOLE_MAX 127u
 bool inputs_get(inputs_t *inputs, uint8_t *byte);
 
-/* Whether an ESC before this moment was the key of that name. Ask when inputs_get has nothing. */
+/* Whether a pending ESC was the Esc key. Call when inputs_get has nothing. */
 static inline bool inputs_are_quiet(const inputs_t *inputs)
 {
     return inputs->quiet_ticks == INPUTS_ESC_TICKS;
 }
 
-/* Handles a code 0..255 as if a button was pressed that has it. If nothing plays, starts the lowest page that has it. */
+/* Handles a code 0..255 as if its button was pressed. If nothing is playing, starts the lowest page with this code. */
 void inputs_code(inputs_t *inputs, uint8_t code);
 
 /* Pauses the play, or resumes it if paused. */
 void inputs_pause(inputs_t *inputs);
 
-/* Takes the last code that did not start a play. false: none. A button that stays down gives one refusal. */
+/* Takes the last code that did not start a play. false: none. A held button causes one refusal. */
 bool inputs_next_refusal(inputs_t *inputs, inputs_refusal_t *refusal);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * main.c - Play: the image that a robot runs without a PC.
+ * main.c - Play: the image that runs a robot without a PC.
  *
  *   console bytes --> inputs --> codes --------------> performer --> servo_link --> bus
  *                       |                                 |
@@ -7,7 +7,7 @@
  *                                             |
  *                                             +--> commands --> views
  *
- * One loop. play_service also runs while text waits for room on the serial line. So a tick is late by no more than the
+ * There is one loop. play_service also runs while text waits for room on the serial line. So a tick is late at most by the
  * longest single piece of other work, a few ms of a search by name. Nothing moves at power-on. */
 #include "board.h"
 #include "channel.h"
@@ -22,7 +22,7 @@
 
 play_t the_play;
 
-/* ---- what requests.h wants to know ---- */
+/* ---- the image, for requests.h ---- */
 
 static void restart(void)
 {
@@ -44,7 +44,7 @@ static uint8_t column;
 
 static void put(char character)
 {
-    if (!channel_is_printing()) {   /* a terminal does not show what a program is answered */
+    if (!channel_is_printing()) {   /* a terminal does not show answers in the channel */
         column = character == '\n' ? 0 : (uint8_t)(column + (character >= ' ' && column < UINT8_MAX ? 1 : 0));
     }
     while (!console_put((uint8_t)character)) {
@@ -62,7 +62,7 @@ static void prompt(void)
     }
 }
 
-/* Ends a status line over the prompt and prints again what was being typed. */
+/* Ends a status line over the prompt and reprints the typed text. */
 static void end_status_line(uint8_t covered)
 {
     while (column < covered) {
@@ -80,7 +80,7 @@ static uint8_t begin_status_line(void)
     return covered;
 }
 
-/* Events that the setting `talk` 0 suppresses: all that are no faults. */
+/* Events that the setting `talk` 0 suppresses. */
 static bool is_chatter(uint8_t kind)
 {
     return kind == PERFORMER_EV_APPROACH || kind == PERFORMER_EV_STEP || kind == PERFORMER_EV_LINK;
@@ -104,7 +104,7 @@ static void print_news(void)
     }
 }
 
-/* Prints a line of @watch by itself, whatever was being typed. */
+/* Prints a @watch line on a line of its own, even while a person is typing. */
 static void print_watched(void)
 {
     if (requests_now_is_on_channel()) {
@@ -118,7 +118,6 @@ static void print_watched(void)
     prompt();
 }
 
-/* A byte of the shell's. */
 static void type(uint8_t byte)
 {
     const shell_event_t event = shell_byte(&the_play.shell, byte);
@@ -151,7 +150,7 @@ static void take_typed(void)
         return;
     }
     if (byte >= INPUTS_HOLE) {
-        if (!channel_is_open()) {   /* else the request's CRC tells it */
+        if (!channel_is_open()) {   /* in a request, the CRC detects the loss */
             shell_lose(&the_play.shell, (uint8_t)(byte - INPUTS_HOLE));
         }
         return;
@@ -185,7 +184,7 @@ static void greet(settings_status_t settings)
     prompt();
 }
 
-/* NOINLINE: else what the loading of settings needs, 100 bytes, lies on the stack below every tick. */
+/* NOINLINE: inlined, the 100 bytes for loading settings would stay on the stack under every tick. */
 static NOINLINE void start(void)
 {
     text_init(put);

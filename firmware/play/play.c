@@ -7,13 +7,13 @@
 #include "tick.h"
 
 #define LAMP_TICKS 6u       /* a traffic lamp stays lit for 47 ms */
-#define BLINK_TICKS_LOG2 5u /* the lamp Play blinks during a pause, 250 ms on, 250 ms off */
+#define BLINK_TICKS_LOG2 5u /* the Play lamp blinks during a pause, 250 ms on, 250 ms off */
 
 /* ---- lamps ---- */
 
 typedef struct {
     uint8_t count;      /* bytes so far, modulo 256 */
-    uint8_t ticks_left; /* the lamp stays lit */
+    uint8_t ticks_left; /* until the lamp goes off */
 } traffic_t;
 
 static void show_traffic(uint8_t led, uint8_t count, traffic_t *traffic)
@@ -37,7 +37,7 @@ static void show_lamps(const performer_t *performer)
     panel_set(PANEL_LED_AUX, performer->faulty != 0 || performer->battery_reported || performer->heat_reported);
 }
 
-/* ---- what may not wait ---- */
+/* ---- urgent work ---- */
 
 void play_service(void)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * play.h - the parts of the Play image, and the work that cannot wait. Used by commands*.c, views*.c and main.c, which
- * defines the one play_t. */
+ * play.h - the parts of the Play image, and its urgent work. Used by commands*.c, views*.c and main.c, which defines the one
+ * play_t. */
 #ifndef PLAY_H
 #define PLAY_H
 
@@ -30,8 +30,8 @@ typedef struct {
 } play_t;
 extern play_t the_play;
 
-/* Does the work that cannot wait: the tick, console input, the bus, a save of settings, lamps, the watchdog. Called in the
- * main loop, while text waits for room on the line, and between the parts of a long command. Prints nothing. */
+/* Does the urgent work: the tick, console input, the bus, a save of settings, lamps, the watchdog. Called in the main loop,
+ * while text waits for room on the line, and between the parts of a long command. Prints nothing. */
 void play_service(void);
 
 /* Searches the bus for servos and loads the trim of page 0. Blocks 0.3 s; nothing may be moving. */

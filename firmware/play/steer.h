@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * steer.h - the setting `remote drive`: L and R steer while a page with partners plays (SHAPING.md). It takes one second to
- * full, and one second back to straight after the button was let go. Main loop only. Caller-owned. */
+ * steer.h - the setting `remote drive`: L and R steer while a page with partners plays (SHAPING.md). Steering takes one
+ * second to full, and one second back to straight after the button is released. Main loop only. Caller-owned. */
 #ifndef STEER_H
 #define STEER_H
 
@@ -14,11 +14,11 @@ typedef struct {
     int16_t at; /* -STEER_FULL left .. STEER_FULL right */
 } steer_t;
 
-/* Whether a page plays that has at least one partner. */
+/* Whether the playing page has at least one partner. */
 bool steer_is_possible(const performer_t *performer);
 
-/* Call once a tick. direction: -1 left, 1 right, 0 neither. Sets the blend of the play while steering and on the way back to
- * straight; leaves it alone otherwise. */
+/* Call once per tick. direction: -1 left, 1 right, 0 neither. Sets the blend of the play while steering and while returning
+ * to straight; does not change it otherwise. */
 void steer_tick(steer_t *steer, performer_t *performer, int8_t direction);
 
 #endif

@@ -187,7 +187,6 @@ void views_print_settings(void)
     }
 }
 
-/* The first cause that applies, in this order: power-on, brown-out, watchdog, external, JTAG. */
 static const char *reset_text_P(uint8_t cause)
 {
     if (cause & SYSTEM_RESET_POWER_ON) {
@@ -197,7 +196,7 @@ static const char *reset_text_P(uint8_t cause)
         return TEXT_P("brown-out");
     }
     if (cause & SYSTEM_RESET_WATCHDOG) {
-        return TEXT_P("on request or watchdog");   /* a restart on purpose is one, too */
+        return TEXT_P("on request or watchdog");   /* an intentional restart uses the watchdog */
     }
     if (cause & SYSTEM_RESET_EXTERNAL) {
         return TEXT_P("reset button");

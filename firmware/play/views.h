@@ -14,8 +14,8 @@ uint8_t views_version(const shell_args_t *args);
 void views_print_servos(void);
 void views_print_settings(void);
 
-/* Rate, blend, amplitude (two hexadecimal digits a joint when they differ), layer, joints moved by code, as ` field=value`;
- * without a line end. */
+/* Rate, blend, amplitude (two hexadecimal digits per joint if they differ), layer and joints moved by code, as
+ * ` field=value`; without a line end. */
 void views_print_shape(void);
 
 /* "18 servos: 1-18", and the servos that were found but cannot be used. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * views_servos.c - the servos, their faults, and what went wrong on the lines. */
+ * views_servos.c - the servos, their faults, and the error counts of bus, serial line and ticks. */
 #include "views.h"
 
 #include "bus.h"
