@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Where time comes from: the wall clock for a real robot, simulated time in tests.
+// The source of time: the wall clock for a real robot, simulated time in tests.
 
 export interface Clock {
-    /** Milliseconds from any fixed moment. */
+    /** Milliseconds since a fixed moment. */
     now(): number;
-    /** Calls back once, after so many milliseconds; the returned function takes it back. */
+    /** Calls back once after this many milliseconds. The returned function cancels it. */
     after(delayMs: number, call: () => void): () => void;
 }
 
 const SLICE_MS = 100;
 
-/** The wall clock, as far as this program was awake: what it waits for it waits in slices, and a slice that comes late counts no more than
- *  it should have lasted. So an answer that came while a busy computer was elsewhere is seen before its time is said to be over. */
+/** The wall clock, counting only time while this program was awake. It waits in slices, and a late slice counts no longer than planned. So
+ *  an answer that arrived while the computer was busy is handled before its time-out. */
 export const wallClock: Clock = {
     now: () => performance.now(),
     after: (delayMs, call) => {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The states of a connection as a table. Pure: whoever runs it (connection.ts) acts and reports the events.
+// The states of a connection as a table. Pure: connection.ts acts and reports the events.
 //
 //   closed --connect--> opening --opened--> asking --known--> ready
 //     ^                  |  ^                 | \                |
@@ -7,17 +7,17 @@
 //     |                  v   |                v    v             v
 //     +----stop------- waiting <---lost--- silent  foreign     waiting --gave-up--> closed
 //
-// Each open state --named-other--> other-board, which ends by stop or lost.
+// Each open state --named-other--> other-board, which ends with stop or lost.
 
 export type ConnectionState =
     | 'closed' // nothing is open
     | 'opening' // the port is being opened
     | 'asking' // open; `@ver` was sent
-    | 'ready' // a firmware that we know answers
-    | 'silent' // open, and nothing that we know answers: a terminal still works; asked again from time to time
-    | 'foreign' // open, and a firmware answers that speaks something else
-    | 'other-board' // open, and a boot loader has said the name of a board that is none of ours: nothing is asked there
-    | 'waiting'; // the port was lost; tried again with growing pauses
+    | 'ready' // a firmware with our protocol answers
+    | 'silent' // open, but nothing we know answers; a terminal still works, and it is asked again periodically
+    | 'foreign' // open, and a firmware with another protocol answers
+    | 'other-board' // open, but a boot loader has named a board that is not ours; it is asked nothing
+    | 'waiting'; // the port was lost; retried with growing pauses
 
 export type ConnectionEvent =
     | 'connect'
@@ -44,7 +44,7 @@ const table: Record<ConnectionState, Partial<Record<ConnectionEvent, ConnectionS
     waiting: { retry: 'opening', 'gave-up': 'closed', stop: 'closed' },
 };
 
-/** The next state; null: the event means nothing here and nothing is to be done. */
+/** The next state; null: the event has no meaning in this state. */
 export function nextState(state: ConnectionState, event: ConnectionEvent): ConnectionState | null {
     return table[state][event] ?? null;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Keeps one port connected: opens it, finds out what runs there, notices when it is lost and tries again. The states and
-// when they change stand in connection-table.ts.
+// Keeps one port connected: opens it, identifies what runs on the board, notices a loss and tries again. connection-table.ts has the states
+// and their transitions.
 
 import type { Clock } from './clock.ts';
 import { nextState } from './connection-table.ts';
@@ -21,7 +21,7 @@ const ASK_MS = 700;
 const ASK_AGAIN_MS = 400;
 
 export interface ConnectionEvents {
-    /** What these return is not looked at. */
+    /** Return values are ignored. */
     state(state: ConnectionState): unknown;
     text(bytes: Uint8Array): unknown;
 }
@@ -36,7 +36,7 @@ export class Connection {
     private cancelTimer: () => void = () => undefined;
     private retryMs = RETRY_FIRST_MS;
     private lostAtMs = 0;
-    /** What runs there; null until it is known. */
+    /** The firmware on the board; null until known. */
     version: Version | null = null;
     /** Why the state is silent, foreign, other-board or waiting. */
     error: RobotError | null = null;
@@ -55,7 +55,7 @@ export class Connection {
         return this.port.name;
     }
 
-    /** Requests of the open line. Throws RobotError not-connected when there is none. */
+    /** Requests of the open line. Throws RobotError not-connected if there is none. */
     get requests(): Requests {
         if (!this.asked) throw new RobotError('not-connected');
         return this.asked;
@@ -67,12 +67,12 @@ export class Connection {
         this.on('connect');
     }
 
-    /** The board was restarted on purpose, or another image runs: finds out anew what it is. */
+    /** Identifies the board again, after a deliberate restart or a change of image. */
     askAgain(): void {
         this.on('ask-again');
     }
 
-    /** The system tells that the port is there again: no need to wait for the next try. */
+    /** The system reports the port again, so the next try is due now. */
     retryNow(): void {
         if (this.current === 'waiting') this.on('retry');
     }
@@ -82,7 +82,7 @@ export class Connection {
         await this.shut();
     }
 
-    /** What a person types, or the bytes of a remote. Rejects when there is no line. */
+    /** Sends typed characters or the bytes of a remote. Rejects if there is no line. */
     async write(bytes: Uint8Array): Promise<void> {
         if (!this.line) throw new RobotError('not-connected');
         await this.line.write(bytes);
@@ -159,13 +159,13 @@ export class Connection {
             this.error = version.protocol === PROTOCOL ? null : new RobotError('foreign', `protocol ${version.protocol}`);
             this.on(this.error ? 'unknown' : 'known');
         } catch (cause) {
-            if (this.asked !== asked || this.current !== 'asking') return; // another line is asked by now, or nobody
+            if (this.asked !== asked || this.current !== 'asking') return; // the line was replaced or closed meanwhile
             this.error = cause instanceof RobotError ? cause : new RobotError('foreign', String(cause));
             this.on(this.error.code === 'no-answer' ? 'no-answer' : 'unknown');
         }
     }
 
-    /** name: of another board, if its boot loader has just said one. */
+    /** name: the board's name if its boot loader has just announced one that is not ours. */
     private meetOther(name: string | null): void {
         if (name === null) return;
         this.error = new RobotError('other-board', name);

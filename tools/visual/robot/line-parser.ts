@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The programs' channel of firmware/common/PROTOCOL.md: frames a request, and separates what a board sends into text for people, answers
-// for the program, and flow control. Pure: state and bytes in, state and events out; every split of the bytes gives the same events.
+// The programs' channel of firmware/common/PROTOCOL.md. Frames requests, and separates the board's bytes into text for people, answers for
+// the program, and flow control. Pure: state and bytes in, state and events out. The events do not depend on how the bytes are split.
 //
 //   request   BEGIN "@where " CRC-16 CR        answer   BEGIN "@where state=idle ... OK" CR LF
 
@@ -8,14 +8,14 @@ const XON = 0x11;
 const XOFF = 0x13;
 const BEGIN = 0x1e;
 const LF = 0x0a;
-const LINE_MAX = 8192; // @list of 128 pages is the longest answer, about 4 KB
+const LINE_MAX = 8192; // the longest answer is @list of 128 pages, about 4 KB
 
 export type LineEvent =
     | { readonly kind: 'text'; readonly bytes: Uint8Array }
     | { readonly kind: 'answer'; readonly line: string }
     | { readonly kind: 'flow'; readonly go: boolean };
 
-/** What has come of an answer; null: text comes. */
+/** The received part of an answer; null: outside an answer. */
 export type LineState = string | null;
 
 /** CRC-16/IBM-3740: "123456789" gives 0x29B1. */
@@ -35,8 +35,8 @@ export function framed(request: string): Uint8Array {
     return new TextEncoder().encode(`${String.fromCharCode(BEGIN)}${text}${crc}\r`);
 }
 
-/** True when a line is the whole answer to a request: the same word first, OK or ERR n text at the end. A request that has lost bytes is
- *  refused with ERR 15, and its word may have lost some, too. */
+/** Whether a line is the complete answer to a request: it starts with the same word and ends with OK or ERR n text. A request that lost
+ *  bytes is refused with ERR 15, and then the word itself may be damaged. */
 export function isAnswer(request: string, line: string): boolean {
     const word = request.split(' ', 1)[0] ?? '';
     if (line.includes(' ERR 15 ')) return true;
@@ -44,7 +44,7 @@ export function isAnswer(request: string, line: string): boolean {
     return line.endsWith(' OK') || / ERR \d+ /.test(line);
 }
 
-/** Takes bytes as they came; returns the new state and what they were. */
+/** Takes received bytes. Returns the new state and the events in them. */
 export function parseLine(state: LineState, bytes: Uint8Array): readonly [LineState, readonly LineEvent[]] {
     const events: LineEvent[] = [];
     let text: number[] = [];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One open port: the only reader and the only writer of its streams. Bytes come in through one read loop and the parser;
-// bytes go out through one queue that obeys XOFF. Says what came in by callbacks; knows no requests and no states.
+// One open port: the only reader and the only writer of its streams. Received bytes pass through one read loop and the parser; sent bytes
+// pass through one queue that obeys XOFF. Reports by callbacks. It knows no requests and no connection states.
 
 import type { Clock } from './clock.ts';
 import { parseLine } from './line-parser.ts';
@@ -8,15 +8,15 @@ import type { LineState } from './line-parser.ts';
 import type { Port } from './port.ts';
 import { RobotError } from './robot-error.ts';
 
-/** An XON that was lost must not end the talk: PROTOCOL.md's longest hold is a save, 60 ms. */
+/** A lost XON must not block for ever. The longest hold in PROTOCOL.md is a save, 60 ms. */
 const HOLD_LIMIT_MS = 1000;
 
 export interface LineEvents {
     /** For a terminal. */
     text(bytes: Uint8Array): void;
-    /** A whole answer line, without its line end. */
+    /** A complete answer line without its line end. */
     answer(line: string): void;
-    /** The port is gone (a pulled cable); not called after close(). */
+    /** The port is lost (a pulled cable). Not called after close(). */
     lost(cause: unknown): void;
 }
 
@@ -33,7 +33,7 @@ export class Line {
     private isClosed = false;
     private loop: Promise<void> = Promise.resolve();
 
-    /** Takes an open port; it stays the caller's to close, after close() of this. */
+    /** Takes an open port. The caller closes the port after close() of this object. */
     constructor(port: Port, clock: Clock, events: LineEvents) {
         this.port = port;
         this.clock = clock;
@@ -42,14 +42,14 @@ export class Line {
         this.loop = this.readAll();
     }
 
-    /** Queues bytes; resolves when the port has taken them, rejects when it cannot. */
+    /** Queues bytes. Resolves when the port has taken them; rejects if it cannot. */
     write(bytes: Uint8Array): Promise<void> {
         const done = this.writing.then(async () => {
             if (this.held) await this.held;
             if (!this.writer || this.isClosed) throw new RobotError('not-connected');
             await this.writer.write(bytes);
         });
-        this.writing = done.catch(() => undefined); // its caller hears of it; the next one may still try
+        this.writing = done.catch(() => undefined); // the caller gets the error; later writes may still work
         return done;
     }
 
@@ -69,7 +69,7 @@ export class Line {
                 for (let read = await this.reader.read(); !read.done; read = await this.reader.read()) this.take(read.value);
                 break; // cancelled, or closed by the port
             } catch (cause) {
-                // A framing or overrun error ends this stream and the port offers another; a lost port offers none.
+                // A framing or overrun error ends this stream, and the port offers another. A lost port offers none.
                 if (!this.port.readable) return this.lose(cause);
             } finally {
                 this.reader.releaseLock();

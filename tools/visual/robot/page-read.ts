@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads all pages of a robot: CRCs first, then only those that nobody here has already.
+// Reads all pages of a robot: the CRCs first, then only the pages that are not known here.
 
 import { askPageCrcs } from './page-requests.ts';
 import { REFUSED, askDensePage, askPage } from './protocol.ts';
@@ -8,13 +8,13 @@ import { RobotError } from './robot-error.ts';
 import type { Requests } from './requests.ts';
 
 export interface ReadOptions {
-    /** Versions of a page that may be the robot's: what its CRC fits needs not be read. */
+    /** Candidates for a page. A page whose CRC matches one of them is not read. */
     readonly known?: (page: number) => readonly Uint8Array[];
     readonly progress?: (done: number, total: number) => void;
     readonly signal?: AbortSignal;
 }
 
-/** The 128 pages as they stand in flash. Rejects with RobotError; cancelled between two pages. */
+/** The 128 pages in flash. Rejects with RobotError. Can be cancelled between two pages. */
 export async function readPages(requests: Requests, crcOf: PageCrc, options: ReadOptions = {}): Promise<Uint8Array[]> {
     const crcs = await askPageCrcs(requests);
     const pages = crcs.map((crc, page) => options.known?.(page).find(bytes => crcOf(bytes) === crc));
@@ -30,5 +30,5 @@ export async function readPages(requests: Requests, crcOf: PageCrc, options: Rea
         });
     }
     options.progress?.(missing.length, missing.length);
-    return pages as Uint8Array[]; // what was missing has been read
+    return pages as Uint8Array[]; // all missing pages have been read
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Requests of PROTOCOL.md that bring pages in and tell which are there: `@crcs` in both images, the others in Edit alone.
+// Requests of PROTOCOL.md that list, write and save pages. `@crcs` is in both images, the others are only in Edit.
 
 import { PAGE_COUNT } from '../model/motion.ts';
 import type { PageFormat } from '../model/page-format.ts';
@@ -8,11 +8,11 @@ import type { Requests } from './requests.ts';
 
 export type Ask = Pick<Requests, 'ask'>;
 
-/** What one `@data` takes. */
+/** Most bytes in one `@data`. */
 export const DATA_BYTES = 32;
 const CRCS_MS = 4000;
 const SAVE_MS = 2000;
-/** ERR of `@open`: the page in the board's RAM has edits. */
+/** ERR of `@open`: the page in the board's RAM has unsaved edits. */
 export const ERR_UNSAVED = 12;
 
 function hex(bytes: Uint8Array): string {
@@ -24,7 +24,7 @@ function crcOf(words: string): number {
     return Number.parseInt(words, 16);
 }
 
-/** The CRC-16 of each of these pages, as they stand in flash. */
+/** The CRC-16 of each of these pages in flash. */
 export async function askPageCrcs(requests: Ask, first = 0, last = PAGE_COUNT - 1): Promise<number[]> {
     const answer = await requests.ask(`@crcs ${first} ${last}`, { timeoutMs: CRCS_MS });
     const words = answer.match(/.{1,4}/g) ?? [];
@@ -32,12 +32,12 @@ export async function askPageCrcs(requests: Ask, first = 0, last = PAGE_COUNT - 
     return words.map(crcOf);
 }
 
-/** Loads a page into the board's RAM. Refused with ERR 12 when the page there has edits. */
+/** Loads a page into the board's RAM. Refused with ERR 12 if the page there has unsaved edits. */
 export async function openPage(requests: Ask, page: number): Promise<void> {
     await requests.ask(`@open ${page}`);
 }
 
-/** At most 32 bytes into the page in RAM. */
+/** Writes at most 32 bytes into the page in RAM. */
 export async function sendData(requests: Ask, offset: number, bytes: Uint8Array): Promise<void> {
     await requests.ask(`@data ${offset} ${hex(bytes)}`);
 }
@@ -47,12 +47,12 @@ export async function askRamCrc(requests: Ask): Promise<number> {
     return crcOf(await requests.ask('@crc'));
 }
 
-/** Saves the page in RAM in that place, if its CRC is this one. */
+/** Saves the page in RAM under this number if its CRC matches. */
 export async function savePage(requests: Ask, page: number, crc: number): Promise<void> {
     await requests.ask(`@save ${page} ${crc.toString(16).padStart(4, '0')}`, { timeoutMs: SAVE_MS });
 }
 
-/** Whether Edit's RAM holds what its flash holds nowhere: edits that a restart would lose. */
+/** Whether Edit's RAM has edits that are not in flash and would be lost by a restart. */
 export async function hasUnsavedEdits(requests: Ask, format: Pick<PageFormat, 'crc' | 'empty'>): Promise<boolean> {
     const crc = await askRamCrc(requests);
     return crc !== format.crc(format.empty) && !(await askPageCrcs(requests)).includes(crc);

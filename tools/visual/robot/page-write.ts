@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes pages into a robot that runs Edit, and keeps account of each. A cable may be pulled at any moment: the board saves a
-// page whole or not at all, and run() once more finishes the work.
+// Writes pages into a robot that runs Edit and tracks each of them. The cable may be pulled at any time: the board saves a page completely
+// or not at all, and another run() finishes the work.
 //
 //            +--- another image of the page, or a lost line before @save ---+
 //            v                                                              |
@@ -17,7 +17,7 @@ export type PageAccount = 'waiting' | 'sending' | 'saving' | 'written' | 'verifi
 
 export interface PageToWrite {
     readonly page: number;
-    /** What the robot has there. */
+    /** The robot's current page. */
     readonly before: Uint8Array;
     /** Sealed. */
     readonly after: Uint8Array;
@@ -25,11 +25,11 @@ export interface PageToWrite {
 
 export interface WriteOptions {
     readonly signal?: AbortSignal;
-    /** Called after every change of the account. */
+    /** Called after each change of the account. */
     readonly changed?: () => void;
 }
 
-/** A request whose answer was lost in noise may be sent again: all of them do the same thing twice. */
+/** A request without an answer is sent again. All of them can safely be repeated. */
 const TRIES = 3;
 
 export class PageWrite {
@@ -47,13 +47,13 @@ export class PageWrite {
         return [...this.account.values()].every(state => state === 'verified');
     }
 
-    /** What the robot has for certain. */
+    /** Pages that are certainly in the robot. */
     get written(): PageToWrite[] {
         return this.pages.filter(({ page }) => ['written', 'verified'].includes(this.account.get(page) ?? ''));
     }
 
-    /** Writes what is not written yet, then looks whether the robot has it all. Rejects with RobotError: page-changed and page-unsaved
-     *  before anything of that page was touched; cancelled between two pages; else what the line says. Call it again to go on. */
+    /** Writes the remaining pages, then verifies all of them. Rejects with RobotError: page-changed or page-unsaved before that page is
+     *  touched, cancelled between two pages, or an error of the line. Call it again to continue. */
     async run(line: Ask, options: WriteOptions = {}): Promise<void> {
         if (this.pages.length === 0) return;
         const requests = patient(line);
@@ -70,7 +70,7 @@ export class PageWrite {
         await this.verify(requests, set);
     }
 
-    /** Asks which pages are there already. */
+    /** Asks which pages are written already. */
     private async look(requests: Ask, set: (page: number, state: PageAccount) => void): Promise<void> {
         const crcs = await this.crcs(requests);
         for (const { page, before, after } of this.pages) {
@@ -123,8 +123,8 @@ export class PageWrite {
         }
     }
 
-    /** The page in the board's RAM has edits. When it is one of these pages with its first pieces sent (the cable was pulled), it gets
-     *  its old bytes back; anything else is somebody's work. */
+    /** Handles unsaved edits in the board's RAM. If they are our own interrupted transfer of one of these pages (a pulled cable), the old
+     *  bytes are restored. Anything else is somebody's work. */
     private async clean(requests: Ask): Promise<void> {
         const crc = await askRamCrc(requests);
         for (const one of this.pages) {
@@ -140,7 +140,7 @@ export class PageWrite {
         throw new RobotError('page-unsaved');
     }
 
-    /** What `@open` brings into the RAM: Edit takes erased flash for the empty page. */
+    /** The content of RAM after `@open`: Edit treats erased flash as the empty page. */
     private loaded({ before }: PageToWrite): Uint8Array {
         return this.format.isErased(before) ? this.format.empty : before;
     }

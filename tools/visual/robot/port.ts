@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A serial port as the browser's SerialPort is one, so that the board in the page, Web Serial and a fake that can be
-// unplugged are the same to everything above.
+// A serial port with the interface of the browser's SerialPort. All code above treats the board in the page, Web Serial and a fake that can
+// be unplugged alike.
 
-/** 57,600 baud 8N1, no flow control but XOFF and XON: what every image speaks. */
+/** 57,600 baud 8N1, no flow control except XOFF and XON. Every image uses it. */
 export const BAUD_RATE = 57_600;
 
-/** One way to a board. Streams are there between open() and close(); a pulled cable ends `readable` with an error. */
+/** A connection to a board. The streams exist between open() and close(). A pulled cable ends `readable` with an error. */
 export interface Port {
     /** For people: "the robot in this page", "USB serial port". */
     readonly name: string;

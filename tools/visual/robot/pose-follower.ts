@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Asks a robot on a line for its pose, again and again, so that a picture can follow it: one is under way at a time, and what
-// others ask waits for that one only. `@pose` and not `@watch`: it asks all
-// servos at once, where a line of `@watch` has positions that are up to 0.14 s old.
+// Polls the pose of a robot on a line for the picture. Only one request is under way, so other requests wait for one at most. It uses
+// `@pose` because that reads all servos at once; a line of `@watch` has positions up to 0.14 s old.
 
 import type { Clock } from './clock.ts';
 import type { Connection } from './connection.ts';
@@ -9,7 +8,7 @@ import { askPose } from './protocol.ts';
 import type { JointPose } from './protocol.ts';
 import { RobotError } from './robot-error.ts';
 
-/** Until the next try, when nothing may be asked or nothing answers. */
+/** Delay before the next try when nothing may be asked or nothing answers. */
 const RESTING_MS = 300;
 
 export class PoseFollower {
@@ -19,7 +18,7 @@ export class PoseFollower {
     private readonly show: (pose: readonly JointPose[]) => void;
     private isRunning = false;
 
-    /** show: gets each pose as it comes. */
+    /** show: receives each pose. */
     constructor(connection: Connection, clock: Clock, mayAsk: () => boolean, show: (pose: readonly JointPose[]) => void) {
         this.connection = connection;
         this.clock = clock;

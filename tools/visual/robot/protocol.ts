@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
-// The requests of firmware/common/PROTOCOL.md as functions. Each rejects as Requests.ask() does, and with RobotError
-// 'foreign' when an answer is not what the protocol says.
+// The requests of firmware/common/PROTOCOL.md as functions. Each rejects as Requests.ask() does, and with RobotError 'foreign' if an answer
+// does not follow the protocol.
 
 import { PAGE_BYTES } from '../model/motion.ts';
 import type { RequestOptions, Requests } from './requests.ts';
 import { RobotError } from './robot-error.ts';
 
-/** What `@ver` says. */
+/** The answer to `@ver`. */
 export interface Version {
     readonly image: string; // "play", "edit"
     readonly version: string; // "1.0.0"; empty for an image without a record
     readonly board: string; // "cm5", "cm2"
     readonly protocol: number;
-    /** What it can do: list, page, pose, ... */
+    /** Its abilities: list, page, pose, ... */
     readonly can: ReadonlySet<string>;
 }
 
 export type PlayState = 'idle' | 'ready' | 'approach' | 'paused' | 'playing';
 
-/** What `@where` says. */
+/** The answer to `@where`. */
 export interface Where {
     readonly state: PlayState;
     readonly page: number;
@@ -28,13 +28,13 @@ export interface Where {
     readonly batteryVolts: number;
     /** Bit per servo ID. */
     readonly faulty: number;
-    /** Everything it said, by name: later versions say more. */
+    /** All fields by name: later versions report more. */
     readonly fields: ReadonlyMap<string, string>;
 }
 
 export interface JointPose {
     readonly id: number;
-    /** Servo units, null when the servo does not answer. */
+    /** Servo units; null if the servo does not answer. */
     readonly position: number | null;
     readonly torque: boolean;
 }
@@ -42,7 +42,7 @@ export interface JointPose {
 export interface PageEntry {
     readonly page: number;
     readonly name: string;
-    /** 0 for a page that is damaged: `fault` says how. */
+    /** 0 for a damaged page; `fault` names the fault. */
     readonly steps: number;
     readonly fault: string;
 }
@@ -131,7 +131,7 @@ export function askPage(requests: Requests, page: number, crcOf: PageCrc): Promi
     });
 }
 
-/** The same in two thirds of the time. An image that is older refuses with ERR 1. */
+/** Like askPage() in two thirds of the time. An older image refuses with ERR 1. */
 export function askDensePage(requests: Requests, page: number, crcOf: PageCrc): Promise<Uint8Array> {
     return readWhole(requests, '@dense', page, crcOf, fromDense);
 }
@@ -153,7 +153,8 @@ async function readWhole(
 
 const SIX_BITS = 0x30;
 
-/** Six bits a character: the low ones of two, then always three bytes, and behind them a character with the high bits, the newest's highest. */
+/** Six bits per character. Each group has the low six bits of its bytes (two in the first group, then three) and a character with their
+ *  high bits, those of the last byte on top. */
 function fromDense(text: string): Uint8Array {
     const sixes = Array.from(text, letter => letter.charCodeAt(0) - SIX_BITS);
     const made: number[] = [];
@@ -168,8 +169,8 @@ export async function play(requests: Requests, page: number, code = 0): Promise<
     await requests.ask(code ? `@play ${page} ${code}` : `@play ${page}`);
 }
 
-/** Shapes the play from the next step on: blend -100..100 (left..right), rate 10..400 %, amplitude 0..150 %. Say it again within
- *  a second, or the robot ends its play by itself. */
+/** Shapes the play from the next step on: blend -100..100 (left..right), rate 10..400 %, amplitude 0..150 %. Repeat it within a second, or
+ *  the robot ends the play by itself. */
 export async function drive(requests: Requests, blend: number, rate: number, amplitude: number): Promise<void> {
     await requests.ask(`@drive ${blend} ${rate} ${amplitude}`);
 }
@@ -180,13 +181,13 @@ export async function command(requests: Requests, what: Command): Promise<void> 
     await requests.ask(`@${what}`, { isUrgent: what === 'stop' || what === 'break' });
 }
 
-/** Without IDs: all servos. */
+/** No IDs: all servos. */
 export async function setTorque(requests: Requests, on: boolean, ids: readonly number[] = []): Promise<void> {
     await requests.ask(['@torque', on ? 'on' : 'off', ...ids].join(' '), { timeoutMs: PAGE_MS });
 }
 
-/** Goes slowly to a pose, ramped, at most `degreesPerSecond` (1..360). positions: servo units by ID, null: this joint stays
- *  as it is. Refused with ERR 4 while something moves. */
+/** Moves slowly to a pose, ramped, at most `degreesPerSecond` (1..360). positions: servo units by ID; null: the joint stays as it is.
+ *  Refused with ERR 4 while something moves. */
 export async function movePose(requests: Requests, degreesPerSecond: number, positions: readonly (number | null)[]): Promise<void> {
     const first = positions.findIndex(position => position !== null);
     if (first < 0) return;
@@ -197,45 +198,45 @@ export async function movePose(requests: Requests, degreesPerSecond: number, pos
     await requests.ask(`@move ${degreesPerSecond} ${first} ${digits.join('')}`);
 }
 
-/** ERR numbers of PROTOCOL.md that a program acts on. */
+/** ERR numbers of PROTOCOL.md that the code reacts to. */
 export const REFUSED = { noCommand: 1, busy: 4, torqueOff: 8, notHere: 10 } as const;
 
-/** Shapes what plays, in Play: speed in percent (10..400). */
+/** Sets the speed of the play in percent (10..400). Only Play. */
 export async function setRate(requests: Requests, percent: number): Promise<void> {
     await requests.ask(`@rate ${percent}`);
 }
 
-/** Size about the centre pose, in percent (0..150), of these joints or all. */
+/** Sets the size about the centre pose in percent (0..150), for these joints or all. */
 export async function setAmplitude(requests: Requests, percent: number, ids: readonly number[] = []): Promise<void> {
     await requests.ask(['@amplitude', percent, ...ids].join(' '));
 }
 
-/** Towards the partner page: right 1..100, left -1..-100. */
+/** Blends towards the partner page: right 1..100, left -1..-100. */
 export async function setBlend(requests: Requests, percent: number): Promise<void> {
     await requests.ask(`@blend ${percent}`);
 }
 
-/** A second page over the play, on these joints or those that its first step uses; null: no more. Play alone has layers. */
+/** Plays a second page over the play, on these joints or those of its first step; null ends it. Only Play has layers. */
 export async function setLayer(requests: Requests, page: number | null, ids: readonly number[] = []): Promise<void> {
     await requests.ask(page === null ? '@layer off' : ['@layer', page, ...ids].join(' '));
 }
 
-/** Moves a joint by code: to a position (servo units), at most so fast (1..360), and holds it there. */
+/** Moves a joint to a position (servo units) at a limited speed (1..360) and holds it there. */
 export async function aim(requests: Requests, id: number, position: number, degreesPerSecond: number): Promise<void> {
     await requests.ask(`@aim ${id} ${position} ${degreesPerSecond}`);
 }
 
-/** To and fro about a centre: servo units, a period of 125..30000 ms. */
+/** Swings a joint about a centre: servo units, a period of 125..30000 ms. */
 export async function swing(requests: Requests, id: number, centre: number, amplitude: number, periodMs: number): Promise<void> {
     await requests.ask(`@swing ${id} ${centre} ${amplitude} ${periodMs}`);
 }
 
-/** These joints, or all, go back to the play; without one they stay. */
+/** Returns these joints, or all, to the play. Without a play they stay where they are. */
 export async function free(requests: Requests, ids: readonly number[] = []): Promise<void> {
     await requests.ask(['@free', ...ids].join(' '));
 }
 
-/** Everything as stored. */
+/** Resets all shaping to the stored values. */
 export async function resetShape(requests: Requests): Promise<void> {
     await requests.ask('@shape reset');
 }

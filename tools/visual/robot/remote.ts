@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The RC-100 remote control: buttons to packets, for the other end is hal/remote.c, which takes them apart. What a packet calls is
-// decided there too (PageFormat.remoteCode).
+// The RC-100 remote control: turns buttons into packets. hal/remote.c decodes them and decides which code they give
+// (PageFormat.remoteCode).
 
 import * as facts from '../model/facts.ts';
 
@@ -25,7 +25,7 @@ export function wordOf(held: Iterable<RemoteButton>): number {
     return word;
 }
 
-/** FF 55 low ~low high ~high; no button: the packet of letting go. */
+/** FF 55 low ~low high ~high. Without buttons it is the release packet. */
 export function remotePacket(held: Iterable<RemoteButton>): Uint8Array {
     const word = wordOf(held);
     const low = word & 0xff;
@@ -33,7 +33,7 @@ export function remotePacket(held: Iterable<RemoteButton>): Uint8Array {
     return Uint8Array.of(0xff, 0x55, low, low ^ 0xff, high, high ^ 0xff);
 }
 
-/** The buttons of a code, up first; an empty list for 0. */
+/** The buttons of a code, up first. Empty for 0. */
 export function buttonsOf(code: number): RemoteButton[] {
     return (Object.keys(REMOTE_BUTTONS) as RemoteButton[]).filter(button => code & REMOTE_BUTTONS[button]);
 }

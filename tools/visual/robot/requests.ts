@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Requests and answers of PROTOCOL.md over a line: one at a time, in order, each with a time limit.
+// Requests and answers of PROTOCOL.md on a line: one at a time, in order, each with a time limit.
 //
 //   waiting in the queue --sent--> under way --answer--> resolved, or rejected with the board's ERR
 //                                     |
@@ -11,14 +11,14 @@ import { framed, isAnswer } from './line-parser.ts';
 import { RobotError } from './robot-error.ts';
 
 const ANSWER_MS = 1000;
-/** Bytes of the request were lost on the way. */
+/** ERR: bytes of the request were lost. */
 const ERR_LINE = '15';
-/** After a time-out nothing is sent for so long, or until the late answer has come: it must not answer the next one. */
+/** After a time-out nothing is sent for this long or until the late answer arrives, so that it is not taken for the next one. */
 const SETTLE_MS = 500;
 export interface RequestOptions {
     readonly timeoutMs?: number;
     readonly signal?: AbortSignal;
-    /** Goes first. */
+    /** Goes to the head of the queue. */
     readonly isUrgent?: boolean;
 }
 
@@ -43,8 +43,8 @@ export class Requests {
         this.clock = clock;
     }
 
-    /** Sends a request, `@where` for example; resolves to the words between its own first word and OK.
-     *  Rejects with RobotError: refused, no-answer, not-connected, port-lost, cancelled. */
+    /** Sends a request, for example `@where`. Resolves to the words between its first word and OK. Rejects with RobotError: refused,
+     *  no-answer, not-connected, port-lost, cancelled. */
     ask(text: string, options: RequestOptions = {}): Promise<string> {
         return new Promise((resolve, reject) => {
             if (this.isEnded) return reject(new RobotError('not-connected'));
@@ -57,25 +57,25 @@ export class Requests {
         });
     }
 
-    /** An answer line has come. */
+    /** Handles a received answer line. */
     take(line: string): void {
         if (this.abandoned !== null && isAnswer(this.abandoned, line)) {
             this.settle();
             return;
         }
         const request = this.current;
-        if (!request || !isAnswer(request.text, line)) return; // nobody asked
+        if (!request || !isAnswer(request.text, line)) return; // not requested
         this.finish();
         const word = request.text.split(' ', 1)[0] ?? '';
         const refusal = / ERR (\d+) (.*)$/.exec(line);
         if (refusal?.[1] === ERR_LINE)
-            request.reject(new RobotError('no-answer', request.text)); // it was not run
+            request.reject(new RobotError('no-answer', request.text)); // it was not executed
         else if (refusal) request.reject(new RobotError('refused', refusal[2] ?? '', { number: Number(refusal[1]) }));
         else request.resolve(line.slice(word.length, -' OK'.length).trim());
         this.next();
     }
 
-    /** The line is gone: everything that waits is rejected, and so is what comes later. */
+    /** The line is lost. Rejects all waiting and all later requests. */
     end(code: 'port-lost' | 'not-connected'): void {
         this.isEnded = true;
         this.cancelTimer();

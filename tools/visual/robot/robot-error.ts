@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: MIT
-// What can go wrong between the page and a board. The sentence for each code stands in view/texts/.
+// Errors between the page and a board. The message of each code is in view/texts/.
 
 export type RobotErrorCode =
-    | 'no-answer' // the board said nothing within the time
-    | 'refused' // the board answered ERR: its number and words are in `words`
-    | 'not-connected' // there is no open port
-    | 'port-lost' // the cable was pulled, or the port died
+    | 'no-answer' // the board did not answer in time
+    | 'refused' // the board answered ERR; number and text are in `number` and `words`
+    | 'not-connected' // no port is open
+    | 'port-lost' // the cable was pulled or the port failed
     | 'no-serial' // this browser has no Web Serial
-    | 'old-browser' // it cannot let a program in C wait (JavaScript Promise Integration), which My servos needs
+    | 'old-browser' // no JavaScript Promise Integration, which lets a program in C wait; My servos needs it
     | 'port-busy' // the port cannot be opened: another program has it, or no permission
-    | 'foreign' // something else answers there
-    | 'other-board' // a boot loader has said the name of another board: it is in `words`
+    | 'foreign' // something else answers
+    | 'other-board' // a boot loader named another board, which is in `words`
     | 'in-loader' // the boot loader waits at its prompt
     | 'no-image' // the firmware for the robot in the page could not be loaded
-    | 'was-hidden' // the page that drives servos was hidden: what played was ended
-    | 'cancelled' // somebody stopped it
-    | 'page-changed' // a page of the robot is no longer what it was when it was read: its number is in `words`
-    | 'page-unsaved' // the page in Edit's memory has edits of somebody else
-    | 'page-not-saved' // after a save the robot still has another page: its number is in `words`
-    | 'no-backup' // the robot's pages could not be kept here, so nothing was written
-    | 'needs-edit' // Play runs there, and only Edit saves pages
-    | 'transfer-busy' // pages are being read or written: one transfer at a time
-    | 'pages-differ' // the robot has these pages otherwise than the document, and they are not written without being asked
-    | 'damaged-here' // a page of the document is damaged and cannot be written: its number is in `words`
-    | 'layer-differs'; // the same, for a page that is to be laid over a play
+    | 'was-hidden' // the page was hidden while it drove servos; the play was ended
+    | 'cancelled' // somebody cancelled it
+    | 'page-changed' // a page of the robot has changed since it was read; its number is in `words`
+    | 'page-unsaved' // the page in Edit's memory has somebody else's edits
+    | 'page-not-saved' // after a save the robot still has another page; its number is in `words`
+    | 'no-backup' // the robot's pages could not be stored here, so nothing was written
+    | 'needs-edit' // Play runs, but only Edit saves pages
+    | 'transfer-busy' // pages are being read or written; one transfer at a time
+    | 'pages-differ' // these pages differ between robot and document, and are not written without consent
+    | 'damaged-here' // a page of the document is damaged and cannot be written; its number is in `words`
+    | 'layer-differs'; // as pages-differ, for a page to lay over a play
 
-/** Every rejection of this folder. `words`: what the board said, if it said anything. */
+/** The error of every rejection in this folder. `words`: the board's text, if any. */
 export class RobotError extends Error {
     readonly code: RobotErrorCode;
     readonly words: string;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A port of the browser's Web Serial API as a Port. Asking for one (requestPort) is the view's business: it needs a click.
+// A Web Serial port as a Port. The view asks for it (requestPort), because that needs a click.
 
 import type { Port } from './port.ts';
 
-/** What we use of the browser's SerialPort. */
+/** The part of the browser's SerialPort that is used here. */
 export interface BrowserSerialPort {
     readonly readable: ReadableStream<Uint8Array> | null;
     readonly writable: WritableStream<Uint8Array> | null;
@@ -12,7 +12,7 @@ export interface BrowserSerialPort {
     getInfo?(): { usbVendorId?: number | undefined };
 }
 
-/** The answers of 128 pages come without a pause; the browser's own buffer of 255 bytes would overrun. */
+/** The answers for 128 pages come without a pause. The browser's default buffer of 255 bytes would overrun. */
 const BUFFER_BYTES = 16_384;
 
 const VENDORS: ReadonlyMap<number, string> = new Map([
@@ -26,7 +26,7 @@ export class WebSerialPort implements Port {
     readonly name: string;
     private readonly port: BrowserSerialPort;
 
-    /** nameOf: how people call a port with such a chip in it; '': nobody knows which. */
+    /** nameOf: the name for people of a port with a chip of this maker; '': unknown maker. */
     constructor(port: BrowserSerialPort, nameOf: (maker: string) => string) {
         this.port = port;
         const vendor = port.getInfo?.().usbVendorId;

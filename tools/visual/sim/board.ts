@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The simulated robot of board.wasm, with names and types. What each function means stands in board/board_api.h.
+// The simulated robot of board.wasm with names and types. board/board_api.h documents the functions.
 
 import * as facts from '../model/facts.ts';
 import { wasiImports } from './wasi.ts';
@@ -9,9 +9,9 @@ export const CYCLES_PER_MS = facts.M128_HZ / 1000;
 export const FLASH_BYTES = facts.MEM_BOOT_END;
 export const EEPROM_BYTES = facts.MEM_EEPROM_BYTES;
 export const MOTIONS_ADDRESS = facts.MEM_MOTION_START;
-/** servo_shaft_t as doubles: ID, torque in N m, angle in radians, speed in radians a second. */
+/** servo_shaft_t as doubles: ID, torque in N m, angle in radians, speed in radians per second. */
 export const SHAFT_FIELDS = facts.SERVO_SHAFT_FIELDS;
-/** As it is shipped. */
+/** Factory setting. */
 const AX12_BPS = 1_000_000;
 const { BOARD_API_BUFFER_BYTES: BUFFER_BYTES, BOARD_API_SERVO_FIELDS: SERVO_FIELDS, SERVO_EEPROM_BYTES } = facts;
 
@@ -19,7 +19,7 @@ export type Sender = 'pc' | 'remote';
 export const BUTTONS = ['up', 'down', 'left', 'right', 'start', 'mode'] as const;
 export type Button = (typeof BUTTONS)[number];
 
-/** One servo as of now. Positions in servo units, speeds in units a second. */
+/** The current state of one servo. Positions in servo units, speeds in units per second. */
 export interface ServoReading {
     readonly id: number;
     readonly goalPos: number;
@@ -33,7 +33,7 @@ export interface ServoReading {
     readonly led: boolean;
 }
 
-/** What the servos' shafts hang on: servo_body.h. Each shaft is four doubles: ID, torque, angle, speed. */
+/** The body that the servos' shafts drive (servo_body.h). Each shaft is four doubles: ID, torque, angle, speed. */
 export interface ShaftBody {
     look(shafts: Float64Array): void;
     step(shafts: Float64Array): void;
@@ -81,7 +81,7 @@ interface Exports {
     board_api_fault(index: number, fault: number, answers: number): number;
 }
 
-/** Throws when the bytes are no module, or there is no memory for a board. */
+/** Throws if the bytes are not a module or there is no memory for a board. */
 export class Board {
     private readonly api: Exports;
     private readonly bufferAt: number;
@@ -94,7 +94,7 @@ export class Board {
         if (!api.board_api_new(facts.BOARD_CM5, seed)) throw new Error('no memory for a simulated board');
     }
 
-    /** A CM-5 without power, erased, without servos. seed: contents of its SRAM at power-on. */
+    /** A CM-5 without power, erased, without servos. seed: determines the SRAM contents at power-on. */
     static async make(module: WebAssembly.Module, seed = 1): Promise<Board> {
         const seam: { body: ShaftBody | null } = { body: null };
         const shafts = (at: number, count: number): Float64Array =>
@@ -106,12 +106,12 @@ export class Board {
                 step: (at: number, count: number) => seam.body?.step(shafts(at, count)),
             },
         });
-        const api = instance.exports as unknown as Exports; // the names above are board_api.h's: tests/board.test.ts
+        const api = instance.exports as unknown as Exports; // the names above are those of board_api.h
         api._initialize();
         return new Board(api, seed, seam);
     }
 
-    /** Hangs the servos' shafts on a body, which moves in lock step with the board; null: each turns its own rotor. */
+    /** Connects the servos' shafts to a body, which moves in lockstep with the board. null: each servo turns its own rotor. */
     setBody(body: ShaftBody | null): void {
         this.seam.body = body;
         this.api.board_api_body(Number(body !== null));
@@ -137,7 +137,7 @@ export class Board {
         this.api.board_api_battery(volts);
     }
 
-    /** Runs to the first instruction boundary at or behind that cycle. false: a violation stopped it. */
+    /** Runs to the first instruction boundary at or after that cycle. false: a violation stopped the board. */
     runTo(cycle: number): boolean {
         return this.api.board_api_run(cycle) === 0;
     }
@@ -154,13 +154,13 @@ export class Board {
         return this.api.board_api_resets();
     }
 
-    /** What the firmware did that no chip allows: kind and sentence; null when nothing. */
+    /** A firmware action that the chip does not allow: its kind and a sentence. null: none. */
     get violation(): { readonly kind: string; readonly text: string } | null {
         if (this.api.board_api_violation() === 0) return null;
         return { kind: this.text(this.api.board_api_violation_name()), text: this.text(this.api.board_api_violation_text()) };
     }
 
-    /** Puts an Intel HEX file into flash. Returns null, or what is wrong with the file (nothing was changed then). */
+    /** Loads an Intel HEX file into flash. Returns null, or the fault of the file, in which case nothing was changed. */
     loadHex(text: string): string | null {
         const bytes = new TextEncoder().encode(text);
         if (bytes.length > BUFFER_BYTES) return 'is longer than any image';
@@ -189,7 +189,7 @@ export class Board {
         return this.api.board_api_operations();
     }
 
-    /** The EEPROMs of all servos, one after the other. */
+    /** The EEPROMs of all servos in sequence. */
     readServoEeproms(): Uint8Array {
         const all = new Uint8Array(this.servoCount * SERVO_EEPROM_BYTES);
         for (let i = 0; i < this.servoCount; i++) {
@@ -198,7 +198,7 @@ export class Board {
         return all;
     }
 
-    /** Before power-on. A length that does not fit the servos is refused. */
+    /** Call before power-on. Returns false if the length does not match the servos. */
     writeServoEeproms(all: Uint8Array): boolean {
         if (all.length !== this.servoCount * SERVO_EEPROM_BYTES) return false;
         for (let i = 0; i < this.servoCount; i++) {
@@ -212,7 +212,7 @@ export class Board {
         this.api.board_api_send(sender === 'remote' ? 1 : 0, this.put(bytes));
     }
 
-    /** Bytes that the board has not heard yet. */
+    /** Bytes that the board has not received yet. */
     get waiting(): number {
         return this.api.board_api_waiting();
     }
@@ -221,7 +221,7 @@ export class Board {
         this.api.board_api_drop_waiting();
     }
 
-    /** What the board has sent since the last call. */
+    /** Bytes that the board has sent since the last call. */
     receive(): Uint8Array {
         return this.take(this.api.board_api_receive());
     }
@@ -275,7 +275,7 @@ export class Board {
         return Array.from({ length: this.api.board_api_faults() }, (_, i) => this.text(this.api.board_api_fault_name(i)));
     }
 
-    /** answers: how many answers are spoiled; 0 ends the fault, -1 lasts until then. false: no such servo or fault. */
+    /** answers: how many answers are spoiled; 0 ends the fault, -1 keeps it until then. false: no such servo or fault. */
     setFault(index: number, fault: number, answers: number): boolean {
         return this.api.board_api_fault(index, fault, answers) !== 0;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A Port whose other end is code: the board in the worker, or a test. Bytes of the board are pushed in; bytes for the
-// board are handed to a function.
+// A Port whose other end is code: the board in the worker, or a test. Bytes from the board are pushed in; bytes for the board are passed to
+// a function.
 
 import type { Port } from '../robot/port.ts';
 
@@ -31,19 +31,19 @@ export class BytePort implements Port {
         return Promise.resolve();
     }
 
-    /** The board has sent bytes. Nobody listens: they are lost, as on a wire. */
+    /** Bytes from the board. If nobody reads the port, they are lost, as on a wire. */
     push(bytes: Uint8Array): void {
         this.source?.enqueue(bytes);
     }
 
-    /** A byte without its stop bit: the browser ends this stream with an error, and there is another one. */
+    /** Simulates a byte without its stop bit: this stream ends with an error, and the port offers another one, as in a browser. */
     garble(): void {
         const source = this.source;
         this.readable = this.stream();
         source?.error(new DOMException('a framing error', 'FramingError'));
     }
 
-    /** The cable is pulled: the stream ends with an error and there is no other. */
+    /** Simulates a pulled cable: the stream ends with an error, and the port offers no other. */
     unplug(): void {
         const source = this.source;
         this.source = null;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// What touches what in MuJoCo's model: geoms with the floor, links of the robot with each other.
+// Contacts in MuJoCo's model: geoms with the floor, links of the robot with each other.
 
 import type { Touch } from '../model/trial.ts';
 import type { Data } from './mujoco.ts';
 
 export interface GeomTouch {
-    /** Two of them. */
+    /** A pair. */
     readonly geoms: readonly number[];
     readonly depthM: number;
 }
 
-/** Geoms that touch since the last step, or the last mj_collision(). */
+/** Geoms in contact after the last step or the last mj_collision(). */
 export function geomTouches({ ncon, contact }: Data): GeomTouch[] {
     const all = Array.from({ length: ncon }, (_, i) => {
         const one = contact.get(i);
@@ -22,8 +22,8 @@ export function geomTouches({ ncon, contact }: Data): GeomTouch[] {
     return all.filter(({ depthM }) => depthM >= 0);
 }
 
-/** Links that touch each other: each pair once, as deep as it is. linkOf: the name of the link that a geom belongs to; undefined:
- *  it is no part of the robot. */
+/** Links in contact: each pair once, with its greatest depth. linkOf: the name of a geom's link; undefined if it is not part of the
+ *  robot. */
 export function linkTouches(touches: readonly GeomTouch[], linkOf: (geom: number) => string | undefined): Touch[] {
     const pairs = new Map<string, Touch>();
     for (const { geoms, depthM } of touches) {

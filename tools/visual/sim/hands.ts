@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Hands on the body in MuJoCo: one that grips a limb and pulls, one that holds the trunk upright over a place and lets go slowly.
+// Hands on the body in MuJoCo: one grips a limb and pulls, one holds the trunk upright over a place and lets go slowly.
 
 import { add, cross, heading, inverse, length, multiply, rotate, scale, subtract, turn } from '../model/space.ts';
 import type { Place, Quaternion, Vector } from '../model/space.ts';
 import type { Data } from './mujoco.ts';
 
 export const GRAVITY = 9.81;
-/** Cosine of the trunk's tilt below which the soles are not the lowest part. */
+/** Cosine of the trunk's tilt. Below it the soles may not be the lowest part. */
 export const UPRIGHT = 0.9;
 /** Metres between the floor and the soles of a robot that is held. */
 export const CLEARANCE_M = 0.001;
 const GRIP = { newtonPerMetre: 150, newtonSecondPerMetre: 6, limitNewton: 14 };
-/** The hand that holds the trunk: critically damped for a robot of 1.8 kg. */
+/** The hand that holds the trunk. Critically damped for a robot of 1.8 kg. */
 const HOLD = { move: 400, moveDamp: 50, turn: 20, turnDamp: 1.6, farthestM: 0.1, liftedM: 0.36, releaseSteps: 400 };
 
-/** What hands know of the body. */
+/** What the hands need of the body. */
 export interface HandledBody {
     readonly data: Data;
     /** MuJoCo's number of the trunk's link. */
@@ -27,7 +27,7 @@ export interface HandledBody {
     lowestSole(): number;
 }
 
-/** A grip on a link, which MuJoCo has by number: its point in the link's frame, and where it is wanted in the room. */
+/** A grip on a link, given by its MuJoCo number: a point in the link's frame and its target in the room. */
 export interface LinkGrip {
     readonly link: number;
     readonly point: Vector;
@@ -37,13 +37,13 @@ export interface LinkGrip {
 export class Hands {
     private readonly body: HandledBody;
     private grip: LinkGrip | null = null;
-    /** Where the gripped point was a step ago. */
+    /** Position of the gripped point one step ago. */
     private before: Vector | null = null;
     private holdHeading = 0;
     private holdAt: Vector = [0, 0, 0];
-    private holding = 0; // 1: held, between: being let go, 0: free
+    private holding = 0; // 1: held; between: letting go; 0: free
     private isHeld = false;
-    /** A hand has left forces behind. */
+    /** The last step left forces set. */
     private wasTouched = false;
 
     constructor(body: HandledBody) {
@@ -55,7 +55,7 @@ export class Hands {
         this.grip = grip;
     }
 
-    /** Held: upright, over the place where it is, feet just off the floor. Let go: in 0.4 s. */
+    /** true: holds the robot upright over its place, feet just off the floor. false: lets go within 0.4 s. */
     setHeld(held: boolean): void {
         this.isHeld = held;
         if (!held) return;
@@ -71,7 +71,7 @@ export class Hands {
     /** Sets the forces for the next step. */
     pull(): void {
         const isTouched = this.grip !== null || this.holding > 0;
-        if (!isTouched && !this.wasTouched) return; // MuJoCo keeps applying a force until it is taken away
+        if (!isTouched && !this.wasTouched) return; // MuJoCo keeps applying a force until it is cleared
         this.wasTouched = isTouched;
         const forces = this.body.data.xfrc_applied;
         forces.fill(0);
@@ -119,14 +119,14 @@ export class Hands {
     }
 }
 
-/** A force at the link's centre of mass and a torque, added to what acts already. */
+/** Adds a force at the link's centre of mass and a torque to the forces already set. */
 function apply(forces: Float64Array, link: number, force: Vector, torque: Vector): void {
     [...force, ...torque].forEach((value, i) => {
         forces[6 * link + i] = (forces[6 * link + i] ?? 0) + value;
     });
 }
 
-/** A rotation as axis times angle, the short way. */
+/** A rotation as axis times the shortest angle. */
 function turnOf(q: Quaternion): Vector {
     const sign = q[0] < 0 ? -1 : 1;
     const sine = Math.hypot(q[1], q[2], q[3]);

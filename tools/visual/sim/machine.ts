@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The simulated robot as a whole: board, servos and, when there is one, a body. Runs for so many cycles; knows no wall
-// clock, no worker and no storage.
+// The simulated board with its servos: made from images and kept memories, read back, reset. Uses no wall clock, worker or storage.
 
 import * as facts from '../model/facts.ts';
 import { Board, CYCLES_PER_MS, MOTIONS_ADDRESS } from './board.ts';
 import type { ServoReading } from './board.ts';
 
-/** Boot loader, application and motions for a robot fresh from the factory. */
+/** Boot loader, application and motions of a factory-new robot. */
 export interface Images {
     readonly boot: string; // Intel HEX
     readonly application: string; // Intel HEX
     readonly motions: Uint8Array;
 }
 
-/** What a robot keeps without power. */
+/** The memories that survive without power. */
 export interface Memories {
     readonly flash: Uint8Array;
     readonly eeprom: Uint8Array;
@@ -21,12 +20,12 @@ export interface Memories {
 }
 
 export const SERVO_IDS: readonly number[] = Array.from({ length: 18 }, (_, i) => i + 1);
-/** The loader's mode byte: start the application without a word (an erased one keeps it at its prompt). */
+/** The loader's mode byte: start the application without a message. If erased, the loader stays at its prompt. */
 const { MEM_EE_BOOT_MODE: MODE_BYTE, START_MODE_APPLICATION: MODE_APPLICATION, MEM_APP_END: APPLICATION_END } = facts;
 const RESET_CYCLES = 10 * CYCLES_PER_MS;
 
-/** A robot without power. What it kept is loaded first, then the images over it, as a new firmware would be; motions only
- *  into a robot that kept nothing. Throws when an image is not one: the text names it and what is wrong. */
+/** A robot without power. Kept memories are loaded first, then boot loader and application over them, as in a firmware update. The motions
+ *  are loaded only if nothing was kept. Throws if an image is invalid; the text names the image and the fault. */
 export async function makeMachine(module: WebAssembly.Module, images: Images, kept: Memories | null, seed = 1): Promise<Board> {
     const board = await Board.make(module, seed);
     for (const id of SERVO_IDS) board.addServo(id);
@@ -40,7 +39,7 @@ export async function makeMachine(module: WebAssembly.Module, images: Images, ke
         board.writeEeprom(MODE_BYTE, Uint8Array.of(MODE_APPLICATION));
     }
     loadImage(board, 'the application', images.application);
-    loadImage(board, 'the boot loader', images.boot); // also sets the fuse that starts it
+    loadImage(board, 'the boot loader', images.boot); // also sets the fuse that starts the loader
     return board;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Everything that the page and the worker with the simulated robot say to each other.
+// All messages between the page and the worker with the simulated robot.
 
 import type { Body } from '../model/body.ts';
 import type { Vector } from '../model/space.ts';
@@ -7,14 +7,14 @@ import type { RobotState } from '../robot/robot-state.ts';
 import type { Button, Sender } from './board.ts';
 import type { Images, Memories } from './machine.ts';
 
-/** A hand that pulls a link at a point (in the link's frame) towards a place in the room. */
+/** A hand that pulls a point of a link (in the link's frame) towards a place in the room. */
 export interface Grip {
     readonly link: string;
     readonly point: Vector;
     readonly target: Vector;
 }
 
-/** The floor: tilted to the front and to the left (radians), and how much it grips (0..2). */
+/** The floor: tilt to the front and to the left (radians) and friction (0..2). */
 export interface Floor {
     readonly tiltFront: number;
     readonly tiltLeft: number;
@@ -29,7 +29,7 @@ export type ToSim =
           readonly images: Images;
           readonly kept: Memories | null;
       }
-    /** The page has taken the last state: it may have the next one. So a slow page gets fewer, never a queue of them. */
+    /** The page has taken the last state and may get the next. A slow page gets fewer states instead of a queue. */
     | { readonly kind: 'seen' }
     | { readonly kind: 'physics'; readonly bodyXml: string; readonly wasm: ArrayBuffer }
     | { readonly kind: 'bytes'; readonly sender: Sender; readonly bytes: Uint8Array }
@@ -41,7 +41,7 @@ export type ToSim =
     | { readonly kind: 'battery'; readonly volts: number }
     | { readonly kind: 'fault'; readonly servo: number; readonly fault: number; readonly answers: number }
     | { readonly kind: 'turn-servo'; readonly servo: number; readonly position: number }
-    /** ticks: lets go by itself after so many; without it, at the next grip. */
+    /** ticks: releases the grip after this many ticks; without it, at the next grip. */
     | { readonly kind: 'grip'; readonly grip: Grip | null; readonly ticks?: number }
     | { readonly kind: 'hold'; readonly held: boolean }
     | { readonly kind: 'floor'; readonly floor: Floor }
@@ -52,7 +52,7 @@ export type FromSim =
     | { readonly kind: 'physics'; readonly error: string | null }
     | { readonly kind: 'bytes'; readonly bytes: Uint8Array }
     | { readonly kind: 'state'; readonly state: RobotState }
-    /** The robot has written flash or EEPROM and rests: keep this. `id`: it was asked for by a message with that id. */
+    /** Memories to keep: the robot has written flash or EEPROM and is now at rest. `id`: answers the request with that id. */
     | { readonly kind: 'memories'; readonly memories: Memories; readonly id: number | null }
     | { readonly kind: 'violation'; readonly violation: string; readonly text: string }
     | { readonly kind: 'crashed'; readonly text: string };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The little of MuJoCo's WebAssembly that is used here, with types: its own declarations say `any` for every array.
+// The part of MuJoCo's WebAssembly that is used here, with types. Its own declarations type every array as `any`.
 
 import loadMujoco from '@mujoco/mujoco';
 
@@ -24,7 +24,7 @@ export interface Model {
 interface Contact {
     readonly geom1: number;
     readonly geom2: number;
-    /** Metres between them; negative: one is in the other. */
+    /** Distance in metres; negative: overlap. */
     readonly dist: number;
     delete(): void;
 }
@@ -34,7 +34,7 @@ interface Contacts {
     delete(): void;
 }
 
-/** Arrays are views into the module's memory, made anew at each reading. */
+/** The arrays are views into the module's memory, created at each access. */
 export interface Data {
     readonly qpos: Float64Array;
     readonly qvel: Float64Array;
@@ -44,7 +44,7 @@ export interface Data {
     readonly xquat: Float64Array;
     readonly xipos: Float64Array;
     readonly ncon: number;
-    /** A copy, made at each reading: delete it, and what comes out of it. */
+    /** A copy, created at each access. Delete it and each contact taken from it. */
     readonly contact: Contacts;
     delete(): void;
 }
@@ -60,10 +60,10 @@ export interface Mujoco {
     mj_name2id(model: Model, type: number, name: string): number;
 }
 
-/** mjtObj: the numbers of MuJoCo's kinds of things. */
+/** mjtObj: MuJoCo's numbers of object types. */
 export const OBJECT = { body: 1, joint: 3, geom: 5 } as const;
 
-/** wasm: the bytes of mujoco.wasm. Throws when there is not enough memory for it. */
+/** wasm: the bytes of mujoco.wasm. Throws if there is not enough memory for it. */
 export async function makeMujoco(wasm: ArrayBuffer): Promise<Mujoco> {
     const module: unknown = await loadMujoco({ wasmBinary: wasm });
     return module as Mujoco; // narrowed to what is used; tests/physical-body.test.ts uses all of it

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// How much simulated time is due. Pure: the wall clock is an argument.
+// Computes how much simulated time is due. Pure: the wall clock is an argument.
 
 import { CYCLES_PER_MS } from './board.ts';
 
-/** Behind by more than this (a hidden tab, a machine that slept), the time is let go: a robot must not leap to catch up. */
+/** A longer delay (a hidden tab, a computer that slept) is skipped: a robot must not leap to catch up. */
 const FORGIVEN_MS = 250;
 
 export class Pacer {
@@ -11,7 +11,7 @@ export class Pacer {
     private startMs = 0;
     private startCycle = 0;
 
-    /** speed: simulated seconds a second; 0 stands still, Infinity runs as fast as it can. */
+    /** speed: simulated seconds per second. 0 pauses, Infinity runs as fast as possible. */
     setSpeed(speed: number, nowMs: number, cycle: number): void {
         this.speed = speed;
         this.startMs = nowMs;
@@ -30,7 +30,7 @@ export class Pacer {
         return this.speed === Infinity;
     }
 
-    /** The cycle that should be reached now. */
+    /** The cycle that should be reached by now. */
     dueCycle(nowMs: number, cycle: number): number {
         if (this.speed === 0) return cycle;
         if (this.speed === Infinity) return Infinity;
@@ -40,7 +40,7 @@ export class Pacer {
         return cycle;
     }
 
-    /** Milliseconds of the wall clock by which the simulation is behind; 0 when it is paused or unthrottled. */
+    /** Wall-clock milliseconds that the simulation is late; 0 if paused or unthrottled. */
     lateMs(nowMs: number, cycle: number): number {
         if (this.speed === 0 || this.speed === Infinity) return 0;
         const due = this.startCycle + (nowMs - this.startMs) * this.speed * CYCLES_PER_MS;

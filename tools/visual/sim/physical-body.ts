@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The robot's body in MuJoCo: torques of the servos in, angles and speeds of their shafts out, 1024 times a second. It stands in a
-// room: its floor may tilt, and hands (hands.ts) may grip and hold it.
+// The robot's body in MuJoCo. Takes servo torques and returns angles and speeds of the shafts, 1024 times a second. The floor of its room
+// can tilt, and hands (hands.ts) can grip and hold the robot.
 
 import type { Body } from '../model/body.ts';
 import { jointAngle, soleCorners } from '../model/body.ts';
@@ -36,13 +36,13 @@ export class PhysicalBody implements HandledBody {
     readonly trunkLink: number;
     private readonly floorGeom: number;
     private readonly soleGeoms: ReadonlySet<number>;
-    /** By the number of the body that is the link. */
+    /** By MuJoCo body number. */
     private readonly linkNames: ReadonlyMap<number, string>;
     readonly stepsPerSecond: number;
     readonly massKg: number;
     private readonly hands: Hands;
 
-    /** xml: body.xml. Throws MuJoCo's words when it is no model. */
+    /** xml: body.xml. Throws MuJoCo's message if it is not a valid model. */
     constructor(mujoco: Mujoco, xml: string, body: Body) {
         this.mujoco = mujoco;
         this.model = mujoco.MjModel.from_xml_string(xml);
@@ -62,7 +62,7 @@ export class PhysicalBody implements HandledBody {
         mujoco.mj_forward(this.model, this.data);
     }
 
-    /** Puts the robot on its feet in the room's middle, with these joint angles; the trunk leans as flat soles make it lean. */
+    /** Puts the robot on its feet in the middle of the room with these joint angles. The trunk leans so that the soles are flat. */
     begin(angleOf: (servo: number) => number, body: Body): void {
         this.mujoco.mj_resetData(this.model, this.data);
         for (const joint of body.joints) {
@@ -80,7 +80,7 @@ export class PhysicalBody implements HandledBody {
         this.mujoco.mj_forward(this.model, this.data);
     }
 
-    /** The seam's look(): angles and speeds as they are. */
+    /** look() of servo_body.h: the current angles and speeds. */
     look(shafts: Float64Array): void {
         const { qpos, qvel } = this.data;
         for (let at = 0; at < shafts.length; at += SHAFT_FIELDS) {
@@ -91,7 +91,7 @@ export class PhysicalBody implements HandledBody {
         }
     }
 
-    /** The seam's step(): lets 1/1024 s pass under these torques. */
+    /** step() of servo_body.h: advances 1/1024 s with these torques. */
     step(shafts: Float64Array): void {
         const ctrl = this.data.ctrl;
         for (let at = 0; at < shafts.length; at += SHAFT_FIELDS) {
@@ -108,7 +108,7 @@ export class PhysicalBody implements HandledBody {
         this.hands.setGrip(grip && link > 0 ? { ...grip, link } : null);
     }
 
-    /** Held: upright, over the place where it is, feet just off the floor. Let go: in 0.4 s. */
+    /** true: holds the robot upright over its place, feet just off the floor. false: lets go within 0.4 s. */
     setHeld(held: boolean): void {
         this.hands.setHeld(held);
     }
@@ -117,7 +117,7 @@ export class PhysicalBody implements HandledBody {
         return this.hands.isHolding;
     }
 
-    /** A tilted floor is gravity that leans: the picture tilts, the numbers stay small. */
+    /** Tilts gravity instead of the floor; the picture tilts the floor. */
     setFloor(floor: Floor): void {
         const gravity = this.model.opt.gravity;
         gravity[0] = GRAVITY * Math.sin(floor.tiltFront) * Math.cos(floor.tiltLeft);
@@ -140,7 +140,7 @@ export class PhysicalBody implements HandledBody {
         return this.upright < FALLEN;
     }
 
-    /** Upright, and nothing but its soles on the floor. */
+    /** Upright, and only the soles touch the floor. */
     get isOnItsFeet(): boolean {
         const { floorGeom, soleGeoms } = this;
         return (
@@ -154,7 +154,7 @@ export class PhysicalBody implements HandledBody {
         return linkTouches(geomTouches(this.data), geom => this.linkNames.get(this.model.geom_bodyid[geom] ?? -1));
     }
 
-    /** Links that would be in each other with these joint angles. The robot is lifted off the floor for it, and stays there. */
+    /** Links that would overlap at these joint angles. This lifts the robot off the floor and leaves it there. */
     touchingIn(angleOf: (servo: number) => number): Touch[] {
         const { qpos } = this.data;
         qpos[2] = LIFTED_M;
@@ -178,7 +178,7 @@ export class PhysicalBody implements HandledBody {
             speedAt: this.model.jnt_dofadr[index] ?? 0,
             torqueAt: motor,
             direction: joint.direction,
-            offsetRad: jointAngle(joint, POSITION_MIDDLE), // shaft angle 0 is that position
+            offsetRad: jointAngle(joint, POSITION_MIDDLE), // the shaft's angle 0 is that position
         });
     }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page's end of the worker with the simulated robot: a Port, and the knobs that a real robot has not.
+// The page's end of the worker with the simulated robot: a Port, and the controls that a real robot does not have.
 
 import { wallClock } from '../robot/clock.ts';
 import type { Clock } from '../robot/clock.ts';
@@ -7,11 +7,11 @@ import { BytePort } from './byte-port.ts';
 import type { FromSim, ToSim } from './messages.ts';
 import type { Memories } from './machine.ts';
 
-/** The worker looks at its post box every few milliseconds: one that says nothing for so long has hung. */
+/** The worker reads its messages every few milliseconds. If it does not answer for this long, it has hung. */
 const ANSWER_MS = 60_000;
 
 export interface SimulatedRobotEvents {
-    /** Everything but bytes, which go to the port, and memories that were asked for. */
+    /** All messages except bytes, which go to the port, and requested memories. */
     message(message: FromSim): void;
 }
 
@@ -38,7 +38,7 @@ export class SimulatedRobot {
         this.worker.postMessage(message, transfer);
     }
 
-    /** Flash and EEPROM as they are now. Rejects when the worker has crashed or does not answer. */
+    /** The current flash and EEPROM. Rejects if the worker has crashed or does not answer. */
     memories(): Promise<Memories> {
         const id = this.nextId++;
         return new Promise((resolve, fail) => {
@@ -62,7 +62,7 @@ export class SimulatedRobot {
         this.worker.terminate();
     }
 
-    /** Who waited for this answer, if somebody still does. */
+    /** The request that waits for this answer, if it still does. */
     private end(id: number) {
         const waiting = this.waiting.get(id);
         this.waiting.delete(id);

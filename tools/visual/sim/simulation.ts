@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Board, servos and body together, tick by tick, and what there is to tell of them. Knows no worker and no wall clock.
+// Runs board, servos and body together, tick by tick, and reports their state. Uses no worker and no wall clock.
 
 import { jointAngle } from '../model/body.ts';
 import type { Body, Joint } from '../model/body.ts';
@@ -10,7 +10,7 @@ import type { Floor, Grip } from './messages.ts';
 import type { PhysicalBody } from './physical-body.ts';
 import { Standing } from './standing.ts';
 
-const TRACE_LIMIT = 512; // ticks; a page that asks rarely gets the newest
+const TRACE_LIMIT = 512; // ticks; a page that asks rarely gets only the newest
 
 export class Simulation {
     readonly board: Board;
@@ -31,8 +31,7 @@ export class Simulation {
         this.readings = board.servos();
     }
 
-    /** From now on the robot has a body of mass that can fall, standing where its joints put it. held: a hand holds it until
-     *  setHeld(false). */
+    /** Gives the robot a body with mass that can fall. It stands as its joints are. held: a hand holds it until setHeld(false). */
     setPhysical(physical: PhysicalBody, held = true): void {
         this.physical = physical;
         physical.begin(servo => this.angle(servo), this.body);
@@ -49,7 +48,7 @@ export class Simulation {
         return this.physical !== null;
     }
 
-    /** Runs on to this cycle, at tick borders. false: a violation stopped the board. */
+    /** Runs to this cycle in whole ticks. false: a violation stopped the board. */
     runTo(cycle: number): boolean {
         let next = Math.floor(this.board.nowCycles / CYCLES_PER_TICK + 1) * CYCLES_PER_TICK;
         for (; next <= cycle; next += CYCLES_PER_TICK) {
@@ -63,7 +62,7 @@ export class Simulation {
         return this.runTo(this.board.nowCycles + CYCLES_PER_TICK);
     }
 
-    /** ticks: how long the hand pulls; without it, until the next grip. */
+    /** ticks: how long the hand pulls; by default until the next grip. */
     setGrip(grip: Grip | null, ticks = Infinity): void {
         this.gripTicks = ticks;
         this.physical?.setGrip(grip);
@@ -78,7 +77,7 @@ export class Simulation {
         this.physical?.setFloor(floor);
     }
 
-    /** A hand turns a joint of a robot without a body of mass. */
+    /** Turns a joint by hand. Only without a physical body. */
     turnServo(servo: number, position: number): void {
         const index = this.readings.findIndex(reading => reading.id === servo);
         if (index >= 0 && !this.physical) this.board.pushServo(index, position);
@@ -89,7 +88,7 @@ export class Simulation {
         if (index >= 0) this.board.setFault(index, fault, answers);
     }
 
-    /** Everything there is to tell; the trace begins anew. */
+    /** The complete state. Clears the trace. */
     state(lateMs: number): RobotState {
         const trace = Float32Array.from(this.trace);
         this.trace = [];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A robot that stands where its joints put it, without physics: the foot that is lower stays where it is and carries the
-// rest. It cannot fall and does not slip; it is what is shown while physics loads, and where physics cannot be had.
+// Stands the robot on its lower foot, without physics: that foot stays in place and carries the rest. The robot cannot fall or slip. Used
+// while physics loads and where it is not available.
 
 import { placeLinks, soleCorners } from '../model/body.ts';
 import type { Body, Joint } from '../model/body.ts';
@@ -10,7 +10,7 @@ import type { Place, Vector } from '../model/space.ts';
 const FEET = ['right_foot', 'left_foot'] as const;
 const SOLES = { right_foot: 'right_sole', left_foot: 'left_sole' } as const;
 const ORIGIN: Place = { pos: [0, 0, 0], quat: [1, 0, 0, 0] };
-/** The other foot takes over when it is lower by this, so that noise does not make them change. */
+/** The other foot takes over when it is lower by this much, so that noise does not switch feet. */
 const LOWER_M = 0.0005;
 
 export class Standing {
@@ -25,12 +25,12 @@ export class Standing {
         this.corners = { right_foot: soleCorners(body, SOLES.right_foot), left_foot: soleCorners(body, SOLES.left_foot) };
     }
 
-    /** Stands anew with the trunk over the middle. */
+    /** Starts again with the trunk over the middle. */
     begin(): void {
         this.foot = null;
     }
 
-    /** The joints have moved: where the trunk is now. */
+    /** Updates the pose and returns the trunk's place. */
     move(angleOf: (joint: Joint) => number): Place {
         const inTrunk = placeLinks(this.body, ORIGIN, angleOf);
         const place = (foot: (typeof FEET)[number]): Place => inTrunk.get(foot) ?? ORIGIN;
@@ -51,7 +51,7 @@ export class Standing {
         return this.trunk;
     }
 
-    /** A foot flat on the ground, turned as it is seen: its sole at height 0. */
+    /** A foot flat on the ground with its current heading and its sole at height 0. */
     private flat(at: Place, inTrunk: Place): Place {
         const foot = { pos: at.pos, quat: turn([0, 0, 1], heading(at.quat) + heading(inTrunk.quat)) };
         const lowest = Math.min(0, ...this.corners[this.stance].map(corner => rotate(foot.quat, corner)[2]));

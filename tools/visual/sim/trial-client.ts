@@ -4,7 +4,7 @@
 import type { Touch, TrialRecord, TrialRequest } from '../model/trial.ts';
 import type { FromTrials, ToTrials, TrialParts } from './trial-messages.ts';
 
-/** In the place of an id: the worker's beginning. */
+/** Id of the worker's start. */
 const STARTED = 0;
 
 interface Waiting {
@@ -22,13 +22,13 @@ export class TrialClient {
     constructor(worker: Worker, parts: TrialParts) {
         this.worker = worker;
         this.started = new Promise((take, fail) => this.waiting.set(STARTED, { take: () => take(), fail }));
-        this.started.catch(() => undefined); // whoever asks for something is told
+        this.started.catch(() => undefined); // each request reports it
         worker.onmessage = (event: MessageEvent<FromTrials>) => this.take(event.data);
         worker.onerror = event => this.failAll(new Error(event.message));
         this.post({ kind: 'start', ...parts }, [parts.wasm]);
     }
 
-    /** Rejects with the worker's words; when it is cancelled, with the signal's reason. */
+    /** Rejects with the worker's message, or with the signal's reason if cancelled. */
     async play(request: TrialRequest, signal: AbortSignal): Promise<TrialRecord> {
         signal.throwIfAborted();
         const cancel = (): void => this.post({ kind: 'cancel' });

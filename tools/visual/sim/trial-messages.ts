@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Everything that the page and the worker for trials say to each other.
+// All messages between the page and the worker for trials.
 
 import type { Body } from '../model/body.ts';
 import type { Touch, TrialRecord, TrialRequest } from '../model/trial.ts';
 
-/** What a worker for trials begins with. module: trial.wasm; wasm: the bytes of mujoco.wasm. */
+/** What a worker for trials needs to start. module: trial.wasm; wasm: the bytes of mujoco.wasm. */
 export interface TrialParts {
     readonly module: WebAssembly.Module;
     readonly wasm: ArrayBuffer;
@@ -14,7 +14,7 @@ export interface TrialParts {
 
 export type ToTrials =
     | ({ readonly kind: 'start' } & TrialParts)
-    /** One at a time: another one ends the one before, which is not answered. */
+    /** One at a time. A new play ends the previous one, which then gets no answer. */
     | { readonly kind: 'play'; readonly id: number; readonly request: TrialRequest }
     | { readonly kind: 'cancel' }
     /** poses: servo units by ID, JOINTS numbers each. */
@@ -24,5 +24,5 @@ export type FromTrials =
     | { readonly kind: 'started' }
     | { readonly kind: 'played'; readonly id: number; readonly record: TrialRecord }
     | { readonly kind: 'touched'; readonly id: number; readonly touches: readonly (readonly Touch[])[] }
-    /** id: of what could not be done; null: the worker as a whole cannot work. */
+    /** id: the failed request; null: the worker cannot run at all. */
     | { readonly kind: 'failed'; readonly id: number | null; readonly text: string };

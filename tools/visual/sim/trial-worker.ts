@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The worker for trials: motions played in physics beside the robot that is shown, and poses looked at for limbs that meet.
-// It has a MuJoCo of its own, so that nothing of the shown robot is touched.
+// The worker for trials: plays motions in physics and finds limbs that touch in single poses. It has its own MuJoCo, so the robot on
+// display is not affected.
 
 import { jointAngle } from '../model/body.ts';
 import type { Body } from '../model/body.ts';
@@ -14,7 +14,7 @@ import type { FromTrials, ToTrials, TrialParts } from './trial-messages.ts';
 interface Ready {
     readonly stand: TrialStand;
     readonly body: Body;
-    /** For single poses: a trial under way has its own. */
+    /** For single poses. A running trial uses another body. */
     readonly posed: PhysicalBody;
 }
 
@@ -34,7 +34,7 @@ async function start({ module, wasm, bodyXml, body }: TrialParts): Promise<void>
     tell({ kind: 'started' });
 }
 
-/** The next piece of the trial comes behind what lies in the post box. */
+/** Queues the next part of the trial behind the waiting messages. */
 function later(): void {
     if (!isTurnDue) turn.port2.postMessage(null);
     isTurnDue = true;

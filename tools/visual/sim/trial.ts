@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One motion in physics, as fast as it can be computed: the firmware's player and the virtual servos (trial.wasm) on a body of
-// their own. The robot that is shown is not touched. What each function means stands in board/trial_api.h.
+// Plays one motion in physics, as fast as possible: the firmware's player and the virtual servos (trial.wasm) on their own body. The robot
+// on display is not affected. board/trial_api.h documents the functions.
 
 import { jointAngle } from '../model/body.ts';
 import type { Body } from '../model/body.ts';
@@ -12,14 +12,14 @@ import type { ShaftBody } from './board.ts';
 import type { PhysicalBody } from './physical-body.ts';
 import { wasiImports } from './wasi.ts';
 
-/** In the first pose, before the play, and after it: does it stay? */
+/** Ticks to stand in the first pose before the play, and to watch the robot after it. */
 const SETTLE_TICKS = 32;
 const AFTER_TICKS = 96;
-/** For what a motion does when it is told to stop. */
+/** Ticks that a motion may take to stop. */
 const STOP_TICKS = 12 * TICKS_PER_SECOND;
-/** Cosine of 60 degrees, as the trials of tools/body have it. */
+/** Cosine of 60 degrees, as in the trials of tools/body. */
 const FALLEN = 0.5;
-/** Between two looks at the post box: about 10 ms of computing. */
+/** Ticks between two chances to read messages: about 10 ms of computing. */
 const TURN_TICKS = 16;
 
 interface Exports {
@@ -38,7 +38,7 @@ interface Exports {
     trial_api_positions(): number;
 }
 
-/** A trial under way. */
+/** The state of a running trial. */
 class Play {
     readonly positions: Float32Array;
     readonly pages = new Set<number>();
@@ -53,7 +53,7 @@ class Play {
     }
 }
 
-/** A place for trials; one at a time. */
+/** Runs trials, one at a time. */
 export class TrialStand {
     private readonly api: Exports;
     private readonly body: Body;
@@ -65,9 +65,9 @@ export class TrialStand {
         this.physical = physical;
     }
 
-    /** module: trial.wasm; physical: for trials alone. */
+    /** module: trial.wasm; physical: used by trials only. */
     static async make(module: WebAssembly.Module, body: Body, physical: PhysicalBody): Promise<TrialStand> {
-        const exportsOf = (): Exports => instance.exports as unknown as Exports; // the names of trial_api.h: tests/trial.test.ts calls them all
+        const exportsOf = (): Exports => instance.exports as unknown as Exports; // trial_api.h; tests/trial.test.ts calls all
         const pass = (call: keyof ShaftBody) => (at: number, count: number) =>
             physical[call](new Float64Array(exportsOf().memory.buffer, at, count * SHAFT_FIELDS));
         const instance: WebAssembly.Instance = await WebAssembly.instantiate(module, {
@@ -78,7 +78,7 @@ export class TrialStand {
         return new TrialStand(exportsOf(), body, physical);
     }
 
-    /** Plays a motion; yields now and then, with the ticks that are done. Throws when the page cannot be played. */
+    /** Plays a motion. Yields regularly with the number of ticks done. Throws if the page cannot be played. */
     *play(request: TrialRequest): Generator<number, TrialRecord> {
         const { api } = this;
         const play = this.begin(request);
@@ -116,7 +116,7 @@ export class TrialStand {
         return new Play(request);
     }
 
-    /** Puts it on its soles in the first pose. false: it does not stand there. */
+    /** Puts the robot on its soles in the first pose. false: it does not stay upright. */
     private settle({ pose }: TrialRequest): boolean {
         const joints = new Map(this.body.joints.map(joint => [joint.servo, joint]));
         this.physical.begin(servo => {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The worker with the simulated robot: its loop in wall-clock time, and its post box (messages.ts).
+// The worker with the simulated robot: its loop in wall-clock time and its messages (messages.ts).
 
 import { CYCLES_PER_TICK } from './board.ts';
 import { resetBoard, makeMachine, readMemories } from './machine.ts';
@@ -7,10 +7,10 @@ import type { FromSim, ToSim } from './messages.ts';
 import { Pacer } from './pacer.ts';
 import { Simulation } from './simulation.ts';
 
-const TURN_MS = 12; // of computing before the post box is looked at again
+const TURN_MS = 12; // computing time before messages are read again
 const FRAME_MS = 1000 / 60;
 const IDLE_MS = 4;
-/** What the robot has written is kept when it has rested for so long. */
+/** Written memories are sent to be kept after this time without further writes. */
 const REST_MS = 300;
 
 let simulation: Simulation | null = null;
@@ -22,7 +22,7 @@ let seenOperations = 0;
 let writtenAtMs = 0;
 let isStopped = false;
 let isSeen = true;
-/** What was asked of a robot that is still being made. */
+/** Messages that came while the robot was being made. */
 const early: ToSim[] = [];
 const ready = new MessageChannel();
 
@@ -68,7 +68,7 @@ function loop(): void {
     else setTimeout(() => guarded(loop), IDLE_MS);
 }
 
-/** Runs what is due, but not for longer than one turn; true when there is more. */
+/** Runs what is due, for at most one turn. true: there is more. */
 function run(robot: Simulation, startMs: number): boolean {
     while (robot.board.nowCycles < pacer.dueCycle(performance.now(), robot.board.nowCycles)) {
         const before = robot.board.nowCycles;
@@ -103,7 +103,7 @@ function sendFrame(robot: Simulation, nowMs: number): void {
 function handle(message: ToSim): void {
     if (message.kind === 'start') return void start(message).catch(crash);
     if (!simulation) {
-        if (message.kind !== 'bytes') early.push(message); // bytes: nobody listens to the wire yet
+        if (message.kind !== 'bytes') early.push(message); // bytes: nobody reads the line yet
         return;
     }
     if (message.kind === 'physics') return void addPhysics(message);
