@@ -16,8 +16,8 @@ TOP = HERE.parents[2]
 BUILD = pathlib.Path(os.environ.get("M512_BUILD", TOP / "build"))
 LIBRARY = "host/tools/sim/libcm5sim.so"
 DATA = [f"firmware/{kind}-{board}.hex" for kind in ("boot", "edit", "play") for board in ("cm5", "cm2")] + ["motions/motions.bin"]
-BUNDLED = ("libsimavr", "libelf")  # what the library needs and not every computer has
-# The library links libsimavr (GPL-3) and libelf (LGPL-3 or GPL-2): their terms and their source go with them.
+BUNDLED = ("libsimavr", "libelf")  # needed by the library, but not present on every computer
+# The library links libsimavr (GPL-3) and libelf (LGPL-3 or GPL-2), so their terms and the source offer go into the wheel.
 LICENCES = {"LICENSE.GPL-3": "/usr/share/common-licenses/GPL-3", "LICENSE.LGPL-3": "/usr/share/common-licenses/LGPL-3"}
 OFFER = """\
 libcm5sim.so links libsimavr and may be passed on under the GNU General Public License, version 3 only (LICENSE.GPL-3).
@@ -28,7 +28,7 @@ unchanged:
 Whoever passes on this wheel passes on this offer with it, and gives the source to anybody who asks.
 The firmware images, the motions and the Python files are under the MIT licence (LICENSE.MIT).
 """
-# Of the source tree, at the same places under robot/: what --body runs.
+# Files of the source tree that --body runs, at the same paths under robot/.
 BODY = ["tools/body/humanoid.xml", "tools/body/gp.xml"]
 BODY += [str(path.relative_to(TOP)) for path in sorted((TOP / "tools/body/src/body").glob("*.py"))]
 
@@ -38,11 +38,11 @@ def version():
 
 
 class BuildWithRobot(build_py):
-    """Python files, and robot/ with what the build tree has, in the same folders."""
+    """Adds robot/ to the Python files, with the contents of the build tree in the same folders."""
 
     def run(self):
         super().run()
-        if self.editable_mode:  # the build tree itself is used
+        if self.editable_mode:  # it uses the build tree itself
             return
         missing = [name for name in (LIBRARY, *DATA) if not (BUILD / name).exists()]
         if missing:
@@ -73,13 +73,13 @@ class BuildWithRobot(build_py):
 
 
 def needed_libraries(library):
-    """[(name, path)] of the shared libraries that go into the wheel."""
+    """[(name, path)] of the shared libraries to put into the wheel."""
     found = re.findall(r"(\S+) => (\S+)", run("ldd", library))
     return [(name, os.path.realpath(path)) for name, path in found if name.startswith(BUNDLED)]
 
 
 def distribution_package(path):
-    """(package, source package, its version) that a library of the system came with."""
+    """(package, source package, its version) of a system library."""
     said = run("dpkg-query", "-S", path)
     package = said.split(": ")[0].split(",")[0]
     source, packaged = run("dpkg-query", "-W", "-f", "${source:Package} ${source:Version}", package).split()
@@ -91,7 +91,7 @@ def run(*command):
 
 
 class ForThisKindOfComputer(bdist_wheel):
-    """Any Python 3, this operating system and processor."""
+    """Tags the wheel: any Python 3, this operating system and processor."""
 
     def get_tag(self):
         return ("py3", "none", super().get_tag()[2])

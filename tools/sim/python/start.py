@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What tools/sim/cm5sim starts: the command from the source tree, where it need not be installed."""
+"""Started by tools/sim/cm5sim: runs the command from the source tree, without installation."""
 
 from cm5sim.command import main
 

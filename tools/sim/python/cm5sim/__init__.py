@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The simulated CM-5 / CM-2 board for Python tests: class Board (board.py), its servos (servo.py)."""
+"""The simulated CM-5 / CM-2 board for Python tests: class Board (board.py) and its servos (servo.py)."""
 
 from .board import Board, PowerCut, Violation
 

@@ -7,8 +7,8 @@
     print(b.expect("OK", ms=1000))
     b.run(ms=100)
 
-Time passes only inside run() and expect(). The first violation ends the run with the exception Violation, an armed
-power cut with PowerCut. Everything is deterministic for a given seed.
+Time passes only inside run() and expect(). The first violation ends the run with the exception Violation, an armed power cut with PowerCut.
+A run is deterministic for a given seed.
 """
 
 from __future__ import annotations
@@ -42,12 +42,13 @@ class Violation(Exception):
         self.kind, self.cycle, self.pc, self.function, self.text = kind, cycle, pc, function, text
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """A campaign's worker sends it to the process that asked; an exception alone would be made again from its message."""
+        """Supports pickling, for a campaign's worker that sends it to another process. By default an exception is rebuilt from its message
+        alone."""
         return type(self), (self.kind, self.cycle, self.pc, self.function, self.text)
 
 
 class PowerCut(Exception):
-    """The power cut that was armed has struck; power_on() starts the board again."""
+    """The armed power cut has happened. power_on() starts the board again."""
 
 
 class Frame(NamedTuple):
@@ -59,13 +60,13 @@ class Frame(NamedTuple):
 
 
 def find_image(name: str | pathlib.Path) -> pathlib.Path:
-    """A path as it is, or a name below build/firmware."""
+    """Returns the path if it exists, else the path of that name below build/firmware."""
     path = pathlib.Path(name)
     return path if path.exists() else library.build_folder() / "firmware" / name
 
 
 class Board(Inside, Wear):
-    """One controller board; see the module's text."""
+    """One controller board; see the module docstring."""
 
     def __init__(
         self,
@@ -77,7 +78,7 @@ class Board(Inside, Wear):
         bootrst: bool | None = None,
         keep_packets: bool = True,
     ) -> None:
-        """keep_packets: for `packets` and `trace`; a run of hours would fill the memory with them."""
+        """keep_packets: record packets for `packets` and `trace`. In a run of hours they would fill the memory."""
         self._lib = library.load()
         self._pointer = self._lib.board_new({"cm5": 0, "cm2": 1}[kind], seed)
         if not self._pointer:
@@ -138,7 +139,7 @@ class Board(Inside, Wear):
         self._lib.board_brown_out(self._pointer)
 
     def reset(self, ms: float = 1) -> None:
-        """Presses MODE, the reset pin, for so long."""
+        """Holds MODE, the reset pin, for this time."""
         self.press("MODE")
         self.run(ms=ms)
         self.release("MODE")
@@ -158,7 +159,7 @@ class Board(Inside, Wear):
     # Time
 
     def run(self, ms: float = 0, cycles: int = 0, ticks: float = 0) -> bool:
-        """Lets time pass. Returns True if all of it has passed, False if an armed stop ended the run."""
+        """Runs for this time. Returns False if an armed stop ended the run earlier."""
         total = int(ms * CYCLES_PER_MS) + int(cycles) + int(ticks * CYCLES_PER_TICK)
         return self._run(total) == _TIME
 
@@ -173,7 +174,7 @@ class Board(Inside, Wear):
         return why
 
     def stop(self) -> None:
-        """Ends a run. From another thread as well, and also where it waits for GDB."""
+        """Ends a run. May be called from another thread, even while the run waits for GDB."""
         self._lib.board_stop(self._pointer)
 
     def run_to(self, function: int | str, ms: float = 1000) -> None:
@@ -219,7 +220,7 @@ class Board(Inside, Wear):
         return kind
 
     def allow(self, *names: str) -> None:
-        """Lets kinds of violation pass; they are counted."""
+        """Allows kinds of violation. They are only counted."""
         for name in names:
             self._lib.board_allow(self._pointer, self._kind(name), True)
 
@@ -228,7 +229,7 @@ class Board(Inside, Wear):
             self._lib.board_allow(self._pointer, self._kind(name), False)
 
     def violations(self, name: str) -> int:
-        """How often a kind happened, allowed or not."""
+        """Number of violations of a kind, allowed or not."""
         return int(self._lib.board_violations(self._pointer, self._kind(name)))
 
     # Console and remote
@@ -241,19 +242,19 @@ class Board(Inside, Wear):
             self.run(ms=1)
 
     def pause(self, ms: float) -> None:
-        """Queues silence behind the bytes sent so far."""
+        """Queues a pause after the bytes sent so far."""
         self._lib.board_console_pause(self._pointer, int(ms * CYCLES_PER_MS))
 
     @property
     def waiting(self) -> int:
-        """Bytes that have not left the line yet."""
+        """Number of bytes still queued or on the line."""
         return int(self._lib.board_console_waiting(self._pointer))
 
     def flush(self) -> None:
         self._lib.board_console_flush(self._pointer)
 
     def baud(self, rate: int) -> None:
-        """Sets the PC's and the remote's end of the line."""
+        """Sets the rate of the PC and the remote, in bps."""
         self._lib.board_console_rate(self._pointer, rate)
 
     def rc(self, value: int) -> None:
@@ -263,7 +264,7 @@ class Board(Inside, Wear):
         self._lib.board_console_send(self._pointer, 1, packet, len(packet))
 
     def remote(self, data: bytes) -> None:
-        """Queues raw bytes of the remote."""
+        """Queues raw bytes from the remote."""
         self._lib.board_console_send(self._pointer, 1, bytes(data), len(data))
 
     def _heard(self, start: int) -> bytes:
@@ -273,17 +274,17 @@ class Board(Inside, Wear):
 
     @property
     def console(self) -> bytes:
-        """Everything the PC has heard so far."""
+        """Everything the PC has received so far."""
         return self._heard(0)
 
     def take(self) -> bytes:
-        """What the PC has heard since the last take() or expect()."""
+        """Returns what the PC has received since the last take() or expect()."""
         data = self._heard(self._taken)
         self._taken += len(data)
         return data
 
     def expect(self, text: str | bytes, ms: float = 1000) -> str:
-        """Runs until text comes and returns all that came up to its end, from the last take() or expect() on."""
+        """Runs until text arrives. Returns everything since the last take() or expect(), up to the end of text."""
         wanted = text.encode() if isinstance(text, str) else bytes(text)
         end = self.now_cycles + int(ms * CYCLES_PER_MS)
         while wanted not in self._heard(self._taken):
@@ -299,8 +300,8 @@ class Board(Inside, Wear):
         return seen.decode("latin-1")
 
     def attach(self, body: Any) -> None:
-        """Hangs the servos' shafts on a body (body.physics.Physics), in lock step with the board; None: each turns by itself
-        again. After the body was put somewhere else by hand, attach it again: the servos then see it at once."""
+        """Connects the servo shafts to a body (body.physics.Physics), in lock step with the board. None: each servo turns its own rotor
+        again. After moving the body by hand, attach it again to show the servos its position at once."""
         self._body = body  # kept alive
         if body is None:
             self._lib.board_body(self._pointer, None)
@@ -317,23 +318,23 @@ class Board(Inside, Wear):
     # Servo bus
 
     def bus_turn_us(self, forget: bool = False) -> float:
-        """The longest time from a last stop bit of ours to listening again, since the start or a call with forget."""
+        """The longest time, in us, from our last stop bit until the board listens, since the start or a call with forget."""
         return int(self._lib.board_bus_turn(self._pointer, forget)) / 16
 
     def bus_pause_us(self, forget: bool = False) -> float:
-        """The longest pause between two characters of a packet of the board's."""
+        """The longest pause, in us, between two characters of a packet of the board, since the start or a call with forget."""
         return int(self._lib.board_bus_pause(self._pointer, forget)) / 16
 
     @property
     def packets(self) -> list[tuple[int, bytes]]:
-        """[(cycle, bytes)] of every good instruction packet since the start or clear_trace()."""
+        """[(cycle, bytes)] of each good instruction packet since the start or clear_trace()."""
         count = ctypes.c_size_t()
         items = self._lib.board_trace(self._pointer, ctypes.byref(count))
         return [(items[i].cycle, bytes(items[i].bytes[: items[i].count])) for i in range(count.value)]
 
     @property
     def trace(self) -> list[Frame]:
-        """Frames of goal positions: SYNC WRITE packets that reach address 30."""
+        """Frames of goal positions: SYNC WRITE packets that include address 30."""
         frames: list[Frame] = []
         first = None
         for cycle, packet in self.packets:
@@ -355,7 +356,7 @@ class Board(Inside, Wear):
         self._lib.board_press(self._pointer, BUTTONS.index(button.upper()), False)
 
     def bounce(self, ms: float) -> None:
-        """Sets how long contacts bounce after a press or a release (5 ms at first)."""
+        """Sets how long contacts bounce after a press or release (5 ms at first)."""
         self._lib.board_set_bounce(self._pointer, int(ms * CYCLES_PER_MS))
 
     @property
@@ -365,7 +366,7 @@ class Board(Inside, Wear):
         return {name for bit, name in enumerate(LEDS) if bits >> bit & 1}
 
     def pin(self, name: str) -> int | None:
-        """A port pin such as "E2": 0, 1, or None when the board does not drive it."""
+        """A port pin such as "E2": 0, 1, or None if the board does not drive it."""
         level: int = self._lib.board_pin(self._pointer, name[0].encode(), int(name[1]))
         return None if level < 0 else level
 
@@ -374,7 +375,7 @@ class Board(Inside, Wear):
 
 
 def sync_goals(packet: bytes) -> dict[int, int]:
-    """{id: goal} of a SYNC WRITE that covers the goal position (address 30), else {}."""
+    """{id: goal} of a SYNC WRITE that includes the goal position (address 30), else {}."""
     if len(packet) < 8 or packet[4] != 0x83:
         return {}
     address, length, data = packet[5], packet[6], packet[7:-1]

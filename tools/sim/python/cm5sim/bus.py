@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""cm5sim --bus-pty: servos without a board, on a serial port, in real time. Any PC program that speaks Dynamixel protocol 1.0 can be tried
-against them."""
+"""cm5sim --bus-pty: servos without a board, on a serial port, in real time. For any PC program that speaks Dynamixel protocol 1.0."""
 
 from __future__ import annotations
 
@@ -18,20 +17,20 @@ from .serial_port import SerialPort
 from .servo import BYTE_HEARD, Servos
 from .trace import Trace
 
-# A USB adapter sends a packet in one piece. The kernel may hand it to us in several, so a packet that has begun is given this long to become
-# whole before it goes on the wire as it is.
+# A USB adapter sends a packet in one piece, but the kernel may deliver it in several. An incomplete packet gets this long to become
+# complete, then goes on the wire as it is.
 GATHER_CYCLES = 3 * CYCLES_PER_MS
 GATHERED_MAX = 4096
-LOOK_CYCLES = 200 * CYCLES_PER_MS  # asleep at most so long: signals, --time
+LOOK_CYCLES = 200 * CYCLES_PER_MS  # longest sleep, because of signals and --time
 CYCLES_PER_S = 1000 * CYCLES_PER_MS
 FACTORY_BPS = 1_000_000
 
 
 def ends_whole(data: bytes) -> bool:
-    """Do these bytes end with a whole packet? FF FF ID length ..., `length` bytes behind it."""
+    """Whether the bytes end with a complete packet: FF FF ID length, then `length` bytes."""
     at = data.find(b"\xff\xff")
     while 0 <= at <= len(data) - 4:
-        if data[at + 2] == 0xFF:  # no ID: the header begins later
+        if data[at + 2] == 0xFF:  # not an ID: the header begins later
             at += 1
             continue
         end = at + 4 + data[at + 3]
@@ -42,22 +41,22 @@ def ends_whole(data: bytes) -> bool:
 
 
 class Bus:
-    """The servos, their port, and time as the wall clock has it."""
+    """The servos and their port, in step with the wall clock."""
 
     def __init__(self, options: Options) -> None:
         """OSError: a file or port cannot be used."""
         self._lib, self._options = library.load(), options
         self._bus = self._lib.servo_bus_new()
-        self._now = 0  # of the servos
+        self._now = 0  # cycle of the servos
         self.servos = Servos(self._lib, self._bus, lambda: self._now)
         plug_in_servos(self.servos, options)
         self._trace = Trace(self.servos, options.trace, options.plot) if options.trace or options.plot else None
         self.port = SerialPort(options.bus_pty or "", FACTORY_BPS)
-        self._heard = BYTE_HEARD(self._hear)  # kept alive as long as the bus
+        self._heard = BYTE_HEARD(self._hear)  # keeps the callback alive
         self._lib.servo_api_listen(self._bus, self._heard)
         self._answer = bytearray()
         self._gathered, self._gathered_at = b"", 0
-        self._line_free = 0  # the PC's last byte has left
+        self._line_free = 0  # end of the PC's last byte
         self._next_tick = 0
         self._rate = FACTORY_BPS
         self._start = time.monotonic_ns()
@@ -66,7 +65,7 @@ class Bus:
         return (time.monotonic_ns() - self._start) * 16 // 1000
 
     def _hear(self, _context: int, _now: int, byte: int, _rate: int, bad: bool) -> None:
-        """A byte of a servo. It answers at the rate it was asked at; a collision leaves a byte that no checksum fits."""
+        """Takes a byte of a servo. It replies at the rate of the request. A collision changes a bit, so that no checksum fits."""
         self._answer.append(byte ^ 0x80 if bad else byte)
 
     def _advance(self, now: int) -> None:
@@ -74,16 +73,16 @@ class Bus:
         self._lib.servo_bus_advance(self._bus, now)
 
     def _trace_up_to(self, now: int) -> None:
-        """Writes the rows of all ticks up to this cycle. Servos that have been brought up to a later moment do not go back: this comes
-        before whatever happens on the wire at that cycle."""
+        """Writes the rows of all ticks up to this cycle. Call it before anything happens on the wire at that cycle, because servos cannot
+        go back in time."""
         while self._trace and self._next_tick <= now:
             self._advance(self._next_tick)
             self._trace.row(self._next_tick // CYCLES_PER_TICK, self._next_tick)
             self._next_tick += CYCLES_PER_TICK
 
     def _put_on_wire(self, now: int) -> None:
-        """Puts the gathered bytes on the wire, back to back. Servo time may run ahead of the clock by the packet's length; it waits for
-        the clock afterwards."""
+        """Puts the gathered bytes on the wire, back to back. Servo time may run ahead of the clock by the length of the packet, then waits
+        for the clock."""
         at = max(now, self._line_free)
         for byte in self._gathered:
             at += 160_000_000 // self._rate
@@ -93,7 +92,7 @@ class Bus:
         self._line_free, self._gathered = at, b""
 
     def _wait(self) -> bool:
-        """Sleeps until bytes come, or something is to do without them."""
+        """Sleeps until bytes arrive or something else is due. Returns True if there are bytes."""
         now = self._clock()
         wake = min(now + LOOK_CYCLES, self._lib.servo_api_next_cycles(self._bus), self._options.time)
         if self._gathered:
@@ -119,13 +118,13 @@ class Bus:
             self._answer.clear()
 
     def run(self, interrupted: Callable[[], bool]) -> None:
-        """Until a signal, or --time."""
+        """Runs until a signal or the end of --time."""
         while not interrupted() and self._clock() < self._options.time:
             self.step()
         self._trace_up_to(self._clock())
 
     def close(self) -> None:
-        """OSError: something that is to be kept could not be written."""
+        """OSError: a file could not be written."""
         self.port.close()
         try:
             if self._trace:

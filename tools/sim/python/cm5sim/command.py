@@ -19,13 +19,13 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 class Stop:
-    """A signal ends a run between two slices. A thread of its own waits for it, because a system call that one interrupts upsets simavr's
-    GDB server (it then waits for a client for ever)."""
+    """Ends a run between two slices when a signal arrives. A thread waits for the signal, because an interrupted system call makes simavr's
+    GDB server wait for a client forever."""
 
     def __init__(self) -> None:
         self.asked = False
-        self._session: Session | None = None  # the one that runs
-        self._lock = threading.Lock()  # a session is not closed under the thread that interrupts it
+        self._session: Session | None = None  # the running session
+        self._lock = threading.Lock()  # prevents closing a session while the thread interrupts it
         signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
         threading.Thread(target=self._wait, daemon=True).start()
 
@@ -40,13 +40,13 @@ class Stop:
                 self._session.interrupt()
 
     def begin(self, session: Session) -> None:
-        """A signal ends this session, also one that has come before."""
+        """Lets a signal end this session, even one that arrived earlier."""
         with self._lock:
             self._session = session
         self._interrupt()
 
     def end(self) -> None:
-        """Nothing interrupts the session any more: it may be closed."""
+        """Nothing interrupts the session after this: it may be closed."""
         with self._lock:
             self._session = None
 

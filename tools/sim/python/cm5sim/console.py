@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The PC's end of the robot's serial line: standard input and output, a pty, one TCP client, or all of them at once. What the robot says
-goes to each; what each says goes to the robot."""
+"""The PC's end of the robot's serial line: standard input and output, a pty, one TCP client, or all of them. Each receives what the robot
+sends, and the robot receives what each sends."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ BUSY = b"Somebody else is connected to this robot.\r\n"
 
 
 def read(file: int) -> bytes | None:
-    """What is there; nothing: this source has ended; None: not now."""
+    """Returns the available bytes; b"": the source has ended; None: nothing now."""
     try:
         return os.read(file, 1024)
     except BlockingIOError:
@@ -29,7 +29,7 @@ def read(file: int) -> bytes | None:
 
 
 class Console:
-    """typed: called with what comes from standard input; sent: from a port."""
+    """typed: called with bytes from standard input; sent: with bytes from a port."""
 
     def __init__(self, options: Options, typed: Callable[[bytes], None], sent: Callable[[bytes], None]) -> None:
         """OSError: a port cannot be opened."""
@@ -40,9 +40,9 @@ class Console:
         self.port = SerialPort(options.pty, LINE_BPS) if options.pty is not None else None
         self._listener = socket.create_server(("127.0.0.1", options.tcp), backlog=1) if options.tcp is not None else None
         self._client: socket.socket | None = None
-        self._waiting: bytearray | None = None  # what standard output gets later, while it is held
-        self.draws = False  # the robot has used an escape sequence: it has a screen
-        self.cleared = False  # it has emptied it, and draws it anew
+        self._waiting: bytearray | None = None  # output for standard output while it is held
+        self.draws = False  # the robot has sent an escape sequence: it draws a screen
+        self.cleared = False  # the robot has cleared the screen and redraws it
         self._last = b""
 
     @property
@@ -57,7 +57,7 @@ class Console:
                 connection.close()
 
     def put(self, data: bytes) -> None:
-        """Bytes from the robot. Where nobody reads, they are lost, as on a cable."""
+        """Passes on bytes from the robot. Without a reader they are lost, as on a cable."""
         self.draws = self.draws or b"\x1b" in data
         self.cleared = self.cleared or CLEAR_SCREEN in self._last + data
         self._last = (self._last + data)[1 - len(CLEAR_SCREEN) :]
@@ -79,13 +79,13 @@ class Console:
         while data and not self.stdout_ended:
             try:
                 data = data[os.write(STDOUT, data) :]
-            except BlockingIOError:  # somebody made the terminal non-blocking
+            except BlockingIOError:  # another program made the terminal non-blocking
                 select.select([], [STDOUT], [], 0.1)
             except OSError:
                 self.stdout_ended = True
 
     def hold(self) -> None:
-        """Holds back what goes to standard output, until let_go()."""
+        """Holds back output to standard output until let_go()."""
         self._waiting = self._waiting or bytearray()
 
     def let_go(self) -> None:
@@ -98,7 +98,7 @@ class Console:
         self._client = None
 
     def _take_client(self, listener: socket.socket) -> None:
-        """One client at a time: a second one is told so."""
+        """Accepts one client at a time; a second one gets a message."""
         try:
             client = listener.accept()[0]
             client.setblocking(False)
@@ -107,11 +107,11 @@ class Console:
                 return
             client.send(BUSY)
             client.close()
-        except OSError:  # it has gone already
+        except OSError:  # the client has already left
             pass
 
     def wait(self, seconds: float) -> None:
-        """Waits for input, at most so long (0: only looks), and hands it on. Returns early after input."""
+        """Waits for input for at most this time (0: only polls) and passes it on. Returns early after input."""
         stdin = STDIN if self.reads_stdin and not self.stdin_ended else None
         port = self.port.master if self.port else None
         sources = [source for source in (stdin, port, self._client, self._listener) if source is not None]

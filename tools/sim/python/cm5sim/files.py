@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Files of cm5sim: what is loaded into the robot, and what is kept of it from run to run."""
+"""Files of cm5sim: what it loads into the robot, and what it keeps from run to run."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def load_motions(board: Board, path: str) -> None:
 
 
 def read_kept(path: str, size: int) -> bytes | None:
-    """A file of exactly this size; None: there is none yet."""
+    """Reads a file of exactly this size. None: it does not exist yet."""
     try:
         with open(path, "rb") as file:
             data = file.read(size + 1)
@@ -45,7 +45,7 @@ def read_kept(path: str, size: int) -> bytes | None:
 
 
 def write_kept(path: str, data: bytes) -> None:
-    """Writes beside the file first, so that a full disk costs no robot its pages."""
+    """Writes a new file first, then replaces the old one, so that a full disk does not destroy a robot's pages."""
     beside = f"{path}.new"
     with open(beside, "wb") as file:
         file.write(data)
@@ -53,7 +53,7 @@ def write_kept(path: str, data: bytes) -> None:
 
 
 def load_memories(board: Board, options: Options, say: Callable[[str], None]) -> None:
-    """Flash and EEPROM as they were kept, images over them, and motions where none were kept."""
+    """Loads the kept flash and EEPROM, images over them, and motions if no flash was kept."""
     flash = read_kept(options.flash, len(board.flash)) if options.flash else None
     eeprom = read_kept(options.eeprom, len(board.eeprom)) if options.eeprom else None
     if flash:
@@ -95,7 +95,7 @@ def keep_memories(board: Board, options: Options) -> None:
 
 
 def reason(error: Exception) -> str:
-    """What a user is told of an error."""
+    """Text of an error for the user."""
     if isinstance(error, OSError) and error.strerror:
         return f"{error.filename}: {error.strerror}" if error.filename else error.strerror
     return str(error)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""cm5sim --body: a body in MuJoCo on the servos' shafts. Tells on standard error when the robot is put down, when it falls, and at the end
-where it went and how it stands."""
+"""cm5sim --body: a MuJoCo body on the servo shafts. Reports on standard error when the robot is put down, when it falls, and at the end
+where it is and how it stands."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from . import library
 from .board import Board
 
 if library.ROBOT.exists():
-    sys.path.append(str(library.ROBOT / "tools" / "body" / "src"))  # the wheel brings the package `body` with its files beside it
+    sys.path.append(str(library.ROBOT / "tools" / "body" / "src"))  # the wheel contains the package `body` and its files
 
 LOOK_EVERY = 8  # steps of 1/1024 s
 FRAME_S = 1 / 60
@@ -23,10 +23,10 @@ STEP = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int)
 
 
 class Watch:
-    """Steps the body, looks at it, and shows it."""
+    """Steps the body, watches it and shows it."""
 
     def __init__(self, name: str, view: bool) -> None:
-        """OSError: there is no such body, no MuJoCo, or no display; in words for the user."""
+        """OSError, with a text for the user: no such body, no MuJoCo, or no display."""
         try:
             from body.description import BodyError, load
             from body.hand import Hand
@@ -46,7 +46,7 @@ class Watch:
         lib, self._print = library.load(), say
         inner = lib.servo_mujoco_body(ctypes.addressof(self._physics.seam))
         self._inner_step = STEP(inner.step)
-        self._step = STEP(self._one_step)  # kept alive as long as the board runs
+        self._step = STEP(self._one_step)  # keeps the callback alive while the board runs
         seam = library.ServoBody(inner.context, inner.look, ctypes.cast(self._step, ctypes.c_void_p))
         lib.board_body(board._pointer, seam)
 
@@ -67,7 +67,7 @@ class Watch:
                 self._shown = time.monotonic()
 
     def report(self) -> None:
-        """Call it when the board has ended."""
+        """Call this after the end of the board's run."""
         from body.trial import stands
 
         physics, hand = self._physics, self._hand
@@ -83,7 +83,7 @@ class Watch:
 
 
 def _open_view(physics: Any) -> Any:
-    """MuJoCo's viewer. RuntimeError: there is no display (the viewer itself would end the process without a word of ours)."""
+    """Opens MuJoCo's viewer. RuntimeError: no display. (The viewer itself would end the process without our message.)"""
     import glfw
     import mujoco.viewer
 

@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""What a test sees of the firmware from inside: functions and variables by name, cycles, interrupts at any place, single steps. A part of
-class Board."""
+"""A test's view into the firmware: functions and variables by name, cycles, interrupts at any place, single steps. Part of class Board."""
 
 from __future__ import annotations
 
 import ctypes
 from typing import Any, NamedTuple
 
-# Interrupts of this firmware by what causes them.
+# Interrupts of this firmware, by cause.
 VECTORS = {"tick": 12, "bus byte": 18, "bus room": 19, "bus sent": 20, "console byte": 30, "console room": 31}
 
 
@@ -16,7 +15,7 @@ def number_of(vector: int | str) -> int:
 
 
 class Cycles(NamedTuple):
-    """Cycles of a probed function: own time (interrupts taken out) and total time."""
+    """Cycles of a probed function: own time (without interrupts) and total time."""
 
     count: int  # type: ignore[assignment]  # hides tuple.count, which nobody asks of a probe
     max: int
@@ -27,7 +26,7 @@ class Cycles(NamedTuple):
 
 
 class Inside:
-    """Of class Board, which sets these two."""
+    """Part of class Board, which sets these two."""
 
     _lib: ctypes.CDLL
     _pointer: int | None
@@ -55,7 +54,7 @@ class Inside:
 
     @property
     def stack_headroom(self) -> int:
-        """Bytes between the end of the variables and the lowest stack so far."""
+        """Bytes between the end of the variables and the lowest stack address so far."""
         return int(self._lib.board_stack_headroom(self._pointer))
 
     def probe(self, *names: str) -> None:
@@ -77,18 +76,18 @@ class Inside:
         self._lib.board_probe_clear(self._pointer)
 
     def interrupt(self, vector: int | str, byte: int = 0) -> None:
-        """Raises an interrupt now (a number of board_debug.h's board_interrupt, or a name of VECTORS)."""
+        """Raises an interrupt now (a number as for board_interrupt() in board_debug.h, or a name from VECTORS)."""
         if not self._lib.board_interrupt(self._pointer, number_of(vector), byte):
             raise ValueError(f"interrupt {vector} cannot be raised")
 
     def sweep(self, function: str, vector: int | str, byte: int = 0) -> None:
-        """Interrupts each call of a function once from now on, each time one instruction later than in the call before."""
+        """Interrupts each call of a function once from now on, one instruction later each time."""
         number = number_of(vector)
         if not self._lib.board_sweep(self._pointer, function.encode(), number, byte):
             raise KeyError(f"no function {function} in the loaded images, or interrupt {vector} cannot be raised")
 
     def swept(self, function: str) -> Any:
-        """How far a sweep has come: place, calls, rounds, taken."""
+        """Progress of a sweep: place, calls, rounds, taken, last."""
         pointer = self._lib.board_sweep_result(self._pointer, function.encode())
         if not pointer:
             raise KeyError(f"{function} is not swept")
@@ -98,7 +97,8 @@ class Inside:
         self._lib.board_sweep_end(self._pointer)
 
     def skip_waits(self, on: bool = True) -> None:
-        """Rounds of loops that only wait are counted instead of executed: the same run, faster. Probes do not see them."""
+        """Counts the rounds of loops that only wait, instead of executing them: the same run, but faster. Probes do not see those
+        rounds."""
         self._lib.board_skip_waits(self._pointer, on)
 
     def step(self) -> int:
@@ -106,6 +106,6 @@ class Inside:
         return int(self._lib.board_step(self._pointer))
 
     def gdb(self, port: int) -> None:
-        """Waits for avr-gdb on this port of 127.0.0.1, and runs as it says from then on."""
+        """Waits for avr-gdb on this port of 127.0.0.1. From then on the debugger controls the run."""
         if not self._lib.board_gdb(self._pointer, port, True):
             raise OSError(self._lib.board_error(self._pointer).decode())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Finds and declares libcm5sim.so: the C interface of board.h as ctypes functions, nothing more."""
+"""Finds libcm5sim.so and declares its C interface (board.h) as ctypes functions."""
 
 import ctypes
 import functools
@@ -11,7 +11,7 @@ from . import servo
 
 CYCLES_PER_MS = 16000
 HERE = pathlib.Path(__file__).resolve().parent
-ROBOT = HERE / "robot"  # in a wheel: what it takes from the build tree, in the same folders (setup.py), and lib/
+ROBOT = HERE / "robot"  # in a wheel: the files from the build tree in the same folders (setup.py), and lib/
 
 
 def build_folder() -> pathlib.Path:
@@ -43,7 +43,7 @@ class ProbeResult(ctypes.Structure):
 
 
 class ServoBody(ctypes.Structure):
-    """servo_body_t: what the shafts hang on."""
+    """servo_body_t: the body that the shafts move."""
 
     _fields_ = [("context", ctypes.c_void_p), ("look", ctypes.c_void_p), ("step", ctypes.c_void_p)]
 
@@ -152,7 +152,7 @@ _FUNCTIONS: dict[str, tuple[Any, ...]] = {  # name: result, arguments...
 
 @functools.cache
 def load() -> ctypes.CDLL:
-    """The library, declared. Built by: cmake --build build/host --target cm5sim_shared."""
+    """Returns the library with its functions declared. Built by: cmake --build build/host --target cm5sim_shared."""
     path = build_folder() / "host" / "tools" / "sim" / "libcm5sim.so"
     if not path.exists():
         raise FileNotFoundError(f"{path} is missing; in the source tree tools/dev/build makes it")

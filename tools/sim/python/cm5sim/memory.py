@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A memory of the simulated board as something like a bytearray: b.flash[0xE000:0xE200], b.eeprom[5] = 1."""
+"""A memory of the simulated board, used like a bytearray: b.flash[0xE000:0xE200], b.eeprom[5] = 1."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class Memory:
-    """Reads and writes the chip's memory directly, as a programming device does: no time passes, nothing wears."""
+    """Reads and writes the chip's memory directly, like a programmer: no time passes, no wear."""
 
     def __init__(self, board: Board, size: int, read: Callable[..., Any], write: Callable[..., Any]) -> None:
         self._board, self._size, self._read, self._write = board, size, read, write

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The command line of cm5sim. What each option means stands in `cm5sim --help` and, with examples, in ../../README.md."""
+"""The command line of cm5sim. `cm5sim --help` explains each option, ../../README.md adds examples."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ Examples:
 
 Exit codes: 0 good, 1 an expectation of the script failed, 2 wrong usage or script, 3 the firmware did what the chip or the board
 does not allow, 4 a file or port could not be used."""
-LINKS = ("--pty", "--tcp", "--bus-pty", "--gdb")  # their argument may be left out; if not, it stands behind "="
+LINKS = ("--pty", "--tcp", "--bus-pty", "--gdb")  # their argument is optional and follows "="
 
 
 class ServoPlan(NamedTuple):
@@ -38,7 +38,7 @@ class ServoPlan(NamedTuple):
 
 
 class Options(argparse.Namespace):
-    """What was asked for. Of LINKS: None without the option, "" without an argument."""
+    """Parsed options. Those of LINKS are None without the option, "" without its argument."""
 
     images: list[str]
     board: str
@@ -68,7 +68,7 @@ class Options(argparse.Namespace):
 
 
 def checked(parse: Callable[[str], Any], what: str) -> Callable[[str], Any]:
-    """A parser of argparse out of one that returns None for what is wrong; {} in `what` is the text."""
+    """Makes an argparse type from a parser that returns None for wrong text. {} in `what` stands for the text."""
 
     def check(text: str) -> Any:
         value = parse(text)
@@ -80,7 +80,7 @@ def checked(parse: Callable[[str], Any], what: str) -> Callable[[str], Any]:
 
 
 def servo_list(text: str) -> list[ServoPlan]:
-    """ "1-18,20:dx117@57142": each part ID[-ID][:model][@rate]."""
+    """ "1-18,20:dx117@57142": each part is ID[-ID][:model][@rate]."""
 
     def wrong(what: str) -> NoReturn:
         raise argparse.ArgumentTypeError(f'{what}: "{text}"')
@@ -125,7 +125,7 @@ class Parser(argparse.ArgumentParser):
 
 
 class Version(argparse.Action):
-    """Looked up when it is asked for only: it takes longer than all the rest."""
+    """Looks up the version only on request: it takes longer than all the rest."""
 
     def __call__(self, *_: object) -> None:
         from importlib.metadata import PackageNotFoundError, version
@@ -186,7 +186,7 @@ def _parser() -> Parser:
 
 
 def parse(arguments: list[str]) -> Options:
-    """Prints what is wrong and ends the process where something is."""
+    """Parses the command line. Prints an error and ends the process if something is wrong."""
     parser = _parser()
     options = parser.parse_intermixed_args([f"{word}=" if word in LINKS else word for word in arguments], namespace=Options())
     on_console = options.pty is not None or options.tcp is not None

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Draws a trace: joints over time, goal and present position. One small diagram for each joint that moved or had a goal; the others are
-listed below. Needs matplotlib."""
+"""Draws a trace: goal and present position of joints over time. One small diagram for each joint that moved or had a goal; lists the others
+below. Needs matplotlib."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Joint = tuple[list["float | None"], list[float]]  # goals (None: limp) and prese
 
 
 def read_trace(path: str) -> tuple[list[float], dict[int, Joint]]:
-    """The time in s, and the joints by their ID."""
+    """Returns the time in s, and the joints by ID."""
     times: list[float] = []
     with open(path, newline="", encoding="ascii") as file:
         rows = csv.reader(file)
@@ -33,7 +33,7 @@ def is_active(goals: list[float | None], presents: list[float]) -> bool:
 
 
 def draw(path: str, out: str) -> None:
-    """OSError: there is no picture, and why."""
+    """OSError: no picture was made; its text says why."""
     if pathlib.Path(out).suffix not in (".svg", ".png"):
         raise OSError(f"{out}: the name must end in .svg or .png")
     try:

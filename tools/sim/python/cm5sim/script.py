@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Scripts of timed actions and expectations, one a line (README.md, "Scripts"). Read whole and checked before the run."""
+"""Scripts of timed actions and expectations, one per line (README.md, "Scripts"). A script is read and checked completely before the
+run."""
 
 from __future__ import annotations
 
@@ -21,7 +22,7 @@ Act = Callable[["Session"], None]
 Poll = Callable[["Session", bool], bool]  # (session, is the time over) -> is it done; raises Failed
 
 PRESS_MS, WITHIN_MS = 100, 1000
-TAIL_BYTES = 400  # of the console, shown when an expectation fails
+TAIL_BYTES = 400  # length of console output shown when an expectation fails
 RELATIONS = {"==": operator.eq, "!=": operator.ne, "<": operator.lt, ">": operator.gt, "<=": operator.le, ">=": operator.ge}
 QUANTITIES = {  # name: (address, bytes) in the control table
     "goal": (30, 2), "present": (36, 2), "torque": (24, 1), "moving": (46, 1), "speed": (32, 2), "voltage": (42, 1), "temperature": (43, 1),
@@ -30,18 +31,18 @@ QUANTITIES = {  # name: (address, bytes) in the control table
 
 
 class Mistake(ValueError):
-    """A line is wrong: what, and the word where it is seen."""
+    """A line is wrong: what is wrong, and at which word."""
 
     def __init__(self, what: str, at: str = "") -> None:
         super().__init__(f'{what} (at "{at}")' if at else what)
 
 
 class Failed(Exception):
-    """An expectation did not come true, or an action cannot be done."""
+    """An expectation was not met, or an action is impossible."""
 
 
 class Step(NamedTuple):
-    """One line of a script. act: done once, at its beginning, None for an expectation; then it is polled until it is done."""
+    """One line of a script. act: called once at the beginning; None for an expectation. Then poll is called until it returns True."""
 
     line: int
     when: tuple[str, int]  # ("at" or "after", cycles), or ("", 0)
@@ -51,7 +52,7 @@ class Step(NamedTuple):
 
 
 class Line:
-    """The words of a line, taken one after the other."""
+    """The words of a line, taken one by one."""
 
     def __init__(self, line: bytes) -> None:
         self._words, self._at = words.split(line), 0
@@ -135,8 +136,8 @@ def seconds(cycles: int) -> str:
     return f"{cycles / 1000 / CYCLES_PER_MS:.3f} s"
 
 
-# What a line does: each function takes the words behind the verb, and returns how long it lasts, what is done at its beginning, and what
-# is polled then. `done` is for what lasts for its time.
+# Meanings of verbs. Each function takes the words after the verb and returns the duration, the action at the beginning, and the function to
+# poll afterwards. `done` serves for actions that last for their duration.
 
 
 def done(session: Session, late: bool) -> bool:
@@ -179,7 +180,7 @@ def _expect(line: Line) -> Meaning:
 
 
 def tail(session: Session) -> str:
-    """What the robot said last, with control characters made visible."""
+    """The robot's latest output, with control characters made visible."""
     said = session.heard[session.heard_from :][-TAIL_BYTES:]
     text = "".join(chr(c) if 0x20 <= c < 0x7F else {13: "\\r", 10: "\\n"}.get(c, f"\\x{c:02X}") for c in said)
     return f'    since the last match the robot said: "{text}"'
@@ -329,7 +330,7 @@ VERBS: dict[str, Callable[[Line], Meaning]] = {
 
 
 def parse(text: bytes, number: int = 0) -> Step | None:
-    """One line; None: nothing is in it. ValueError: what is wrong with it."""
+    """Parses one line. None: the line is empty. ValueError: what is wrong."""
     line = Line(text)
     if not len(line):
         return None
@@ -345,7 +346,7 @@ def parse(text: bytes, number: int = 0) -> Step | None:
 
 
 def act_at_once(session: Session, text: bytes) -> str:
-    """Does one line that holds an action, at once. Returns why it was not done, or nothing."""
+    """Performs the action on one line at once. Returns why it was not done, or ""."""
     try:
         step = parse(text)
         if step and step.when[0]:
@@ -360,10 +361,10 @@ def act_at_once(session: Session, text: bytes) -> str:
 
 
 class Script:
-    """A script and how far it has come."""
+    """A script and its progress."""
 
     def __init__(self, path: str) -> None:
-        """OSError: it cannot be read. ValueError: a line for each mistake."""
+        """OSError: the file cannot be read. ValueError: one line for each mistake."""
         self.path = path
         self._steps: list[Step] = []
         self._next = self._ended = 0
@@ -385,7 +386,7 @@ class Script:
         return f"{self.path}:{self._steps[self._next].line}"
 
     def step(self, session: Session) -> int:
-        """Does what is due. Returns the cycle at which to ask again at the latest; the session ends when the script does."""
+        """Does what is due. Returns the latest cycle for the next call. Ends the session at the end of the script."""
         try:
             while self._next < len(self._steps) and not session.done:
                 waits_until = self._go_on(session, self._steps[self._next])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A pseudo terminal as a serial port for other programs."""
+"""A pseudo-terminal that serves other programs as a serial port."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ import os
 import struct
 from fcntl import ioctl
 
-# struct termios2 of Linux: any rate, where <termios.h> knows some only.
+# struct termios2 of Linux allows any rate; <termios.h> has only some.
 _TCGETS2, _TCSETS2 = 0x802C542A, 0x402C542B
 _TERMIOS2 = struct.Struct("4I20s2I")
 _CS8, _CREAD, _CLOCAL, _BOTHER = 0o60, 0o200, 0o4000, 0o10000
 
 
 class SerialPort:
-    """A raw port at this rate. `link`, if it is not empty, becomes a symbolic link to it, replacing an older link but nothing else."""
+    """A raw port at this rate. `link`, if not empty, becomes a symbolic link to it. It replaces an older link, but nothing else."""
 
     def __init__(self, link: str, rate: int) -> None:
-        """OSError: what went wrong."""
-        self.master, self._slave = os.openpty()  # the slave is kept open, so that clients may come and go
+        """OSError: the port or the link cannot be made."""
+        self.master, self._slave = os.openpty()  # an open slave lets clients come and go
         self._link = ""
         os.set_blocking(self.master, False)
         control = _TERMIOS2.unpack(ioctl(self._slave, _TCGETS2, bytes(_TERMIOS2.size)))[4]
@@ -38,7 +38,7 @@ class SerialPort:
 
     @property
     def rate(self) -> int:
-        """As the client has set it."""
+        """The rate set by the client, in bps."""
         return int(_TERMIOS2.unpack(ioctl(self._slave, _TCGETS2, bytes(_TERMIOS2.size)))[-1])
 
     def read(self) -> bytes:
@@ -48,7 +48,7 @@ class SerialPort:
             return b""
 
     def write(self, data: bytes) -> None:
-        """Where nobody reads, it is lost, as on a cable."""
+        """Writes data. Without a reader it is lost, as on a cable."""
         try:
             os.write(self.master, data)
         except OSError:

@@ -8,7 +8,7 @@
     b.servos[3].write(28, [64, 64])        # as a packet would; returns error bits
     b.servos.ids, b.servos.present         # all IDs; {ID: present position}
 
-Nothing is kept in Python: every reading is of the board's present moment.
+Python stores nothing: every reading shows the board's present state.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ BYTE_HEARD = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_uint64, ctypes.c_u
 
 
 def declare(lib: ctypes.CDLL) -> None:
-    """Tells ctypes the signatures; harmless when repeated."""
+    """Declares the functions for ctypes. May be called repeatedly."""
     p, u8, u16, u32, u64 = ctypes.c_void_p, ctypes.c_uint8, ctypes.c_uint16, ctypes.c_uint32, ctypes.c_uint64
     functions: list[tuple[str, Any, list[Any]]] = [
         ("servo_api_count", ctypes.c_int, [p]),
@@ -96,7 +96,7 @@ def declare(lib: ctypes.CDLL) -> None:
 
 
 class Servo:
-    """One servo on the bus; see the module's text."""
+    """One servo on the bus; see the module docstring."""
 
     _servos: Servos
     _pointer: int
@@ -106,10 +106,10 @@ class Servo:
         object.__setattr__(self, "_pointer", pointer)
 
     def register(self, address: int, count: int) -> int:
-        """One or two bytes of the control table."""
+        """Reads one or two bytes of the control table."""
         return int(self._servos.lib.servo_api_get(self._pointer, self._servos.now(), address, count))
 
-    def __getattr__(self, name: str) -> Any:  # a register or counter: int; a state: float
+    def __getattr__(self, name: str) -> Any:  # register or counter: int; state: float
         servos = self._servos
         if name in _REGISTERS:
             return self.register(*_REGISTERS[name])
@@ -146,7 +146,7 @@ class Servo:
 
     @property
     def load(self) -> float:
-        """Present load as a signed part of full output: positive when it pushes towards larger positions."""
+        """Present load as a signed fraction of full output; positive if it pushes towards larger positions."""
         value: int = self.present_load
         return (value & 1023) / 1023 * (-1 if value & 1024 else 1)
 
@@ -156,7 +156,7 @@ class Servo:
 
     @property
     def alarms(self) -> set[str]:
-        """Names of the alarms that its answers carry now."""
+        """Names of the alarms in its replies."""
         return {name for bit, name in ERROR_NAMES.items() if self.alarm_bits & bit}
 
     @property
@@ -168,7 +168,7 @@ class Servo:
         return int(self._servos.lib.servo_api_write(self._pointer, self._servos.now(), address, data, len(data)))
 
     def restore(self, eeprom: bytes) -> None:
-        """Puts its EEPROM area (EEPROM_BYTES) back as it was kept."""
+        """Restores its EEPROM area (EEPROM_BYTES)."""
         self._servos.lib.servo_api_restore(self._pointer, eeprom)
 
     def push_to(self, position: float) -> None:
@@ -192,10 +192,10 @@ class Servo:
 
 
 class Servos:
-    """All servos of a bus by their present ID; iterates over them in order of plugging in."""
+    """All servos of a bus by their present ID; iterates in the order of add()."""
 
     def __init__(self, lib: ctypes.CDLL, bus: int, now: Callable[[], int]) -> None:
-        """bus: servo_bus_t pointer; now: function that returns the board's cycle."""
+        """bus: servo_bus_t pointer; now: returns the board's cycle."""
         declare(lib)
         self.lib, self.bus, self.now = lib, bus, now
 
@@ -237,11 +237,11 @@ class Servos:
         return {servo.id: servo.goal for servo in self}
 
     def row(self, count: int) -> Iterator[tuple[float, float]]:
-        """(goal, position) of the first `count` servos, with fractions; the goal of a limp one is -1."""
+        """(goal, position) of the first `count` servos, with fractions. The goal of a limp servo is -1."""
         row = (ctypes.c_double * (2 * count))()
         self.lib.servo_api_row(self.bus, self.now(), count, row)
         return zip(row[::2], row[1::2])
 
     def noise(self, data: bytes, rate: int = 1_000_000) -> None:
-        """Stray bytes on the wire from now on."""
+        """Puts stray bytes on the wire from now on."""
         self.lib.servo_bus_noise(self.bus, self.now(), bytes(data), len(data), rate)

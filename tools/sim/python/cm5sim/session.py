@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""One run of cm5sim: the board and all that is plugged into it, and what a user or a script does to them."""
+"""One run of cm5sim: the board, everything connected to it, and the actions of a user or a script."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from .trace import Trace
 if TYPE_CHECKING:
     from .in_body import Watch
 
-SLICE_CYCLES = 2 * CYCLES_PER_MS  # real time: keys are looked at this often
-LINGER_CYCLES = 1000 * CYCLES_PER_MS  # after the end of piped input, silence that ends the run
-SILENT_CYCLES = 300 * CYCLES_PER_MS  # the robot has drawn its screen
+SLICE_CYCLES = 2 * CYCLES_PER_MS  # in real time, keys are polled this often
+LINGER_CYCLES = 1000 * CYCLES_PER_MS  # after the end of piped input, this much silence ends the run
+SILENT_CYCLES = 300 * CYCLES_PER_MS  # after this much silence the robot has drawn its screen
 NOTE_CYCLES = 1500 * CYCLES_PER_MS
 HELD_CYCLES = 600 * CYCLES_PER_MS  # longer than a keyboard's first repeat delay
-RC_REPEAT_CYCLES = 100 * CYCLES_PER_MS  # a held remote says so again and again
+RC_REPEAT_CYCLES = 100 * CYCLES_PER_MS  # a held remote repeats its packet
 CYCLES_PER_S = 1000 * CYCLES_PER_MS
-LATE_S = 0.25  # this far behind, real time is given up and begun anew
+LATE_S = 0.25  # this far behind, the real-time clock starts anew
 POWER_IS_OFF = "the power is off: Ctrl-T p switches it on"
 HAND_HELP = """\
 A hand at the robot. One line, then Enter; Enter alone goes back.
@@ -44,20 +44,20 @@ and every other action that a script may have.
 
 
 class Session:
-    """Use: open(), run() unless that failed, close(); then exit_code."""
+    """Usage: open(); run() unless open() failed; close(); then exit_code."""
 
     def __init__(self, options: Options, script: scripts.Script | None, watch: Watch | None = None) -> None:
         self.options, self.script, self.watch = options, script, watch
         self.done, self.exit_code = False, EXIT_GOOD
         self.interrupted = False  # set by a signal
         self.board = Board(options.board, seed=options.seed, keep_packets=False)
-        self.heard = bytearray()  # from the robot, for a script
-        self.heard_from = 0  # behind the last match
-        self._traffic = 0  # cycle of the newest byte either way
+        self.heard = bytearray()  # robot's output, for a script
+        self.heard_from = 0  # end of the last match
+        self._traffic = 0  # cycle of the newest byte in either direction
         self._port_rate = 0
-        self._buttons: dict[str, int] = {}  # held: until this cycle
-        self._rc_keys: dict[int, int] = {}  # likewise, by their bits
-        self._rc_word = self._rc_next = 0  # as last sent; next repetition while held
+        self._buttons: dict[str, int] = {}  # held buttons: cycle of release
+        self._rc_keys: dict[int, int] = {}  # held keys of the remote by bit: cycle of release
+        self._rc_word = self._rc_next = 0  # last word sent; cycle of the next repetition while held
         self._explained = False
         self._trace: Trace | None = None
         self._closing = ExitStack()
@@ -93,14 +93,14 @@ class Session:
             board.gdb(options.gdb)
 
     def interrupt(self) -> None:
-        """Ends the run soon. From another thread as well."""
+        """Ends the run soon. May be called from another thread."""
         self.interrupted = True
         self.board.stop()
 
     # Messages
 
     def complain(self, text: str) -> None:
-        """A message on standard error."""
+        """Prints a message on standard error."""
         print(f"cm5sim: {text}", file=sys.stderr, end=self._line_end, flush=True)
 
     def say(self, text: str) -> None:
@@ -108,7 +108,7 @@ class Session:
             self.complain(text)
 
     def note(self, text: str) -> None:
-        """Over the robot's screen, where there is one, for a moment."""
+        """Shows a message for a moment over the robot's screen, if there is one."""
         if self.terminal.draws:
             self.terminal.show("note", text)
             self.terminal.until = self.board.now_cycles + NOTE_CYCLES
@@ -116,14 +116,14 @@ class Session:
             self.say(text)
 
     def page(self, kind: str, text: str) -> None:
-        """Over the robot's screen, or on standard error."""
+        """Shows text over the robot's screen, or on standard error."""
         if self.terminal.draws:
             self.terminal.show(kind, text)
         else:
             print(text, file=sys.stderr, end="", flush=True)
 
     def end(self, exit_code: int) -> None:
-        """Ends the run; the first code that is not good stays."""
+        """Ends the run. The first exit code that is not 0 is kept."""
         self.done = True
         self.exit_code = self.exit_code or exit_code
 
@@ -140,7 +140,7 @@ class Session:
             self._traffic = self.board.now_cycles
 
     def press(self, button: str, cycles: int) -> None:
-        """Holds a button for so long. MODE holds the chip in reset."""
+        """Holds a button for this time. MODE holds the chip in reset."""
         self._buttons[button] = self.board.now_cycles + cycles
         self.board.press(button)
 
@@ -155,12 +155,12 @@ class Session:
         self._rc_next = self._traffic + RC_REPEAT_CYCLES
 
     def rc_once(self, word: int) -> None:
-        """One packet: nothing is held or repeated."""
+        """Sends one packet, without holding or repetition."""
         self._rc_send(word)
         self._rc_next = 0
 
     def rc_hold(self, keys: int, cycles: int) -> None:
-        """Holds keys of the remote for a while; further keys join the chord."""
+        """Holds keys of the remote for a while. Further keys join the chord."""
         for bit in range(10):
             if keys >> bit & 1:
                 self._rc_keys[1 << bit] = self.board.now_cycles + cycles
@@ -174,7 +174,7 @@ class Session:
             self.board.power_off()
 
     def _hands(self) -> int:
-        """Lets go what has been held long enough, repeats the remote's packets; returns the next cycle it has to do so."""
+        """Releases what was held long enough and repeats the remote's packets. Returns the cycle at which it must run next."""
         if not (self._buttons or self._rc_keys or self._rc_next):
             return NEVER
         now = self.board.now_cycles
@@ -189,7 +189,7 @@ class Session:
         return min([*self._buttons.values(), *self._rc_keys.values(), *([self._rc_next] if held else [])], default=NEVER)
 
     def find(self, text: bytes) -> bool:
-        """Looks for a text behind the last match; the next search begins behind it when it is there."""
+        """Searches for text after the last match. On success, the next search begins after it."""
         at = self.heard.find(text, self.heard_from)
         if at >= 0:
             self.heard_from = at + len(text)
@@ -259,7 +259,7 @@ class Session:
         return "".join(rows)
 
     def _follow_rate(self) -> None:
-        """The rate that the pty's client sets: at a wrong one it hears and says garbage, as on a cable."""
+        """Follows the rate set by the client of the pty. At a wrong rate both ends receive garbage, as on a cable."""
         rate = self.console.port.rate if self.console.port else 0
         if rate == self._port_rate or not 300 <= rate <= 4000000:
             return
@@ -276,7 +276,7 @@ class Session:
         begun = time.monotonic()
         real = options.pace == "real" or (not options.pace and by_default)
         self._begin_pace()
-        self._begun -= time.process_time()  # what it took to start is made up for: the robot is on since the command was given
+        self._begun -= time.process_time()  # counts the start-up time too: the robot is on since the command was given
         tick = 0
         wake = 0 if script else NEVER
         while not self.done:
@@ -308,7 +308,7 @@ class Session:
             self._summarize(begun)
 
     def _hear(self, now: int) -> None:
-        """Takes what the robot has said since, and renews what the user sees."""
+        """Takes new output from the robot and updates what the user sees."""
         fresh = self.board.take()
         if fresh:
             self._traffic = now
@@ -324,7 +324,7 @@ class Session:
         self._begun, self._begun_cycles = time.monotonic(), self.board.now_cycles
 
     def _left(self) -> float:
-        """Seconds until the wall clock reaches the simulated moment; negative: late."""
+        """Seconds until the wall clock reaches the simulated time; negative: late."""
         return (self.board.now_cycles - self._begun_cycles) / CYCLES_PER_S - (time.monotonic() - self._begun)
 
     def _wait_for_clock(self, real: bool) -> None:
@@ -343,23 +343,23 @@ class Session:
         self.end(EXIT_VIOLATION)
 
     def _is_alone(self) -> bool:
-        """Only piped input kept the run alive, and it is over: no person waits for real time any more."""
+        """True when piped input was the only input and has ended: then no person waits for real time."""
         return self.console.stdin_ended and self.options.pty is None and self.options.tcp is None
 
     def _is_answered(self) -> bool:
-        """The robot has had time to answer the last of it."""
+        """True when the robot has had time to reply to the last input."""
         silent = self.board.now_cycles - self._traffic > LINGER_CYCLES
         return self._is_alone() and self.options.time == NEVER and silent and self.board.waiting == 0
 
     def _stop(self) -> None:
-        """A signal, or --time is over. A script that has not come to its end has not passed."""
+        """Ends the run after a signal or --time. A script that has not reached its end has failed."""
         if self.script and not self.done:
             self.complain(f"{self.script.place}: the run ended here, before the script")
             self.end(EXIT_EXPECTATION)
         self.end(EXIT_GOOD)
 
     def _summarize(self, begun: float) -> None:
-        """--summary: what the run was like."""
+        """Prints the figures of --summary."""
         board, busy, real = self.board, time.process_time(), time.monotonic() - begun
         simulated = board.now_cycles / CYCLES_PER_S
         self.complain(f"simulated {simulated:.3f} s in {real:.3f} s, {busy:.3f} s of this PC's CPU: "
@@ -370,7 +370,7 @@ class Session:
             self.complain(f"{name}: {uart.sent} bytes out, {uart.received} in, {uart.overruns} overruns, {uart.framing} framing errors")
 
     def close(self, opened: bool) -> None:
-        """Writes what is to be kept, if the session was opened."""
+        """Writes the files to keep, if the session was opened."""
         self._closing.close()
         self._line_end = "\n"
         try:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The user's terminal: raw mode, which key means what, and words for the user over what the robot has drawn.
+"""The user's terminal: raw mode, meanings of keys, and messages over the robot's screen.
 
-A terminal sends presses only, so a button of the remote or the panel counts as held for a while after its key was last seen. Words for
-the user stand on the terminal's other screen, so the robot's is there again, untouched, when they go; what the robot says meanwhile waits.
+A terminal reports only presses, so a button of the remote or the panel counts as held for a while after its last key press. Messages
+appear on the alternate screen, so the robot's screen is unchanged afterwards. Output of the robot waits meanwhile.
 """
 
 from __future__ import annotations
@@ -38,16 +38,16 @@ ROBOT_ROWS = 35  # of Edit's screen, the largest (edit/ORIGINAL.md section 3)
 
 
 class Keys:
-    """What the bytes of a keyboard mean. take() returns a kind and its value:
+    """The meaning of bytes from the keyboard. take() returns a kind and its value:
 
-    byte (for the robot), rc (a bit of the remote's word), button (its name), mode (the keyboard is a remote, or no longer),
-    exit, help, power, servos, line (a line for the robot's knobs comes), or "" for nothing yet.
+    byte (for the robot), rc (a bit of the remote's word), button (its name), mode (True: the keyboard is now a remote),
+    exit, help, power, servos, line (the user wants to type an action), or "" for nothing yet.
     """
 
     def __init__(self, rc: bool) -> None:
         self.rc = rc
         self._prefixed = False
-        self._escape = ""  # of an arrow key's sequence, what has come
+        self._escape = ""  # received part of an arrow key's sequence
 
     def take(self, byte: int) -> tuple[str, Any]:
         if not self._prefixed:
@@ -74,7 +74,7 @@ class Keys:
         return {"p": "power", "v": "servos", "h": "line"}.get(key, "help"), None
 
     def _key(self, byte: int) -> str:
-        """A letter in lower case, or the name of an arrow; "": its sequence has only begun."""
+        """Returns a letter in lower case, or the name of an arrow; "": the sequence is not complete."""
         if (not self._escape and byte == ESC) or (self._escape == "\x1b" and byte in b"[O"):
             self._escape += chr(byte)
             return ""
@@ -83,8 +83,9 @@ class Keys:
 
 
 class Terminal:
-    """Standard input and output of a person. raw: keys come one by one. shows: what stands over the robot's screen, "" nothing, "note"
-    (goes by itself, or at the next key, which counts), "page" (goes at the next key, which does nothing else) or "line" (being typed)."""
+    """Standard input and output of a person. raw: keys arrive one by one. shows: what covers the robot's screen: "" nothing, "note"
+    (disappears by itself or at the next key, which still counts), "page" (disappears at the next key, which does nothing else) or "line"
+    (being typed)."""
 
     def __init__(self, console: Console, raw: bool) -> None:
         self._console = console
@@ -95,11 +96,11 @@ class Terminal:
             atexit.register(self.restore)
         term = os.environ.get("TERM", "dumb")
         self.draws = self.raw and not console.stdout_ended and os.isatty(STDOUT) and term != "dumb"
-        self._titled = self.draws and not term.startswith("linux")  # consoles of older kernels print it
+        self._titled = self.draws and not term.startswith("linux")  # the consoles of older kernels would print it
         self.shows = ""
-        self.until = 0  # cycle at which a note goes
+        self.until = 0  # cycle at which a note disappears
         self._line = bytearray()
-        self._escape = 0  # the last byte of a sequence that is skipped
+        self._escape = 0  # last byte of a sequence being skipped
         self._hint_at_start = 0
         if self._titled:
             self.add(KEEP_TITLE + TITLE)
@@ -114,11 +115,11 @@ class Terminal:
             self._before = None
 
     def leave_screen(self) -> None:
-        """The robot's screen is over: what comes now stands below it."""
+        """Leaves the robot's screen: further output appears below it."""
         self.hide()
         if self.draws and self._console.draws:
             self._console.draws = False
-            self.add("\x1b[0m\x1b[999;1H\n")  # plain letters, the last line
+            self.add("\x1b[0m\x1b[999;1H\n")  # normal attributes, last line
 
     def close(self) -> None:
         self.leave_screen()
@@ -143,7 +144,7 @@ class Terminal:
             self._console.let_go()
 
     def type(self, byte: int) -> bytes | None:
-        """A byte of the line that is being typed. Returns the line when it has ended."""
+        """Takes a byte of the line being typed. Returns the line when it is complete."""
         if self._is_skipped(byte):
             return None
         if byte in b"\r\n":
@@ -158,7 +159,7 @@ class Terminal:
         return None
 
     def _is_skipped(self, byte: int) -> bool:
-        """Cursor keys and their like mean nothing here: ESC, "[" or "O", then up to a letter or "~"."""
+        """Skips cursor keys and the like: ESC, "[" or "O", then up to a letter or "~"."""
         before, self._escape = self._escape, 0
         if before == ESC:
             self._escape = byte if byte in b"[O" else 0
@@ -169,11 +170,11 @@ class Terminal:
         return bool(before or byte == ESC)
 
     def hint(self, start: int) -> None:
-        """Writes how to leave into the last row, when the robot has drawn its screen anew and is silent: after every redraw if the
+        """Writes into the last row how to leave, after the robot has redrawn its screen and is silent. It appears after every redraw if the
         terminal has a row below the robot's screen, else once for each start of the robot, until the robot writes there."""
         self._console.cleared = False
         columns, rows = os.get_terminal_size(STDOUT)
         if columns >= 2 * len(HINT):
             if rows > ROBOT_ROWS or start != self._hint_at_start:
-                self.add(f"\x1b7\x1b[{rows};{columns + 1 - len(HINT)}H{HINT}\x1b8")  # the cursor comes back to where the robot has put it
+                self.add(f"\x1b7\x1b[{rows};{columns + 1 - len(HINT)}H{HINT}\x1b8")  # returns the cursor to where the robot put it
             self._hint_at_start = start

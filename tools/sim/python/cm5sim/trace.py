@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Goal and present position of every servo by tick, as CSV (tick,ms,goal1,present1,goal2,present2,...): one row for each 1/128 s of simulated
-time; the goal of a limp servo is left empty. plot.py draws it."""
+"""Goal and present position of every servo by tick, as CSV (tick,ms,goal1,present1,goal2,present2,...): one row for each 1/128 s of
+simulated time. The goal of a limp servo is empty. plot.py draws it."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from .servo import Servos
 
 
 class Trace:
-    """path: the file, or None for one that is only drawn."""
+    """path: the file; None: a temporary file, only to be drawn."""
 
     def __init__(self, servos: Servos, path: str | None, picture: str | None) -> None:
         """OSError: the file cannot be written."""
         self._servos, self._picture = servos, picture
         self._temporary = not path
         self._file = open(path, "w", encoding="ascii") if path else tempfile.NamedTemporaryFile("w", suffix=".csv", delete=False)
-        self._count = len(servos)  # servos plugged in later are left out
+        self._count = len(servos)  # servos added later are left out
         self._file.write("tick,ms" + "".join(f",goal{servo},present{servo}" for servo in servos.ids) + "\n")
 
     def row(self, tick: int, now: int) -> None:

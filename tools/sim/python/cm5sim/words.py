@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Words of the command line and of scripts: times, numbers, keys of the remote, quoted text."""
+"""Words of the command line and of scripts: times, numbers, remote keys, quoted text."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ _BLANK = re.compile(rb"\s*(?:#.*)?", re.S)
 
 
 class Word(NamedTuple):
-    """A word of a line; text in quotes may be any bytes."""
+    """A word of a line. Quoted text may contain any bytes."""
 
     text: bytes
     quoted: bool
 
 
 def duration(text: str) -> int | None:
-    """ "500ms", "2s", "1.5s", "20us", "3ticks" (128 to a second), "2min", "100cycles" in cycles of 16 MHz. A bare 0 is a time too."""
+    """ "500ms", "2s", "1.5s", "20us", "3ticks" (128 per second), "2min", "100cycles" in cycles of 16 MHz. A bare 0 is also a time."""
     found = re.fullmatch(r"(\d+\.?\d*|\.\d+)([a-z]*)", text)
     value = float(found[1]) if found else -1.0
     if not found or value > 1e9:
@@ -32,14 +32,14 @@ def duration(text: str) -> int | None:
 
 
 def number(text: str, low: int, high: int) -> int | None:
-    """A whole decimal or 0x number of this range."""
+    """Parses a decimal or 0x integer in this range; None: it is not one."""
     found = re.fullmatch(r"[+-]?\d+|0[xX][0-9a-fA-F]+", text)
     value = int(text, 16 if text[1:2] in "xX" and len(text) > 2 else 10) if found else None
     return value if value is not None and low <= value <= high else None
 
 
 def rc_keys(text: str) -> int | None:
-    """Keys of the remote joined by "+" (U D L R 1..6), or 0 for none, as the word that it sends."""
+    """Converts remote keys joined by "+" (U D L R 1..6), or 0 for none, to the word that the remote sends. None: wrong keys."""
     if text == "0":
         return 0
     keys = text.upper().split("+")
@@ -55,7 +55,7 @@ def _unescape(found: re.Match[bytes]) -> bytes:
 
 
 def split(line: bytes) -> list[Word]:
-    """The words of a line; "#" begins a comment. ValueError: what is wrong with it."""
+    """Splits a line into words; "#" begins a comment. ValueError: what is wrong."""
     words: list[Word] = []
     at = _BLANK.match(line).end()  # type: ignore[union-attr]
     while at < len(line):
