@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Writes licences.html: the notices of everything that is in the built page. Which npm packages those are the bundler tells, of the page
-// and of its workers; their texts stand in the packages. What is compiled to WebAssembly comes from packages of the distribution, whose
-// notices stand in /usr/share/doc. A notice that is not found ends the build.
+// Writes licences.html: the notices of everything in the built page. The bundler reports the npm packages in the page and its workers;
+// their notices are in the packages. WebAssembly is compiled from distribution packages, with notices in /usr/share/doc. A missing notice
+// fails the build.
 
 import { existsSync, readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
@@ -11,10 +11,10 @@ const COMMON = '/usr/share/common-licenses';
 const DOC = '/usr/share/doc';
 const VENV = new URL('../../build/venv/', import.meta.url).pathname;
 const HERE = new URL('./', import.meta.url).pathname;
-/** In which folder of node_modules a module is. */
+/** Matches the package folder in node_modules that contains a module. */
 const PACKAGE = /^(.*\/node_modules\/((?:@[^/]+\/)?[^/]+))\//;
 
-/** Somebody's work in the page. texts: their notices, in full. */
+/** A work that is part of the page. texts: its notices in full. */
 interface Notice {
     readonly title: string;
     readonly about: string;
@@ -29,12 +29,12 @@ function read(path: string): string {
     return readFileSync(path, 'utf8');
 }
 
-/** Of a package of the distribution. */
+/** The notice of a distribution package. */
 function copyright(name: string): string {
     return read(join(DOC, name, 'copyright'));
 }
 
-/** The newest of the packages whose names fit. */
+/** The newest entry whose name matches. */
 function newest(folder: string, name: RegExp): string {
     const [found] = readdirSync(folder)
         .filter(one => name.test(one))
@@ -44,7 +44,7 @@ function newest(folder: string, name: RegExp): string {
     return found;
 }
 
-/** Of a package that has no file of its own with its licence. */
+/** Licence texts for packages that bring none. */
 const LICENCE_FILES: Readonly<Record<string, string>> = { 'Apache-2.0': 'Apache-2.0', 'MPL-2.0': 'MPL-2.0' };
 
 function npmNotice(folder: string, name: string): Notice {
@@ -75,7 +75,7 @@ function npmNotice(folder: string, name: string): Notice {
     };
 }
 
-/** What the bundler does not know: it is fetched when the page runs. */
+/** Parts that the bundler does not know, because they are fetched at run time. */
 function compiledNotices(): Notice[] {
     const packages = join(VENV, 'lib', newest(join(VENV, 'lib'), /^python3/), 'site-packages');
     const intelhex = newest(packages, /^intelhex-.*\.dist-info$/);
@@ -133,7 +133,7 @@ ${sections.join('\n')}
 `;
 }
 
-/** Two plugins: `bundled` goes wherever modules are bundled, `page` writes the file once all of them are. */
+/** Two plugins: `bundled` collects packages in every bundle, `page` writes the file at the end. */
 export function licences(): { readonly bundled: () => Plugin; readonly page: Plugin } {
     const folders = new Map<string, string>();
     const bundled = (): Plugin => ({

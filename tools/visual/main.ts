@@ -16,17 +16,17 @@ import { useLanguage } from './view/texts/languages.ts';
 import { TEXTS } from './view/texts/texts.ts';
 
 async function start(): Promise<void> {
-    await useLanguage(); // before any text is looked up
+    await useLanguage(); // before any text is used
     if (typeof WebAssembly === 'undefined') return fail(TEXTS.page.noWebAssembly);
     const [body, parts, storage] = await Promise.all([robotBody(), editorParts(), documentStorage()]);
     const session = new RobotSession(body, parts, fileFormats(), storage);
     await Promise.all([session.start(), show(session, parts)]); // the robot starts in its worker while the page is built
     keepOffline(session);
-    document.addEventListener('visibilitychange', takeTyped); // the last thing that a page hears, also when it is loaded anew
+    document.addEventListener('visibilitychange', takeTyped); // the last event that a page receives, also on reload
     window.addEventListener('beforeunload', event => session.documents.state.get().saving === 'off' && event.preventDefault());
 }
 
-/** What stands in a field is taken as if somebody had left it. */
+/** Commits a half-typed field as if the person had left it. */
 function takeTyped(): void {
     const field = document.activeElement;
     if (document.visibilityState === 'hidden' && field?.matches('input[type=text], input[type=number]'))
@@ -39,11 +39,11 @@ async function show(session: RobotSession, parts: EditorParts): Promise<void> {
     shell.session = session;
     document.body.append(shell);
     const readAddress = (): void => void session.files.readAddress(window.location.hash);
-    window.addEventListener('hashchange', readAddress); // a link for this page while it is open
+    window.addEventListener('hashchange', readAddress); // a link to this page while it is open
     readAddress();
 }
 
-/** The first document holds what the robot in the page has. */
+/** The first document is a copy of the simulated robot's motions. */
 async function editorParts(): Promise<EditorParts> {
     const [scratch, player, motions, library] = await Promise.all([
         motionInstance(),
@@ -67,8 +67,7 @@ async function documentStorage(): Promise<ChosenStorage> {
     }
 }
 
-/** Keeps the whole page in the browser, once everything it needs now has been loaded. Only the built page has a service
- *  worker. */
+/** Stores the complete page in the browser once everything it needs is loaded. Only the built page has a service worker. */
 function keepOffline(session: RobotSession): void {
     if (!import.meta.env.PROD) return;
     const unwatch = session.state.watch(state => {

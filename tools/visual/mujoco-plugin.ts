@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Makes MuJoCo's JavaScript fit for a page with a strict content security policy. As published it builds its call bridges
-// with `new Function`, which such a policy forbids (and `unsafe-eval`, which would allow it, would open the page to more);
-// here closures take their place. It also names its .wasm, which we pack and fetch ourselves: that name would put 10 MB
-// unpacked beside the page. Each place is replaced exactly once, or the build ends: a new version wants a new look.
+// Makes MuJoCo's JavaScript run under a strict content security policy. The published code builds its call bridges with `new Function`,
+// which the policy forbids (allowing `unsafe-eval` would weaken the page). Closures replace them. The code also refers to its .wasm, which
+// we compress and fetch ourselves; the reference would add 10 MB to the built page. Each place must be replaced exactly once, or the build
+// fails: a new version needs a review.
 
 import type { Plugin } from 'vite';
 
-/** `new Function(...args, invokerFnBody)(...closureArgs)`: C++ functions for JavaScript. In scope there: argTypes,
- *  isClassMethodFunc, needsDestructorStack, returns, cppInvokerFunc, cppTargetFunc, humanName, minArgs, expectedArgCount. */
+/** `new Function(...args, invokerFnBody)(...closureArgs)`: JavaScript calls C++. In scope there: argTypes, isClassMethodFunc,
+ *  needsDestructorStack, returns, cppInvokerFunc, cppTargetFunc, humanName, minArgs, expectedArgCount. */
 const INVOKER = `function (...given) {
   checkArgCount(given.length, minArgs, expectedArgCount, humanName, throwBindingError);
   const destructors = needsDestructorStack ? [] : null;
@@ -23,7 +23,7 @@ const INVOKER = `function (...given) {
   return returns ? argTypes[0].fromWireType(result) : undefined;
 }`;
 
-/** `new Function(...params, functionBody)(...args)`: JavaScript functions for C++. In scope: types, retType, kind, argCount. */
+/** `new Function(...params, functionBody)(...args)`: C++ calls JavaScript. In scope: types, retType, kind, argCount. */
 const CALLER = `function (obj, func, destructorsRef, args) {
   let at = args;
   const values = [];

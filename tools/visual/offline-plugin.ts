@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes what stands beside the page: the service worker with the names of all files, the licences, the manifest.
+// Writes the files that accompany the page: the service worker with all file names, the manifest, the icon.
 
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';

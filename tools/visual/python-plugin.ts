@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pyodide names its .wasm, so that a bundler would put 10 MB unpacked beside the page; the worker hands over ours, packed.
-// The place is replaced exactly once, or the build ends: a new version wants a new look.
+// Pyodide's code refers to its .wasm, so a bundler would add 10 MB uncompressed to the page. The worker supplies our compressed file
+// instead. The place must be replaced exactly once, or the build fails: a new version needs a review.
 
 import type { Plugin } from 'vite';
 

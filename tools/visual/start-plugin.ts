@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes motions.html in every language, and its pictures, from what start/record.ts has seen the robot do.
+// Writes motions.html in every language and its pictures, from the recordings of start/record.ts.
 
 import { readFileSync } from 'node:fs';
 import { readFile } from 'node:fs/promises';
@@ -47,7 +47,7 @@ export function start(): Plugin {
         name: 'start',
         apply: 'build',
         async generateBundle() {
-            const seen = JSON.parse(readFileSync(new URL('wasm/start.json', BUILD), 'utf8')) as Record<string, Outline[]>; // record.ts
+            const seen = JSON.parse(readFileSync(new URL('wasm/start.json', BUILD), 'utf8')) as Record<string, Outline[]>; // from record.ts
             for (const [name, frames] of Object.entries(seen)) {
                 this.emitFile({ type: 'asset', fileName: `motions/${name}.svg`, source: picture(frames, true) });
                 this.emitFile({ type: 'asset', fileName: `motions/${name}-still.svg`, source: picture(frames, false) });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Builds the page into build/visual. Relative addresses everywhere: the folder works from any sub-path of any host.
+// Builds the page into build/visual. All addresses are relative, so the folder works under any path of any host.
 import { defineConfig } from 'vite';
 import { mujocoWithoutEval } from './mujoco-plugin.ts';
 import { pythonHandedOver } from './python-plugin.ts';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The built page in a real browser. Two at a time: a page mostly waits for its robot, which keeps real time. A test that failed is run
-// once more, and the report says that it was: on a shared machine a browser that draws by software may be kept waiting.
+// The built page in a real browser. Two tests run at a time: a page mostly waits for its robot, which runs in real time. A failed test is
+// repeated once, and the report says so, because software drawing can be starved on a shared machine.
 import { defineConfig } from 'vitest/config';
 
 export default defineConfig({
@@ -11,6 +11,6 @@ export default defineConfig({
         maxWorkers: 2,
         isolate: false,
         retry: 1,
-        expect: { poll: { timeout: Number(process.env.WAIT_MS ?? 240_000) } }, // as long as every other wait (page-bench.ts)
+        expect: { poll: { timeout: Number(process.env.WAIT_MS ?? 240_000) } }, // as every other wait (page-bench.ts)
     },
 });

@@ -17,7 +17,7 @@
 
 static struct {
     board_t *board;
-    size_t received; /* bytes of the console that the page has taken */
+    size_t received; /* console bytes that the page has taken */
     double servos[SERVOS_MAX * BOARD_API_SERVO_FIELDS];
     uint8_t buffer[BOARD_API_BUFFER_BYTES];
 } api;
@@ -26,7 +26,7 @@ static uint32_t clip(uint32_t count) { return count < sizeof api.buffer ? count 
 
 static servo_bus_t *bus(void) { return board_servo_bus(api.board); }
 
-/* The servo of that index as of now; NULL: none. */
+/* The servo with this index, updated to now; NULL: none. */
 static servo_t *servo_now(int index)
 {
     servo_t *servo = api.board ? servo_api_at(bus(), index) : NULL;

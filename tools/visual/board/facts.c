@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * facts.c - writes the numbers of C that the page's TypeScript needs into a module of constants: facts FILE.
- * It runs on this machine while the page is built. What is asked for here is written nowhere else in TypeScript. */
+ * facts.c - writes the C constants that the page's TypeScript needs to a TypeScript module: facts FILE. It runs on the
+ * build machine. These constants are not repeated anywhere in TypeScript. */
 #include <stdio.h>
 
 #include "board.h"

@@ -117,7 +117,7 @@ static void lead(int page, motion_api_lead_t kind, uint8_t code)
     }
 }
 
-/* The link that a page is left by when this code called it. */
+/* The link that is followed at the end of the page if this code called it. */
 static link_taken_t taken_by(int page, uint8_t code)
 {
     link_t link;
@@ -236,7 +236,7 @@ int motion_api_top_speed_q4_4(int decivolts)
 
 static bool is_step(int page, int step) { return is_page(page) && step >= 0 && step < (int)PAGE_STEPS; }
 
-/* Takes the joints that a step uses to its positions; returns the longest way. */
+/* Moves the joints that a step uses to its positions. Returns the longest distance. */
 static uint16_t go_to_step(uint16_t pose[PAGE_JOINTS], const uint8_t *page, uint8_t step)
 {
     uint16_t longest = 0;

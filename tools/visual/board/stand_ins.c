@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * What a page has no use for, as doors that stay shut: GDB, wave files, ELF files. They take the place of simavr's
- * sim_gdb.c, sim_vcd_file.c and sim_cmds.c, and of tools/sim/board's gdb.c, elf_image.c and symbols.c, which want
- * sockets, files and libelf. Without symbols a violation names an address and no function, and the stack guard ends at
- * the start of the SRAM. */
+ * Stubs for parts that the page does not use: GDB, wave files, ELF files. They replace simavr's sim_gdb.c,
+ * sim_vcd_file.c and sim_cmds.c, and gdb.c, elf_image.c and symbols.c of tools/sim/board, which need sockets, files and
+ * libelf. Without symbols a violation gives an address but no function, and the stack guard ends at the start of the
+ * SRAM. */
 #include <stdio.h>
 
 #include "elf_image.h"

@@ -27,7 +27,7 @@ def multiplied(a, b):
 
 
 def quaternion(element):
-    """Of `euler` in degrees: about x, then the new y, then the new z, as MJCF means it unless told otherwise."""
+    """The quaternion of `euler` (degrees), which is about x, then the new y, then the new z: the default of MJCF."""
     result = (1.0, 0.0, 0.0, 0.0)
     for axis, angle in enumerate(numbers(element.get("euler", "0 0 0"))):
         half = radians(angle) / 2
@@ -38,7 +38,7 @@ def quaternion(element):
 
 
 def from_to(ends):
-    """Place, half length and direction of a capsule or cylinder between two points: its own z axis turned there."""
+    """Centre, half length and quaternion of a capsule or cylinder between two points; its z axis points along them."""
     a, b = ends[:3], ends[3:]
     way = [q - p for p, q in zip(a, b)]
     length = sqrt(sum(w * w for w in way))

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""What the page asks of m512, in Pyodide: files to an image and back, checks, differences.
+"""The page's interface to m512 in Pyodide: files to an image and back, checks, differences.
 
-An image is 65,536 bytes: pages 0..127 as they lie in flash. Every answer is a dict of plain values; an error of m512's is
-{"error": its sentence}. Other exceptions are mistakes of ours and pass.
+An image is 65,536 bytes: pages 0..127 as in flash. Every answer is a dict of plain values. An m512 error is returned as
+{"error": its message}. Other exceptions are bugs and are not caught.
 """
 
 from pathlib import Path
@@ -15,7 +15,7 @@ from m512.pages import difference, operations
 
 BOARD_PAGES = 128
 BITS = 10
-#: A sentence that quotes a whole line of a damaged file is cut in its middle.
+#: A longer message is cut in the middle: it may quote a whole line of a damaged file.
 SENTENCE = 400
 IMAGE = Path("image.bin")
 
@@ -37,8 +37,8 @@ def short(sentence):
 
 @_told
 def opened(name, data, leave_out=False):
-    """A motion file as an image: {"image", "notes", "losses"}, what `m512 convert NAME x.bin` makes; 12 bit is scaled to 10.
-    {"no_room": pages} when pages of the user's would be lost (a board of 256 pages); `leave_out` loses them."""
+    """Converts a motion file to an image as `m512 convert NAME x.bin` does: {"image", "notes", "losses"}. 12 bit is scaled to 10.
+    {"no_room": pages} if pages would be lost (from a board of 256 pages); `leave_out` drops them."""
     path = Path(name)
     image = formats.decode(bytes(data), path)
     notes, losses = list(image.notes), []
@@ -55,14 +55,14 @@ def opened(name, data, leave_out=False):
 
 @_told
 def saved(name, data):
-    """An image as a file of the kind that the suffix of `name` says: {"file", "losses"}."""
+    """Converts an image to a file of the format given by the suffix of `name`: {"file", "losses"}."""
     file, losses = formats.encode(Path(name), raw.from_bytes(bytes(data)))
     return {"file": file, "losses": losses}
 
 
 @_told
 def checked(data):
-    """What `m512 pages check` says: {"found": [{"page", "text", "is_fault"}]}; is_fault is false for what may only surprise."""
+    """The findings of `m512 pages check`: {"found": [{"page", "text", "is_fault"}]}. is_fault is false for remarks."""
     image = raw.from_bytes(bytes(data))
     return {
         "found": [
@@ -75,7 +75,7 @@ def checked(data):
 
 @_told
 def differences(first, second):
-    """What `m512 diff` says: {"changes": [{"page", "text"}]}."""
+    """The output of `m512 diff`: {"changes": [{"page", "text"}]}."""
     return {
         "changes": [
             {"page": change.page, "text": str(change)} for change in difference.images(raw.from_bytes(bytes(first)), raw.from_bytes(bytes(second)))

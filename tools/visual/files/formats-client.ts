@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The page's end of the worker with Python. The worker starts at the first question.
+// The page's end of the worker with Python. The worker starts at the first request.
 
 import type { Difference, FileFormats, Finding, FormatsWorker, NoRoom, Opened, Refused, Saved } from '../model/file-formats.ts';
 import type { FromFiles, PythonParts, ToFiles } from './messages.ts';
 
-/** The browser says nothing of a worker whose program it could not load. */
+/** The browser gives no message if it could not load a worker's program. */
 const NOT_LOADED = 'its program was not loaded';
 
 type Ask = keyof FileFormats;
@@ -45,7 +45,7 @@ export class FormatsClient implements FormatsWorker {
     }
 
     cancel(): void {
-        this.worker?.terminate(); // Python hears nothing while it works
+        this.worker?.terminate(); // Python receives no messages while it works
         this.worker = null;
         for (const [id, { ask, message, reject }] of [...this.waiting]) {
             if (ask !== 'open' && ask !== 'save') {
@@ -59,7 +59,7 @@ export class FormatsClient implements FormatsWorker {
 
     private ask<K extends Ask, A>(ask: K, ...what: Parameters<FileFormats[K]>): Promise<A> {
         const id = ++this.lastId;
-        const message = { kind: 'question', id, ask, what } as ToFiles; // each question's parameters fit its own name
+        const message = { kind: 'question', id, ask, what } as ToFiles; // the parameters belong to `ask`
         return new Promise<A>((resolve, reject) => {
             this.waiting.set(id, { ask, message, resolve: resolve as (answer: unknown) => void, reject });
             this.started().postMessage(message);
@@ -88,7 +88,7 @@ export class FormatsClient implements FormatsWorker {
         }
     }
 
-    /** Out of memory, mostly. The next question starts a new worker. */
+    /** Usually out of memory. The next request starts a new worker. */
     private crashed(text: string): void {
         this.worker?.terminate();
         this.worker = null;

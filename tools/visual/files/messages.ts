@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Between the page and the worker with Python. Each question has an id; its answer carries the same.
+// Messages between the page and the worker with Python. An answer has the id of its question.
 
 import type { FileFormats } from '../model/file-formats.ts';
 
-/** Addresses of the two large files, asked for when first needed. */
+/** Addresses of the two large files, which are loaded when first needed. */
 export interface PythonParts {
-    /** pyodide.asm.wasm, packed with gzip. */
+    /** pyodide.asm.wasm, compressed with gzip. */
     readonly wasmUrl: string;
     /** Made by pack.mjs. */
     readonly libraryUrl: string;

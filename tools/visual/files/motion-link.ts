@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Motions in the address of the page, so that a link is all that is sent: base64url of deflated bytes, which are a version, then
-// for each page its number and its 512 bytes. A page of three steps makes about 200 characters.
+// Motions in the page's address, so that a link is enough to send them. The text is base64url of deflated bytes: a version, then for each
+// page its number and its 512 bytes. A page with three steps takes about 200 characters.
 
 import { pageOf } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
 import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
 import type { PageFormat } from '../model/page-format.ts';
 
-/** Before the motion in the address. */
+/** Precedes the motion in the address. */
 export const HASH = '#motion=';
 const VERSION = 1;
 const ENTRY = 1 + PAGE_BYTES;
-/** Browsers and mail programs take at least so many characters of an address. */
+/** Browsers and mail programs accept addresses of at least this length. */
 export const MOST_CHARACTERS = 8000;
 const MOST_BYTES = 1 + PAGE_COUNT * ENTRY;
 
@@ -39,7 +39,7 @@ async function through(bytes: Uint8Array, stream: CompressionStream | Decompress
     return whole;
 }
 
-/** Pages by their numbers, 1..127, as text for an address. */
+/** Encodes pages (by number, 1..127) as text for an address. */
 export async function encodeMotion(pages: ReadonlyMap<number, Uint8Array>): Promise<string> {
     const bytes = new Uint8Array(1 + pages.size * ENTRY);
     bytes[0] = VERSION;
@@ -54,13 +54,13 @@ export async function encodeMotion(pages: ReadonlyMap<number, Uint8Array>): Prom
         .replaceAll('=', '');
 }
 
-/** Null: the text is no motion, or was cut on its way. */
+/** Null: the text is not a motion or was cut off. */
 export async function decodeMotion(text: string): Promise<Map<number, Uint8Array> | null> {
     try {
         const packed = Uint8Array.from(atob(text.replaceAll('-', '+').replaceAll('_', '/')), letter => letter.charCodeAt(0));
         return entries(await through(packed, new DecompressionStream('deflate-raw')));
     } catch {
-        return null; // whatever was wrong with it: there is one sentence for a bad link
+        return null; // there is one message for every bad link
     }
 }
 
@@ -75,7 +75,7 @@ function entries(bytes: Uint8Array): Map<number, Uint8Array> | null {
     return pages;
 }
 
-/** The page itself first, then all that it leads to, as far as they hold something whole. */
+/** The valid, non-empty pages to send: the page itself first, then all pages it leads to. */
 export function pagesToSend(format: PageFormat, document: MotionDocument, start: number): Map<number, Uint8Array> {
     const others = format.reach(document, start).filter(page => page !== start);
     const pages = [start, ...others].map((page): [number, Uint8Array] => [page, pageOf(document, page)]);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Run by pack.mjs inside Pyodide: packs the modules in use into /python.zip. Sources lie in /pack and the standard library."""
+"""Run by pack.mjs in Pyodide: packs the modules in use into /python.zip. Sources are in /pack and the standard library."""
 
 import importlib._bootstrap_external as external
 import sys
@@ -14,12 +14,12 @@ WHEN = (2005, 1, 1, 0, 0, 0)
 
 
 def use_everything():
-    """Loads what is imported only when used: every format, both ways, and what an error needs."""
+    """Loads the modules that are imported only on use: every format, both ways, and what error reports need."""
     empty = bytes(bridge.raw.Image.empty().to_bytes())
     for name in ("a.bin", "a.hex", "a.m512", "a.mtn"):
         file = bridge.saved(name, empty)["file"]
         bridge.opened(name, file)
-        bridge.opened(name, file[:-2] + "\ufffd".encode())  # a checksum that an editor spoiled: encodings of its own
+        bridge.opened(name, file[:-2] + "\ufffd".encode())  # a checksum damaged by an editor: needs other encodings
     assert "error" in bridge.opened("a.csv", b"page,") and "error" in bridge.opened("a.txt", b"?")
     bridge.checked(empty)
     bridge.differences(empty, empty)
@@ -42,7 +42,7 @@ def modules():
 
 def compiled(name, source):
     code = compile(source, name, "exec", dont_inherit=True)
-    return external._code_to_hash_pyc(code, bytes(8), False)  # never looked at: there is no source beside it
+    return external._code_to_hash_pyc(code, bytes(8), False)  # the hash is not checked: the zip has no sources
 
 
 use_everything()

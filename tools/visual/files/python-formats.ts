@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// m512 in Python, behind the interface of formats.ts. Runs in the worker and, for the tests, in Node.
+// m512 in Python behind the interface of model/file-formats.ts. Runs in the worker, and in Node for the tests.
 
 import type { PyodideAPI } from 'pyodide';
 import type { Difference, FileFormats, Finding, NoRoom, Opened, Refused, Saved } from '../model/file-formats.ts';
@@ -21,7 +21,7 @@ type Question = 'opened' | 'saved' | 'checked' | 'differences';
 export class PythonFormats implements FileFormats {
     private readonly python: PyodideAPI;
 
-    /** python: with python.zip as its standard library. */
+    /** python: an instance with python.zip as its standard library. */
     constructor(python: PyodideAPI) {
         this.python = python;
     }
@@ -47,7 +47,7 @@ export class PythonFormats implements FileFormats {
         return this.ask('differences', first, second).changes ?? [];
     }
 
-    /** Everything is copied: nothing of Python's memory leaves this function. */
+    /** Copies everything, so that no reference to Python's memory leaves this function. */
     private ask(question: Question, ...what: readonly (string | boolean | Uint8Array)[]): Answer {
         const bridge = this.python.pyimport('bridge');
         const answer = bridge[question](...what);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The worker with Python in it. It loads at the first question; a load that failed (no network, no memory) is tried again at the next.
+// The worker with Python. Python is loaded at the first request. A failed load (no network, no memory) is repeated at the next request.
 
 import { loadPyodide } from 'pyodide';
 import createPyodideModule from 'pyodide/pyodide.asm.mjs';
@@ -20,7 +20,7 @@ async function get(url: string): Promise<Response> {
     return response;
 }
 
-/** Pyodide fetches its .wasm by a name of its own, and its library without a word when that is missing. It gets ours. */
+/** Pyodide fetches its .wasm under its own name and does not report a missing library. Makes fetch() return our files instead. */
 function handOver(files: ReadonlyMap<string, Response>): () => void {
     const { fetch } = self;
     self.fetch = (what, options) => {

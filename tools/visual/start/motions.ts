@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The ten motions of the start page: pages of the library. What stands on their cards is in view/texts/.
+// The ten motions of the start page, which are pages of the library. The text of their cards is in view/texts/.
 
 export interface StartMotion {
-    /** Of the page in the library. */
+    /** The page's name in the library. */
     readonly name: string;
-    /** Of the picture: seconds from the beginning, and at most. */
+    /** Start of the picture in the motion, and its longest duration. */
     readonly fromSeconds: number;
     readonly seconds: number;
-    /** It begins lying on its face, where a push has brought it. */
+    /** The robot starts lying on its face after a push. */
     readonly lies?: boolean;
 }
 

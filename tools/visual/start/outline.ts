@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The robot as a few strokes, seen from half left before it and a little above: the far limbs first, the near ones last.
+// Draws the robot as a few strokes, seen from the front left and slightly above. Far limbs come first, near ones last.
 
 import { rotate } from '../model/space.ts';
 import type { Place, Vector } from '../model/space.ts';
@@ -19,7 +19,7 @@ const BLUE = '#2a6aad';
 const SOLE = '#1a1a1c';
 const EYES = '#fac833';
 
-/** A stroke between two heights of a link, over its axis. */
+/** A vertical stroke between two heights of a link. */
 function bar(link: string, from: number, to: number, widthM: number, colour: string, x = 0): Stroke {
     const points = [from, to].map((z): Vector => [x, 0, z]);
     return { link, points, widthM, colour };
@@ -43,7 +43,7 @@ function limbs(side: 'right' | 'left'): Stroke[] {
     ];
 }
 
-/** Far to near, as they are seen from half left. */
+/** From far to near, as seen from the front left. */
 export const STROKES: readonly Stroke[] = [
     ...limbs('right'),
     bar('trunk', -0.072, -0.05, 0.1, GREY),
@@ -54,7 +54,7 @@ export const STROKES: readonly Stroke[] = [
     ...limbs('left'),
 ];
 
-/** Where the points of all strokes are in a picture of VIEW pixels, x and y in turn. */
+/** The points of all strokes in a picture of VIEW pixels, x and y in turn. */
 export type Outline = readonly (readonly number[])[];
 
 export const VIEW = 320;
@@ -67,7 +67,7 @@ export function strokePixels(widthM: number): number {
     return Math.round(widthM * PIXELS_PER_M);
 }
 
-/** The picture goes with the robot's middle. */
+/** The picture is centred on the robot. */
 export function outline(places: ReadonlyMap<string, Place>): Outline {
     const all = [...places.values()].map(({ pos }) => pos);
     const middle = (axis: 0 | 1): number => all.reduce((sum, pos) => sum + pos[axis], 0) / all.length;

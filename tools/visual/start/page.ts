@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// motions.html: a card for each motion, with its picture; each is one link, and the robot does it when the page opens.
+// motions.html: a card with a picture for each motion. Each card is a link that opens the page with the robot playing the motion.
 
 import type { Texts } from '../view/texts/texts.ts';
 import type { StartMotion } from './motions.ts';
 
-/** Its file in that language. */
+/** The name of the start page's file in this language. */
 export function startFile(language: string): string {
     return language === 'en' ? 'motions.html' : `motions.${language}.html`;
 }
 
 export interface Card extends StartMotion {
-    /** With the motion in it, behind the address of the robot's page. */
+    /** The part of the link after the address of the robot's page, with the motion. */
     readonly address: string;
 }
 
@@ -31,7 +31,7 @@ b, span { display: block; padding: 0 12px }
 b { font-size: 17px }
 span { color: var(--soft) }`;
 
-/** others: the same page in other languages, by their names. */
+/** others: the page's other languages, code -> name. */
 export function startPage(cards: readonly Card[], language: string, { start }: Texts, others: ReadonlyMap<string, string>): string {
     const query = language === 'en' ? '' : `?lang=${language}`;
     const items = cards.map(({ name, address }) => {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A motion as a small picture that moves by itself (SVG), and as one that stands still, for those who want no motion.
+// A motion as a small animated picture (SVG), or as a still one for people who prefer reduced motion.
 
 import { STROKES, VIEW, strokePixels } from './outline.ts';
 import type { Outline } from './outline.ts';
 
 const FRAMES_PER_SECOND = 12.8;
-/** The last pose stays a little before it begins again. */
+/** The last pose stays this long before the loop restarts. */
 const REST_FRAMES = 8;
 
 export function picture(frames: readonly Outline[], moves: boolean): string {

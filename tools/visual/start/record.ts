@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// node start/record.ts BUILD OUTPUT: lets the robot play the motions of the start page, the firmware on the simulated board with the body in
-// physics, and writes where its links were. The pictures of the start page are drawn from it.
+// node start/record.ts BUILD OUTPUT: plays the motions of the start page with the firmware on the simulated board and the body in physics,
+// and writes the places of the links. The start page's pictures are drawn from them.
 import { readFile, writeFile } from 'node:fs/promises';
 import { jointAngle, placeLinks } from '../model/body.ts';
 import type { Body } from '../model/body.ts';
@@ -24,10 +24,10 @@ const FRAME_TICKS = 10;
 const READY_PAGE = 1;
 const BOOT_S = 3;
 const READY_S = 3;
-/** As the page's own push (view/push.ts). */
+/** The same as the page's own push (view/push.ts). */
 const PUSH = { reachM: 0.2, chestM: 0.03, ticks: 38 };
 const FALL_S = 2.5;
-/** Nothing has moved for so long: the motion has ended. */
+/** The motion has ended when nothing has moved for this long. */
 const STILL_FRAMES = 6;
 const STILL_UNITS = 1;
 
@@ -52,7 +52,7 @@ function pageNumber(name: string): number {
     return page;
 }
 
-/** A robot that stands in the room by itself. */
+/** Starts a robot that stands in the room by itself. */
 async function standing(): Promise<{ simulation: Simulation; type: (text: string) => void; pass: (seconds: number) => void }> {
     const machine = await makeMachine(board, images, null);
     const simulation = new Simulation(machine, body);
