@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a person wants first: walk, wave, get up, stop. The buttons are pages of the robot, found by their names; all the
-// others are in a list.
+// Buttons for the first actions: walk, wave, get up, stop. They play pages of the robot, found by name; a list has all pages.
 
 import type { PageEntry } from '../robot/protocol.ts';
 import type { RobotState } from '../robot/robot-state.ts';
@@ -11,7 +10,7 @@ import { GetUp } from './get-up.ts';
 import { TEXTS } from './texts/texts.ts';
 import './action-bar.css';
 
-/** Names of the motion library that get a button; the lesser ones only where there is room. */
+/** Motions of the library that get a button; `lesser` ones only where there is space. */
 const BUTTONS = [
     ['walk', ''],
     ['back', 'lesser'],
@@ -21,7 +20,7 @@ const BUTTONS = [
     ['bow', 'lesser'],
     ['dance', 'lesser'],
 ] as const;
-/** The page for a robot on its face, and the one for a robot on its back. */
+/** Pages for a robot on its face and on its back. */
 const GET_UP = { face: 'get_up', back: 'get_up_back' };
 
 export class ActionBar extends HTMLElement {
@@ -79,7 +78,7 @@ export class ActionBar extends HTMLElement {
         this.look(this.frame);
     }
 
-    /** The robot in the page tells how it lies; yours has no sensor for it, so that a person must say it. */
+    /** One button is enough for the simulated robot, whose pose is known. A real robot has no sensor for it, so the user chooses. */
     private oneGetUp(pages: ReadonlyMap<string, PageEntry>): HTMLButtonElement[] {
         return pages.has(GET_UP.face) && pages.has(GET_UP.back) ? [this.getUp] : [];
     }

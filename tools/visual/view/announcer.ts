@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a screen reader is told of the robot: that it starts, ends, falls, is held, and what went wrong; at most one sentence a second.
-// The status bar changes at every step of a motion, which nobody can listen to.
+// What a screen reader announces: start, end, fall, held robot and errors, at most one sentence per second. The status bar changes at
+// every step of a motion, which is too often to be read aloud.
 
 import type { SessionState } from './session/session.ts';
 import { startText } from './texts/robot.ts';
@@ -26,7 +26,7 @@ export class Announcer {
         this.parts = parts;
     }
 
-    /** fallen: what is said of a robot that lies or is held; '' when it stands. */
+    /** fallen: text for a robot that lies or is held; '' otherwise. */
     look(state: SessionState, fallen: string): void {
         const moves = state.where !== null && state.where.state !== 'idle' && state.where.state !== 'ready';
         if (moves !== this.isMoving) this.tell(startText(state));
@@ -43,7 +43,7 @@ export class Announcer {
 
     private tell(text: string): void {
         if (text === this.last && this.due.length === 0) return;
-        this.due = [...this.due.filter(one => one !== text), text].slice(-2); // what is older is over
+        this.due = [...this.due.filter(one => one !== text), text].slice(-2); // anything older is out of date
         this.next();
     }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page: head, picture, areas in tabs, messages.
+// The page: header, picture, areas in tabs, status bar.
 
 import { ActionBar } from './action-bar.ts';
 import { AreaTabs } from './area-tabs.ts';
@@ -155,13 +155,13 @@ export class AppShell extends HTMLElement {
         return make('header', {}, skip, make('h1', {}, 'Motion512'), this.newVersion, tour, more);
     }
 
-    /** A button that the mouse has pressed does not keep the keys: beside the remote, the space bar is to stop and not to press it again. */
+    /** In the remote's area a button loses the focus after a mouse click: the space bar must stop the robot, not press the button again. */
     private giveKeysBack(event: MouseEvent): void {
         const byMouse = event.detail > 0 && event.target instanceof Element;
         if (byMouse && this.session.state.get().tab === 'remote') event.target.closest('button')?.blur();
     }
 
-    /** F6: from the picture to the area, and back. */
+    /** F6 moves the focus between picture and area. */
     private goBetween(event: KeyboardEvent, robot: RobotView): void {
         if (event.key !== 'F6' || event.ctrlKey || event.altKey || document.querySelector('dialog[open]')) return;
         event.preventDefault();
@@ -185,14 +185,14 @@ export class AppShell extends HTMLElement {
         return this.areas.classList.contains('folded');
     }
 
-    /** On end, the areas are a sheet from below: folded, only its tabs are left, and the picture has the room. */
+    /** On an upright screen the areas are a sheet at the bottom. Folded, it shows only its tabs, and the picture gets the space. */
     private foldSheet(folds: boolean): void {
         this.areas.classList.toggle('folded', folds);
         this.sheet.setAttribute('aria-expanded', String(!folds));
     }
 
     private render(state: SessionState): void {
-        // Whoever was in an area that goes with the keyboard is at the tab of the one that comes.
+        // If the focus is in the area that is hidden, it moves to the tab of the new one.
         const isLeft = [...this.panels].some(([name, panel]) => name !== state.tab && panel.contains(document.activeElement));
         this.editBar.hidden = !EDITING.includes(state.tab);
         this.tabs.select(state.tab);

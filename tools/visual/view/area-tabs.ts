@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tabs of the areas. On the first day there are two, and "More", which brings the others for good.
+// The tabs of the areas. A new user sees two and "More", which shows the others for good.
 
 import type { Tab } from './session/session.ts';
 import { define, make } from './element.ts';
@@ -11,7 +11,7 @@ const TABS: readonly Tab[] = ['remote', 'steps', 'curves', 'pages', 'links', 'ch
 const FIRST_DAY: readonly Tab[] = ['remote', 'steps'];
 
 export class AreaTabs extends HTMLElement {
-    /** Somebody wants this area; isClick: not only passed by the arrow keys. */
+    /** An area was chosen; isClick: by click, not by arrow keys. */
     onChoose: (tab: Tab, isClick: boolean) => void = () => undefined;
     private readonly tabs = new Map<Tab, HTMLButtonElement>();
     private readonly more = make(
@@ -36,7 +36,7 @@ export class AreaTabs extends HTMLElement {
         this.showAll(isRemembered('all-areas'));
     }
 
-    /** An area that is not one of the first day's brings all tabs. */
+    /** Selects a tab. If it is not one of the first two, all tabs are shown. */
     select(chosen: Tab): void {
         if (!FIRST_DAY.includes(chosen)) this.showAll(true);
         for (const [name, tab] of this.tabs) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A list whose choice does something. A choice by mouse acts at once. By keyboard the arrows and letters pass over what nobody
-// means, so there Enter acts; Escape, or leaving the list, takes the choice back.
+// A list whose choice triggers an action. A choice by mouse acts at once. By keyboard, arrows and letters pass unwanted entries, so Enter
+// acts; Escape or leaving the list reverts the choice.
 
-/** action: gets the value that was chosen; it may set another one. */
+/** action: gets the chosen value; it may set another one. */
 export function onChoice(list: HTMLSelectElement, action: (value: string) => void): void {
     let isKeyDown = false;
-    let before: string | null = null; // while a choice by keyboard waits: what was chosen before it
+    let before: string | null = null; // value before a pending choice by keyboard
     const act = (): void => {
         before = null;
         action(list.value);
@@ -36,7 +36,7 @@ export function onChoice(list: HTMLSelectElement, action: (value: string) => voi
     });
 }
 
-/** In the open list the arrows only move a mark, and Enter is the choice. */
+/** In an open list the arrows only move a highlight, and Enter chooses. */
 function opensList(event: KeyboardEvent): boolean {
     return event.key === ' ' || event.key === 'Enter' || event.key === 'F4' || event.altKey;
 }

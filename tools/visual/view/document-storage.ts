@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: MIT
-// Documents and backups of robots in the browser's IndexedDB. A put is handed over whole, and its transaction committed, before
-// the call returns: a tab that closes at the next moment does not take it along.
+// Documents and backups of robots in the browser's IndexedDB. A put is issued completely and its transaction committed before the call
+// returns, so it survives a tab that closes right afterwards.
 
 import type { StepsChange } from '../model/history-log.ts';
 import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
 import { TEXTS } from './texts/texts.ts';
 
-/** A document as it is kept. */
+/** A stored document. */
 export interface KeptDocument {
     readonly id: string;
     readonly name: string;
     /** 65,536 bytes. */
     readonly image: Uint8Array;
     readonly savedMs: number;
-    /** How many steps of its history are done; not there: nothing of it was kept. */
+    /** How many steps of its history are done (not undone); absent: no history was stored. */
     readonly position?: number;
 }
 
 /** A robot's pages before something was written into it. */
 export interface Backup {
     readonly id: string;
-    /** Which robot, as the port is called. */
+    /** Name of the robot's port. */
     readonly robot: string;
     readonly image: Uint8Array;
     readonly takenMs: number;
 }
 
-/** What is kept, and what is there but cannot be read: kept as it is. */
+/** All stored entries. Unreadable ones are listed by name and left as they are. */
 export interface Kept {
     readonly documents: readonly KeptDocument[];
     readonly backups: readonly Backup[];
@@ -35,21 +35,21 @@ export interface Kept {
 
 export interface DocumentStorage {
     load(): Promise<Kept>;
-    /** With what changes about the steps of its history: both or nothing. */
+    /** Stores the document and the changes to its history in one transaction. */
     putDocument(document: KeptDocument, steps: StepsChange): Promise<void>;
-    /** The steps of a document's history that are kept, in any order. */
+    /** The stored steps of a document's history, in any order. */
     readSteps(id: string): Promise<readonly unknown[]>;
     putBackup(backup: Backup): Promise<void>;
     removeDocument(id: string): Promise<void>;
 }
 
-/** Name of the robot in the page in backups. */
+/** Name of the simulated robot in backups. */
 export const ROBOT_IN_PAGE = 'robot in the page';
 
 const DATABASE = 'motion512-editor';
 const DOCUMENTS = 'documents';
 const BACKUPS = 'backups';
-/** Of the documents' histories, by document and number. */
+/** Steps of the documents' histories, by document and number. */
 const STEPS = 'steps';
 const KEYS = { [DOCUMENTS]: 'id', [BACKUPS]: 'id', [STEPS]: ['document', 'number'] };
 
@@ -64,23 +64,23 @@ function done<T>(asked: IDBRequest<T>): Promise<T> {
     });
 }
 
-/** The database, unless a tab with an older page still holds it. */
+/** Opens the database. Rejects while a tab with an older page still holds it. */
 function opened(asked: IDBOpenDBRequest): Promise<IDBDatabase> {
     return new Promise((resolve, reject) => {
         asked.onblocked = () => reject(new Error('another tab has an older page open'));
         done(asked).then(database => {
-            database.onversionchange = () => database.close(); // a newer page needs it; this one says that it keeps nothing more
+            database.onversionchange = () => database.close(); // a newer page needs it; this one can store nothing more and says so
             resolve(database);
         }, reject);
     });
 }
 
-/** Numbers from..below of a document. */
+/** Steps of a document with from <= number < below. */
 function stepsIn(id: string, from: number, below: number): IDBKeyRange {
     return IDBKeyRange.bound([id, from], [id, below], false, true);
 }
 
-/** Sorts what a database holds into what can be read and what cannot. */
+/** Splits the contents of a database into readable and unreadable entries. */
 export function sortKept(documents: readonly unknown[], backups: readonly unknown[]): Kept {
     const readable = (entry: unknown): boolean => isImage((entry as { image?: unknown } | null)?.image);
     const nameOf = (entry: unknown): string => {
@@ -101,7 +101,7 @@ export class BrowserStorage implements DocumentStorage {
         this.database = database;
     }
 
-    /** Rejects when the browser keeps nothing (a private window, a full disk). */
+    /** Rejects when the browser stores nothing (private window, full disk). */
     static async open(): Promise<BrowserStorage> {
         const asked = indexedDB.open(DATABASE, 2);
         asked.onupgradeneeded = () => {
@@ -124,7 +124,7 @@ export class BrowserStorage implements DocumentStorage {
         return this.write(store => {
             store(DOCUMENTS).put(document);
             store(STEPS).delete(stepsIn(document.id, dropFrom, Infinity));
-            if (dropBefore > 0) store(STEPS).delete(stepsIn(document.id, 0, dropBefore)); // a range of nothing is an error
+            if (dropBefore > 0) store(STEPS).delete(stepsIn(document.id, 0, dropBefore)); // an empty range is an error
             for (const step of add) store(STEPS).put({ ...step, document: document.id });
         });
     }
@@ -160,7 +160,7 @@ export class BrowserStorage implements DocumentStorage {
     }
 }
 
-/** Where nothing can be kept: as long as the page is open. */
+/** For browsers that store nothing: keeps everything while the page is open. */
 export class PassingStorage implements DocumentStorage {
     private readonly documents = new Map<string, KeptDocument>();
     private readonly backups = new Map<string, Backup>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes DOM elements in one expression. Text goes in as text, never as HTML.
+// Helpers for DOM elements: make them, keep the focus, close menus. Text is inserted as text, never as HTML.
 
 type Child = Node | string | null;
 type Attributes = Readonly<Record<string, string | number | boolean | ((event: Event) => void)>>;
@@ -19,18 +19,18 @@ export function make<K extends keyof HTMLElementTagNameMap>(
     return element;
 }
 
-/** Do letters go into what has the keyboard? */
+/** The focused element accepts letters. */
 export function isTyping(event: KeyboardEvent): boolean {
     const NOT_TEXT = '[type="range"], [type="checkbox"], [type="radio"]';
     return event.target instanceof Element && event.target.closest(`input:not(${NOT_TEXT}), textarea, terminal-pane`) !== null;
 }
 
-/** What stands on an element, for those who do not see it. */
+/** The accessible name. */
 function nameOf(element: Element): string {
     return element.getAttribute('aria-label') ?? element.textContent;
 }
 
-/** Renders what stands in `root` anew. Whoever was at something in there with the keyboard is at what is called the same again. */
+/** Renders the contents of `root` anew. If the focus was in there, it moves to the new element of the same name. */
 export function keepFocus(root: Element, render: () => void): void {
     const { activeElement } = document;
     const name = activeElement && root.contains(activeElement) ? nameOf(activeElement) : null;
@@ -40,24 +40,24 @@ export function keepFocus(root: Element, render: () => void): void {
     [...all].find(element => nameOf(element) === name)?.focus({ preventScroll: true });
 }
 
-/** Takes away something, or its use. Whoever was there with the keyboard is at the other one. */
+/** take() removes or disables `from`. If the focus was in `from`, it moves to `to`. */
 export function handOver(from: Element, to: HTMLElement | null, take: () => void): void {
     const hadFocus = from.contains(document.activeElement);
     take();
     if (hadFocus) to?.focus({ preventScroll: true });
 }
 
-/** Where somebody is who has put away what stood over the picture. */
+/** Gets the focus when something over the picture is closed. null: there is no picture. */
 export function pictureCanvas(): HTMLElement | null {
     return document.querySelector<HTMLElement>('robot-view canvas');
 }
 
-/** Writes a text, unless it stands there already: written again it would be laid out again. */
+/** Sets a text only if it differs: setting the same text again would cause another layout. */
 export function setText(element: Element, text: string): void {
     if (element.textContent !== text) element.textContent = text;
 }
 
-/** A menu that Escape and a press beside it close. The returned function ends that. */
+/** Closes a menu on Escape and on a press outside it. The returned function removes the listeners. */
 export function closesByItself(menu: HTMLElement & { open: boolean }): () => void {
     const press = (event: Event): void => {
         if (menu.open && event.target instanceof Node && !menu.contains(event.target)) menu.open = false;
@@ -76,7 +76,7 @@ export function closesByItself(menu: HTMLElement & { open: boolean }): () => voi
     };
 }
 
-/** A custom element of ours, made with what it works on. */
+/** Registers a custom element, unless the name is registered already. */
 export function define(name: string, element: CustomElementConstructor): void {
     if (!customElements.get(name)) customElements.define(name, element);
 }

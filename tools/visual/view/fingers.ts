@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-// The fingers on a picture whose camera is turned by others (three's OrbitControls). One finger may be kept from the camera for a
-// drag of its own; as soon as a second one comes down, both are the camera's.
+// The fingers on a picture whose camera is turned by three's OrbitControls. A single finger may be kept from the camera for a drag of its
+// own. When a second one comes down, both control the camera.
 
 export class Fingers {
     private readonly canvas: HTMLElement;
     private readonly onSecond: () => void;
-    /** Where each was last. */
+    /** Last event of each finger. */
     private readonly down = new Map<number, PointerEvent>();
-    /** An event that this makes itself, for the camera alone. */
+    /** true while a synthetic event goes to the camera; others ignore it. */
     isHandingOver = false;
 
-    /** onSecond: a second finger is about to come down; says whether the first was kept from the camera, and ends its drag. */
+    /** onSecond: called before a second finger is added. Ends the drag of the first; returns whether that was kept from the camera. */
     constructor(canvas: HTMLElement, onSecond: () => boolean) {
         this.canvas = canvas;
         this.onSecond = () => onSecond() && this.handOver();
     }
 
-    /** true: it is the only one. Mouse and pen always are. */
+    /** true: it is the only one. */
     add(event: PointerEvent): boolean {
         if (event.pointerType !== 'touch') return this.down.size === 0;
         if (this.down.size === 1) this.onSecond();
@@ -32,7 +32,7 @@ export class Fingers {
         this.down.delete(event.pointerId);
     }
 
-    /** The camera's controls have not heard of the first one yet. */
+    /** Repeats the first finger's event for the camera's controls, which have not seen it. */
     private handOver(): void {
         const [first] = this.down.values();
         if (!first) return;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What somebody who has never been here sees over the picture: what this is, and three things to do. It goes with the first click
-// or key, and does not come back.
+// Card over the picture for a first visit: what this is, and three things to do. The first click or key closes it for good.
 
 import type { RobotState } from '../robot/robot-state.ts';
 import type { Session } from './session/session.ts';
@@ -11,12 +10,12 @@ import { startPageAddress } from './texts/languages.ts';
 import { TEXTS } from './texts/texts.ts';
 import './first-minute.css';
 
-/** Keys that only lead to a button, or press it. */
+/** Keys that only reach or press a button; they do not close the card. */
 const ON_THE_WAY: readonly string[] = ['Tab', 'Shift', 'Enter', ' ', 'Control', 'Alt', 'Meta', 'F6'];
 
 export class FirstMinute extends HTMLElement {
     session!: Session; // these are set before it is connected
-    /** Somebody wants to teach the robot. */
+    /** Called when the user wants to teach the robot. */
     onTeach: () => void = () => undefined;
     private readonly disposals: (() => void)[] = [];
 
@@ -56,7 +55,7 @@ export class FirstMinute extends HTMLElement {
         for (const dispose of this.disposals.splice(0)) dispose();
     }
 
-    /** Out of the way; it is offered again at the next visit unless somebody has begun. */
+    /** hasBegun: false shows the card again at the next visit. */
     close(hasBegun = true): void {
         handOver(this, pictureCanvas(), () => (this.hidden = true));
         if (hasBegun) remember('begun');
@@ -68,14 +67,14 @@ export class FirstMinute extends HTMLElement {
         action();
     }
 
-    /** As the key of the remote that is pressed once: one that comes too early is kept. */
+    /** Presses and releases the remote's key: a press that comes too early is stored until the robot can walk. */
     private walk(): void {
         this.session.say({ text: TEXTS.first.walks, tone: 'calm' });
         this.session.remote(new Set(['up']));
         this.session.remote(new Set());
     }
 
-    /** A robot that a hand still holds is pushed when the hand has let go. */
+    /** Waits until the robot is ready and no longer held. */
     private push(): void {
         const end = (): void => {
             unwatch();

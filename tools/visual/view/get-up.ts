@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Getting up: as the robot lies. One that lay on its side, or rolled over meanwhile, lies otherwise when the motion ends: then the other one
-// is chosen, by itself, until it stands or somebody stops it.
+// Getting up: chooses the motion by how the robot lies. A robot that lay on its side or rolled over may lie the other way when the motion
+// ends. Then the matching motion follows, until the robot stands, somebody stops it, or three motions have played.
 
 import { liesOnFace } from '../model/space.ts';
 import type { Place } from '../model/space.ts';
@@ -26,7 +26,7 @@ export class GetUp {
         this.tries = 0;
     }
 
-    /** Looks again whenever a motion has ended. */
+    /** Checks the robot again each time a motion ends. */
     look(isMoving: boolean, trunk: Place, hasFallen: boolean): void {
         const hasEnded = this.wasMoving && !isMoving;
         this.wasMoving = isMoving;

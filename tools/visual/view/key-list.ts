@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the remote's keys call now: from rest the pages that have a code, while a page plays where it leads. What is held and
-// what plays light up; a click plays a page as its key would.
+// What the remote's keys start now. At rest: the pages that have a code. While a page plays: where it leads. Held keys light up; a click
+// plays a page as its key would.
 
 import { targetsFromRest, targetsFrom } from '../model/key-targets.ts';
 import type { KeyTarget } from '../model/key-targets.ts';
@@ -28,7 +28,7 @@ export class KeyList extends HTMLElement {
         for (const dispose of this.disposals.splice(0)) dispose();
     }
 
-    /** code: of the keys that are held. */
+    /** code: of the held keys; 0: none. */
     light(code: number): void {
         for (const item of this.list.children) item.classList.toggle('lit', code !== 0 && item.getAttribute('data-code') === String(code));
     }
@@ -37,7 +37,7 @@ export class KeyList extends HTMLElement {
         const { where, version, connection } = this.session.state.get();
         const { robot } = this.session.editor.state.get();
         const page = connection === 'ready' && where && where.state !== 'idle' && where.state !== 'ready' ? where.page : 0;
-        const hears = version?.image === 'play'; // Edit takes no remote
+        const hears = version?.image === 'play'; // Edit ignores the remote
         const key = `${page} ${hears}`;
         if (key === this.shown && robot === this.pages) return;
         this.shown = key;

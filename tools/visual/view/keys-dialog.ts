@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All keys, area by area: opened by "?" or its button.
+// Dialog with all keys by area, opened by "?" or its button.
 
 import { isTyping, make } from './element.ts';
 import { TEXTS } from './texts/texts.ts';
@@ -27,10 +27,10 @@ export class KeysDialog {
         );
     }
 
-    /** "?" anywhere but where one types. */
+    /** Opens the dialog on "?", except while typing. The returned function removes the listener. */
     listen(): () => void {
         const key = (event: KeyboardEvent): void => {
-            const isInList = event.target instanceof HTMLSelectElement; // there a letter is a choice
+            const isInList = event.target instanceof HTMLSelectElement; // letters select in a list
             if (event.key === '?' && !isTyping(event) && !isInList && !event.ctrlKey && !event.altKey) this.open();
         };
         document.addEventListener('keydown', key);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The language of the page, in the menu; beneath it what is to be known of a translation.
+// The menu's list of languages, with a note on the translation below it.
 
 import { onChoice } from './choice.ts';
 import { define, make } from './element.ts';

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What a narrow screen has no room for in the row of the head, behind one button. A broad screen shows it in the row.
+// Tools of the header row. Where they do not fit, a button opens them as a menu.
 
 import { closesByItself, define, make } from './element.ts';
 import { TEXTS } from './texts/texts.ts';
 import './more-menu.css';
 
 export class MoreMenu extends HTMLElement {
-    /** What is in it; set before it is connected. Its dialogs are seen while it is closed, too. */
+    /** Set before it is connected. Its dialogs are visible even while the menu is closed. */
     content: readonly HTMLElement[] = [];
     private readonly toggle = make(
         'button',
@@ -27,7 +27,7 @@ export class MoreMenu extends HTMLElement {
         for (const dispose of this.disposals.splice(0)) dispose();
     }
 
-    /** How much room the words need is known when they stand there. */
+    /** Unfolds first, because the width of the texts can only be measured while they are shown. */
     private fit(): void {
         const { parentElement: head } = this;
         this.classList.remove('folded');

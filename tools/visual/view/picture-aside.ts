@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// A picture that is drawn by software, beside the page, and copied onto the page's canvas when it is done. A canvas of WebGL in the page is
-// copied by the browser, which makes the whole page wait until the picture is done: 100 to 800 ms on a busy computer, for every picture.
+// Draws with software WebGL on a canvas outside the page and copies each finished picture to the page's canvas. A WebGL canvas in the page
+// would be copied by the browser, which blocks the whole page until the picture is done: 100 to 800 ms per picture on a busy computer.
 
-/** Between two looks whether a picture is done. */
+/** Interval of polling for a finished picture. */
 const LOOK_MS = 4;
 const BYTES_A_PIXEL = 4;
 
 export class PictureAside {
-    /** To draw on; not in the page. */
+    /** Canvas to draw on; not in the page. */
     readonly canvas = document.createElement('canvas');
     private readonly page: HTMLCanvasElement;
     private readonly context: CanvasRenderingContext2D | null;
     private timer: ReturnType<typeof setTimeout> | null = null;
-    /** Where WebGL puts a picture while nobody waits. Always the same one: of a new one the browser would ask, and wait for the answer. */
+    /** Receives a picture without blocking. It is reused: creating a new one would block on an answer from WebGL. */
     private buffer: WebGLBuffer | null = null;
     private pixels = new Uint8Array();
     private upright = new ImageData(1, 1);
@@ -20,17 +20,17 @@ export class PictureAside {
     constructor(page: HTMLCanvasElement) {
         this.page = page;
         this.context = page.getContext('2d', { alpha: false });
-        if (this.context) this.context.fillStyle = getComputedStyle(page).getPropertyValue('--room'); // until the first picture; else it is black
+        if (this.context) this.context.fillStyle = getComputedStyle(page).getPropertyValue('--room'); // else black at first
         this.context?.fillRect(0, 0, page.width, page.height);
         this.canvas.addEventListener('webglcontextlost', () => (this.buffer = null));
     }
 
-    /** What was drawn last is not on the page yet. */
+    /** The last picture drawn is not on the page yet. */
     get isBusy(): boolean {
         return this.timer !== null;
     }
 
-    /** Puts on the page what has just been drawn, when it is done. Not while it is busy. */
+    /** Copies the picture just drawn to the page when it is done. Do not call while isBusy. */
     show(gl: WebGL2RenderingContext): void {
         const { drawingBufferWidth: width, drawingBufferHeight: height } = gl;
         this.makeBuffer(gl, width, height);
@@ -67,7 +67,7 @@ export class PictureAside {
         gl.bufferData(gl.PIXEL_PACK_BUFFER, this.pixels.length, gl.STREAM_READ);
     }
 
-    /** WebGL begins at the lower edge. */
+    /** Flips the rows: WebGL starts at the lower edge. */
     private put(): void {
         const { width, height, data } = this.upright;
         const row = BYTES_A_PIXEL * width;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Whether the picture would look otherwise than it was drawn last: places, colours and what is seen, of all things in the room and
-// of the camera. A picture that stands still is not drawn again: that spares the battery, and the processor for the robot.
+// Detects whether the picture has changed since it was last drawn: poses, colours and visibility of all objects, and the camera. An
+// unchanged picture is not drawn again, which saves battery and leaves the processor to the robot.
 
 import type { Camera, Material, Matrix4, Object3D } from 'three';
 
-/** Smaller changes are not seen: what turns by less than 0.06 degrees, or moves by less than 0.25 mm (a servo that holds trembles by
- *  half of that). The camera moves everything: a tenth of it. */
+/** Smaller changes are invisible: less than 0.06 degrees or 0.25 mm (a holding servo trembles by half of that). For the camera, which moves
+ *  everything, the limit is a tenth. */
 const SEEN = 1e-3;
 const METRES = 4;
 const OF_CAMERA = 10;
@@ -20,12 +20,12 @@ export class PictureChange {
     private drawn: readonly number[] = [];
     private isTouched = true;
 
-    /** Something changed that cannot be told from the room: size, theme, a line's shape. */
+    /** Reports a change that take() cannot detect: size, theme, shape of a line. */
     touch(): void {
         this.isTouched = true;
     }
 
-    /** Asks and keeps: the caller draws when this is true. */
+    /** Compares with the last drawn state. true: it differs and is stored as drawn, so the caller must draw. */
     take(room: Object3D, camera: Camera): boolean {
         room.updateMatrixWorld();
         camera.updateMatrixWorld();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// How fine the picture is drawn, so that it stays fluent on a machine without a graphics chip. Pure: frame times in, a
-// step out. Goes down fast and up slowly, so that it does not swing.
+// Picture quality, chosen from frame times so that the picture stays fluent on a weak GPU. It goes down fast and up slowly, so that it does
+// not oscillate.
 
 export interface Quality {
-    /** Of the screen's own pixels. */
+    /** Factor for the resolution; 1: the screen's own pixels. */
     readonly pixels: number;
     readonly shadows: boolean;
 }
@@ -31,8 +31,8 @@ export class PictureQuality {
         this.step = bySoftware ? 2 : 0;
     }
 
-    /** Milliseconds from one look at the picture to the next. A picture by software must not take the processor from the robot: it gets
-     *  no more than half of the time. frameMs: what the last one took. */
+    /** Least milliseconds between two pictures. Drawing in software takes at most half of the time, to leave the processor to the robot.
+     *  frameMs: duration of the last picture. */
     restMs(frameMs: number): number {
         return this.bySoftware ? Math.max(SOFTWARE_MS, 2 * frameMs) : 0;
     }
@@ -41,9 +41,9 @@ export class PictureQuality {
         return STEPS[this.step] ?? { pixels: 1, shadows: true };
     }
 
-    /** A frame took so long; true when the quality has changed. */
+    /** Takes the duration of a frame; true: the quality has changed. */
     take(frameMs: number): boolean {
-        if (this.bySoftware) return false; // slow by nature
+        if (this.bySoftware) return false; // always slow
         this.slow = frameMs > SLOW_MS ? this.slow + 1 : 0;
         this.fast = frameMs < FAST_MS ? this.fast + 1 : 0;
         const change = this.slow >= DOWN_AFTER && this.step < STEPS.length - 1 ? 1 : this.fast >= UP_AFTER && this.step > 0 ? -1 : 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A push at the chest of the robot in the page: what a drag of the mouse at it does, by a key or a button.
+// Pushes the simulated robot at the chest, by key or button: the same as a drag with the mouse.
 
 import { headingOf } from './chase.ts';
 import type { Session } from './session/session.ts';
@@ -7,9 +7,9 @@ import { TEXTS } from './texts/texts.ts';
 
 const PUSH_TICKS = 38; // 0.3 s
 const REACH_M = 0.2;
-const CHEST_M = 0.03; // above the middle of the trunk
+const CHEST_M = 0.03; // above the origin of the trunk
 
-/** direction: 1 ahead of the robot, -1 back. Your robot is not pushed; without physics a sentence says why nothing moves. */
+/** direction: 1 forwards, -1 backwards. A real robot is not pushed. Without physics a message says why nothing moves. */
 export function pushRobot(session: Session, direction: 1 | -1): void {
     const { source, physics } = session.state.get();
     if (source !== 'simulated') return;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What the page remembers of a person between visits, beside the documents: that something has been done once.
+// What the page remembers of the user between visits, apart from documents: things done once, and the language.
 
 export type Remembered = 'begun' | 'all-areas' | 'language';
 
 const keyOf = (what: Remembered): string => `motion512.${what}`;
 
-/** null also where the browser keeps nothing. */
+/** null also if the browser stores nothing. */
 export function recall(what: Remembered): string | null {
     try {
         return localStorage.getItem(keyOf(what));
@@ -14,7 +14,7 @@ export function recall(what: Remembered): string | null {
     }
 }
 
-/** A browser that keeps nothing offers the same again at the next visit; nobody needs to be told. */
+/** Ignores errors: if the browser stores nothing, the page only makes the same offers at the next visit. */
 export function store(what: Remembered, value: string): void {
     try {
         localStorage.setItem(keyOf(what), value);
@@ -23,7 +23,7 @@ export function store(what: Remembered, value: string): void {
     }
 }
 
-/** false also where the browser keeps nothing. */
+/** false also if the browser stores nothing. */
 export function isRemembered(what: Remembered): boolean {
     return recall(what) !== null;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The RC-100 remote control: on the screen, by keyboard (arrows or W A S D, 1 to 6) and by game pad. Buttons count as long
-// as they are held, several at once too. The stick of a game pad drives (`@drive`).
+// The RC-100 remote control on the screen, by keyboard (arrows or W A S D, 1 to 6) and by gamepad. Buttons act while they are held, several
+// at once if needed. The stick of a gamepad drives (`@drive`).
 
 import { wordOf } from '../robot/remote.ts';
 import type { RemoteButton } from '../robot/remote.ts';
@@ -39,7 +39,7 @@ const KEYS: Readonly<Record<string, RemoteButton>> = {
     Numpad6: 'b6',
     Space: 'b6',
 };
-/** The standard layout of a game pad: directions at 12..15, buttons at 0..3. */
+/** Button indexes of the standard gamepad layout: directions at 12..15, face buttons at 0..3, left shoulder at 4, start at 9. */
 const PAD: readonly (readonly [number, RemoteButton])[] = [
     [12, 'up'],
     [13, 'down'],
@@ -126,7 +126,7 @@ export class RemotePad extends HTMLElement {
         this.watchPad();
     }
 
-    /** A game pad tells nothing by itself: as long as there is one, it is asked. */
+    /** Polls the gamepad while there is one: its buttons cause no events. */
     private watchPad(): void {
         let frame = 0;
         const ask = (): void => {
@@ -149,10 +149,10 @@ export class RemotePad extends HTMLElement {
         const target = event.target instanceof HTMLElement ? event.target : null;
         const isElsewhere =
             target?.closest('input, select, textarea, summary, terminal-pane, [role="tablist"]') !== null && target !== null;
-        if (!name || event.ctrlKey || event.altKey || event.metaKey || (event.type === 'keydown' && event.shiftKey)) return; // Shift and the arrows turn the picture
-        if (event.type === 'keydown' && this.session.state.get().tab !== 'remote') return; // elsewhere the arrows edit
-        if (event.type === 'keydown' && name !== 'b6' && document.querySelector('dialog[open]')) return; // there they scroll
-        if (event.type === 'keydown' && (isElsewhere || (event.code === 'Space' && target?.closest('button') && !this.isPlaying))) return; // a robot that moves is stopped
+        if (!name || event.ctrlKey || event.altKey || event.metaKey || (event.type === 'keydown' && event.shiftKey)) return; // Shift and arrows: camera
+        if (event.type === 'keydown' && this.session.state.get().tab !== 'remote') return; // in other areas the arrows edit
+        if (event.type === 'keydown' && name !== 'b6' && document.querySelector('dialog[open]')) return; // in dialogs the arrows scroll
+        if (event.type === 'keydown' && (isElsewhere || (event.code === 'Space' && target?.closest('button') && !this.isPlaying))) return; // stops a moving robot
         event.preventDefault();
         this.change('keys', name, event.type === 'keydown');
     }
@@ -162,7 +162,7 @@ export class RemotePad extends HTMLElement {
         return where !== null && where.state !== 'idle' && where.state !== 'ready';
     }
 
-    /** null: it has gone, and holds nothing any more. */
+    /** null: it is disconnected; all its buttons are released. */
     private readPad(pad: Gamepad | null): void {
         const [x = 0, y = 0] = pad?.axes ?? [];
         const now = PAD.filter(([index]) => pad?.buttons[index]?.pressed).map(([, name]) => name);

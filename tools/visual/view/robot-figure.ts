@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The robot as three's objects, made from the body's numbers. It shows what it is told and holds nothing itself.
+// The robot as three's objects, built from the body's numbers. It only displays; it holds no state of the robot.
 
 import { CapsuleGeometry, Color, CylinderGeometry, Group, Mesh, MeshStandardMaterial, SphereGeometry, Vector3 } from 'three';
 import type { BufferGeometry, Object3D } from 'three';
@@ -12,9 +12,9 @@ const HIGHLIGHT = new Color(0x2f9bff);
 const ALARM = new Color(0xe5484d);
 const TOUCH = new Color(0xe09c00);
 const LIT = new Color(0xff5a3c);
-/** Of the board, by the bits of its lamps: shapes of the body are called `lamp_NAME`. */
+/** Shapes of the board's LEDs in the body, by bit. */
 const LAMPS = ['power', 'txd', 'rxd', 'aux', 'manage', 'program', 'play'].map(name => `lamp_${name}`);
-/** Small and flat on the body: their shadows would cost more than they show. */
+/** Materials of small, flat parts: their shadows would be barely visible, but costly. */
 const WITHOUT_SHADOW: readonly string[] = ['horn', 'lamp'];
 const NO_ALARMS: ReadonlySet<number> = new Set();
 
@@ -39,7 +39,7 @@ function put(object: Object3D, place: Place): void {
     object.quaternion.set(place.quat[1], place.quat[2], place.quat[3], place.quat[0]);
 }
 
-/** A ghost is seen through, casts no shadow and cannot be picked. */
+/** A ghost is translucent, casts no shadow and cannot be picked. */
 export interface GhostLook {
     readonly colour: number;
     readonly opacity: number;
@@ -53,7 +53,7 @@ interface JointGroup {
 
 export class RobotFigure {
     readonly root = new Group();
-    /** What can be picked; `userData.link` names the link, `userData.shape` the shape. */
+    /** Pickable meshes; `userData.link` names the link, `userData.shape` the shape. */
     readonly meshes: Mesh[] = [];
     private readonly joints = new Map<number, JointGroup>();
     private readonly links = new Map<string, Group>();
@@ -71,7 +71,7 @@ export class RobotFigure {
         for (const shape of body.shapes) this.addShape(shape, body);
     }
 
-    /** Where the trunk is and how the joints stand. alarms: servos that report a fault. */
+    /** Sets trunk and joint angles. alarms: servos that report a fault. */
     show(trunk: Place, angles: Angles, alarms: ReadonlySet<number> = NO_ALARMS): void {
         put(this.root, trunk);
         for (const { joint, group, axis } of this.joints.values()) group.quaternion.setFromAxisAngle(axis, angles.get(joint.servo) ?? 0);
@@ -80,27 +80,27 @@ export class RobotFigure {
         for (const [link, materials] of this.materials) this.tint(materials, alarmed.has(link), link);
     }
 
-    /** The board's lamps, bit by bit. */
+    /** Sets the board's LEDs, one per bit. */
     light(bits: number): void {
         for (const [bit, name] of LAMPS.entries()) this.lamps.get(name)?.emissive.set((bits >> bit) & 1 ? LIT : 0x000000);
     }
 
-    /** Lights up one link; null: none. */
+    /** Highlights one link; null: none. */
     mark(link: string | null): void {
         this.marked = link;
     }
 
-    /** Lights up the links that are being edited. */
+    /** Highlights the links that are being edited. */
     choose(links: ReadonlySet<string>): void {
         this.chosen = links;
     }
 
-    /** Lights up the links that are in each other. */
+    /** Highlights the links that intersect. */
     touch(links: ReadonlySet<string>): void {
         this.touching = links;
     }
 
-    /** Leaves out the parts of these links: a ghost has no need of them where the figure stands the same. */
+    /** Hides the parts of these links, and shows all others. A ghost needs no parts that coincide with the figure's. */
     hide(links: ReadonlySet<string>): void {
         for (const mesh of this.meshes) mesh.visible = !links.has(String(mesh.userData.link));
     }
@@ -153,7 +153,7 @@ export class RobotFigure {
         this.links.get(shape.body)?.add(mesh);
         this.meshes.push(mesh);
         if (LAMPS.includes(shape.name ?? '') && !this.ghost)
-            this.lamps.set(shape.name ?? '', material); // its light is the board's alone
+            this.lamps.set(shape.name ?? '', material); // only light() changes its glow
         else this.materials.set(shape.body, [...(this.materials.get(shape.body) ?? []), material]);
     }
 

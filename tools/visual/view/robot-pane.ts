@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The laboratory of the simulated robot: time, power, floor, battery, servos and their faults.
+// Controls of the simulated robot: time, power, battery, floor, firmware, player, servos and their faults.
 
 import { NOMINAL_VOLTS, TICKS_PER_SECOND } from '../model/motion.ts';
 import type { Session, SessionState, ImageName, PanelButton } from './session/session.ts';
@@ -11,7 +11,7 @@ import { ServoTable } from './servo-table.ts';
 import { TEXTS } from './texts/texts.ts';
 import './robot-pane.css';
 
-/** Times the robot's own; without a sign: as fast as in the room. */
+/** Factors for the robot's time, with labels; without a label: real time. */
 const SPEEDS: readonly (readonly [number, string?])[] = [[0.1, '0.1×'], [0.25, '¼×'], [0.5, '½×'], [1], [2, '2×'], [4, '4×']];
 const PANEL: readonly (readonly [PanelButton, string])[] = [
     ['up', '▲'],
@@ -21,14 +21,14 @@ const PANEL: readonly (readonly [PanelButton, string])[] = [
     ['start', 'START'],
     ['mode', 'MODE'],
 ];
-/** As they are printed on the board. */
+/** Labels as printed on the board. */
 const LEDS = ['Power', 'TxD', 'RxD', 'Aux', 'Manage', 'Program', 'Play'];
 const SEEN_LATE_MS = 50;
 const RADIANS = Math.PI / 180;
 
 export class RobotPane extends HTMLElement {
     session!: Session; // set before it is connected
-    /** Tells the picture to lean. */
+    /** Tilts the picture (radians). */
     onTilt: (front: number, left: number) => void = () => undefined;
     private readonly speeds = new Map<number, HTMLButtonElement>();
     private readonly leds = make('div', { class: 'leds', role: 'img', 'aria-label': TEXTS.robotPane.lamps });
@@ -198,7 +198,7 @@ export class RobotPane extends HTMLElement {
     }
 }
 
-/** The robot's time, and how much it is late, as far as one sees that. */
+/** The robot's time, and its delay if that is noticeable. */
 function clockText({ ticks, lateMs }: RobotState): string {
     const seconds = (ticks / TICKS_PER_SECOND).toFixed(1);
     return lateMs > SEEN_LATE_MS ? TEXTS.robotPane.late(seconds, Math.round(lateMs)) : `${seconds} s`;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Camera and figure in the room. Draws when it is told to; holds no state of the robot.
+// Camera and figure in the room. Draws on request and holds no state of the robot.
 
 import {
     BufferGeometry,
@@ -29,14 +29,14 @@ import { RobotFigure } from './robot-figure.ts';
 import { Room } from './room.ts';
 import type { RoomColours } from './room.ts';
 
-/** Of the way, in a 60th of a second (glide.ts). */
+/** Share of the remaining distance per 1/60 s (glide.ts). */
 const FOLLOW = 0.08;
 const DAMPING = 0.12;
 const MOST_PIXELS = 2;
-/** three's spherical coordinates have y up, the room z. */
+/** In three's spherical coordinates y is up, in the room z. */
 const TO_Y_UP = new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(0, 1, 0));
 const LEAST_POLAR = 0.05;
-const EDGE_ON = 0.2; // sine of the angle between sight and plane
+const EDGE_ON = 0.2; // sine of the angle between line of sight and plane
 
 export interface Picked {
     readonly link: string;
@@ -50,7 +50,7 @@ export interface Picked {
 export class RobotScene {
     readonly figure: RobotFigure;
     readonly controls: OrbitControls;
-    /** There is no graphics chip, or the browser may not use it. */
+    /** WebGL runs in software: there is no GPU, or the browser may not use it. */
     readonly isSoftware: boolean;
     private readonly renderer: WebGLRenderer;
     private readonly aside: PictureAside | null;
@@ -94,7 +94,7 @@ export class RobotScene {
         this.change.touch();
     }
 
-    /** covered: pixels of the lower edge that something else covers. A quarter of it is enough: the robot stands over the middle. */
+    /** covered: pixels at the lower edge that another element covers. A shift by a quarter is enough: the robot is above the middle. */
     resize(width: number, height: number, quality: Quality, covered: number): void {
         this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, MOST_PIXELS) * quality.pixels);
         this.place.light.castShadow = quality.shadows;
@@ -108,12 +108,12 @@ export class RobotScene {
         this.room.rotation.set(-left, front, 0);
     }
 
-    /** Something of the room that comes and goes: ghosts, marks on the floor. */
+    /** Adds objects to the room, such as ghosts and marks on the floor. */
     add(...objects: Object3D[]): void {
         this.room.add(...objects);
     }
 
-    /** The camera goes round what it looks at, over or under it (radians), and to so much of its distance. */
+    /** Orbits the camera around its target (radians). distance: factor for the distance to the target. */
     turn(around: number, down: number, distance: number): void {
         const { object, target, minDistance, maxDistance, maxPolarAngle } = this.controls;
         const from = new Spherical().setFromVector3(object.position.clone().sub(target).applyQuaternion(TO_Y_UP));
@@ -125,36 +125,36 @@ export class RobotScene {
         object.position.setFromSpherical(from).applyQuaternion(TO_Y_UP.clone().invert()).add(target);
     }
 
-    /** The robot is known. The camera goes with the trunk, and behind it if it chases; elapsedMs: since the last look. null: it stays. */
+    /** Shows the robot. The camera follows the trunk, and if it chases, turns behind it. elapsedMs: since the last call; null: it stays. */
     look(trunk: Place, elapsedMs: number | null, chases: boolean): void {
         this.figure.root.visible = true;
         if (elapsedMs !== null) this.follow(trunk, glide(FOLLOW, elapsedMs), chases);
         this.place.goWith(this.followed);
     }
 
-    /** Draws the next time in any case. */
+    /** Makes the next draw() draw in any case. */
     redraw(): void {
         this.change.touch();
     }
 
-    /** Draws what is to be seen now; elapsedMs: since the last call. false: it is what was drawn last. */
+    /** Draws if the picture has changed; elapsedMs: since the last call. false: nothing has changed. */
     draw(elapsedMs: number): boolean {
-        this.controls.dampingFactor = glide(DAMPING, elapsedMs); // it glides on after a gesture
+        this.controls.dampingFactor = glide(DAMPING, elapsedMs); // the camera glides on after a gesture
         this.controls.update();
         const isNew = this.change.take(this.scene, this.camera);
         if (isNew) {
             this.renderer.render(this.scene, this.camera);
-            this.aside?.show(this.renderer.getContext() as WebGL2RenderingContext); // three has no other
+            this.aside?.show(this.renderer.getContext() as WebGL2RenderingContext); // three uses WebGL 2 only
         }
         return isNew;
     }
 
-    /** What was drawn last is not to be seen yet. */
+    /** The last picture drawn is not visible yet. */
     get isBusy(): boolean {
         return this.aside?.isBusy === true;
     }
 
-    /** What is under a point of the picture (-1..1, y up). */
+    /** What is at a point of the picture (-1..1, y up). */
     pick(x: number, y: number): Picked | null {
         this.raycaster.setFromCamera(new Vector2(x, y), this.camera);
         const hit = this.raycaster.intersectObjects(this.figure.meshes, false)[0];
@@ -171,7 +171,7 @@ export class RobotScene {
         };
     }
 
-    /** The place under a point of the picture in the plane through `world` with this normal; seen edge-on: as drag(). */
+    /** Intersects the line of sight at (x, y) with the plane through `world` with this normal. A plane seen edge-on: as drag(). */
     dragInPlane(x: number, y: number, world: Vector, normal: Vector): Vector {
         this.raycaster.setFromCamera(new Vector2(x, y), this.camera);
         const towards = new Vector3(...normal).transformDirection(this.room.matrixWorld);
@@ -181,7 +181,7 @@ export class RobotScene {
         return hit ? this.room.worldToLocal(hit).toArray() : this.drag(x, y, world);
     }
 
-    /** Where a shape of the figure is in the picture (-1..1, y up); null: there is none of that name. */
+    /** Position of a shape of the figure in the picture (-1..1, y up); null: no shape has that name. */
     placeOf(shape: string): readonly [number, number] | null {
         const mesh = this.figure.meshes.find(one => one.userData.shape === shape);
         if (!mesh) return null;
@@ -189,7 +189,7 @@ export class RobotScene {
         return [x, y];
     }
 
-    /** The place under a point of the picture, in the plane through `world` that faces the camera. */
+    /** Intersects the line of sight at (x, y) with the plane through `world` that faces the camera. */
     drag(x: number, y: number, world: Vector): Vector {
         this.raycaster.setFromCamera(new Vector2(x, y), this.camera);
         const towards = this.camera.getWorldDirection(new Vector3());
@@ -198,7 +198,7 @@ export class RobotScene {
         return hit ? this.room.worldToLocal(hit).toArray() : world;
     }
 
-    /** The string between hand and limb; null: none. */
+    /** Shows the string between hand and limb; null: hides it. */
     pull(link: string, point: Vector, target: Vector): void;
     pull(link: null): void;
     pull(link: string | null, point?: Vector, target?: Vector): void {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What robots keep without power, in IndexedDB. The simulated one: flash, EEPROM and its servos' EEPROMs, under one key. The one that drives
-// servos from this page: motion pages, journal, EEPROM.
+// Non-volatile memory of robots, in IndexedDB. Simulated robot: flash, EEPROM and the servos' EEPROMs, under one key. My servos: motion
+// pages, journal, EEPROM.
 
 import { MEM_BOOT_END, MEM_EEPROM_BYTES } from '../model/facts.ts';
 
@@ -35,7 +35,7 @@ async function withStore<T>(mode: IDBTransactionMode, action: (store: IDBObjectS
     }
 }
 
-/** null: nothing was kept. Rejects when the browser keeps nothing. */
+/** null: nothing usable is stored. Rejects when the browser stores nothing. */
 export async function loadRobot(key: string): Promise<KeptRobot | null> {
     const kept: unknown = await withStore('readonly', store => store.get(key) as IDBRequest<unknown>);
     const robot = kept as Partial<KeptRobot> | undefined;
@@ -54,13 +54,13 @@ export async function forgetRobot(key: string): Promise<void> {
 
 const SERVOS = 'servos';
 
-/** null: nothing was kept. Rejects when the browser keeps nothing. */
+/** null: nothing usable is stored. Rejects when the browser stores nothing. */
 export async function loadServos(): Promise<readonly Uint8Array[] | null> {
     const kept: unknown = await withStore('readonly', store => store.get(SERVOS) as IDBRequest<unknown>);
     return Array.isArray(kept) && kept.every(memory => memory instanceof Uint8Array) ? kept : null;
 }
 
-/** Resolves when it is sure, also if the power fails. */
+/** Resolves when the data is on disk and would survive a power failure. */
 export async function saveServos(memories: readonly Uint8Array[]): Promise<void> {
     const database = await open();
     try {

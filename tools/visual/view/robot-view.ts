@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The picture of the robot. Mouse or finger turn the camera; on the robot they take hold of a limb and pull, or, while a step is
-// edited, change the step (editor/pose-tool.ts). Two fingers are always the camera's. By keyboard: Shift and the arrows turn it,
-// Page Up and Down look from above and below, + and - go nearer and farther, P pushes.
+// The picture of the robot. Mouse or finger turn the camera. On the robot they grab and pull a limb or, while a step is edited, change the
+// step (editor/pose-tool.ts). Two fingers always control the camera. Keys: Shift and arrows turn the camera, Page Up and Page Down raise
+// and lower it, + and - zoom, P pushes.
 
 import type { Joint } from '../model/body.ts';
 import { limbTo } from '../model/ik.ts';
@@ -22,20 +22,20 @@ import { jointTitle } from './texts/robot.ts';
 import { TEXTS } from './texts/texts.ts';
 import './robot-view.css';
 
-/** A mark in the browser's performance timeline: the robot is in the picture for the first time. */
+/** Mark in the browser's performance timeline: the robot is visible for the first time. */
 const ROBOT_DRAWN = 'robot-drawn';
 const TURN_RAD = 0.12;
 const NEARER = 0.9;
-/** How far beside the robot a finger may be, which is broader than an arm of it, to take hold of it. CSS pixels. */
+/** A finger, which is wider than an arm of the robot, grabs it from up to this distance. CSS pixels. */
 const FINGER_PX = 14;
 const AROUND = Array.from({ length: 8 }, (_, i) => (i * Math.PI) / 4);
 
 export class RobotView extends HTMLElement {
     session!: Session; // set before it is connected
-    /** Nobody has touched the picture since it was last looked at, and then there was nothing new to draw: the camera has come to rest. */
+    /** The camera is at rest: the last frame had no change to draw, and no input has come since. */
     isStill = false;
     editing = new Store<Editing>(EDITING_START);
-    /** It covers some of the lower edge; the robot stands higher for it. */
+    /** Element that covers part of the lower edge; the robot is shifted up for it. */
     cover: HTMLElement | null = null;
     private pose: PoseTool | null = null;
     private scene: RobotScene | null = null;
@@ -43,9 +43,9 @@ export class RobotView extends HTMLElement {
     private state: RobotState | null = null;
     private grabbed: (Picked & { target: Picked['world'] }) | null = null;
     private taught: readonly number[] = [];
-    /** Pointer that has hold of the robot. */
+    /** Pointer that holds the robot. */
     private holder: number | null = null;
-    /** A hand has turned the camera while the robot was driven. */
+    /** The user has turned the camera while the robot was driven. */
     private isLookedRound = false;
     private readonly label = make('div', { class: 'joint-label', 'aria-hidden': 'true' });
     /** The link whose joint the label names. */
@@ -79,22 +79,22 @@ export class RobotView extends HTMLElement {
         this.scene = null;
     }
 
-    /** How far the centre of mass of the edited step is inside the ground of its soles (metres); null: not looked at. */
+    /** Distance of the edited step's centre of mass inside the support polygon (metres); null: not computed. */
     get margin(): number | null {
         return this.pose?.margin ?? null;
     }
 
-    /** Beside the figure there is a ghost of the robot or of the edited step. */
+    /** A ghost of the robot or of the edited step is shown with the figure. */
     get hasGhost(): boolean {
         return this.pose?.layer.hasGhost === true;
     }
 
-    /** Limbs of the shown figure that are in each other; looked at while a step is edited. */
+    /** Limbs of the figure that intersect; computed while a step is edited. */
     get touches(): readonly Touch[] {
         return this.pose?.touches ?? [];
     }
 
-    /** Where a shape of the robot (a name of the body file) is on the screen, in CSS pixels; null: it is not seen. */
+    /** Screen position of a shape of the robot (name in the body file), in CSS pixels; null: there is no such shape or no picture. */
     placeOf(shape: string): { readonly x: number; readonly y: number } | null {
         const at = this.scene?.placeOf(shape);
         if (!at) return null;
@@ -116,7 +116,7 @@ export class RobotView extends HTMLElement {
         const draw = (nowMs: number): void => {
             request = requestAnimationFrame(draw);
             if (scene.isBusy) return;
-            if (wasNew) tookMs = nowMs - beforeMs; // the browser asks again when it is through with it
+            if (wasNew) tookMs = nowMs - beforeMs; // the browser calls again when it has finished drawing
             if (hasRobot && !isDrawn) isDrawn = performance.mark(ROBOT_DRAWN) !== null;
             wasNew = false;
             const elapsedMs = nowMs - beforeMs;
@@ -136,7 +136,7 @@ export class RobotView extends HTMLElement {
     private place(scene: RobotScene, elapsedMs: number): void {
         if (!this.state) return;
         this.pose?.show(this.state, this.holder !== null);
-        if (!this.label.hidden) this.showJoint(this.labelled); // it moves under the mouse
+        if (!this.label.hidden) this.showJoint(this.labelled); // the joint moves under the mouse
         scene.look(
             this.pose?.figureTrunk ?? this.state.trunk,
             this.grabbed === null && !this.pose?.isDragging ? elapsedMs : null,
@@ -144,7 +144,7 @@ export class RobotView extends HTMLElement {
         );
     }
 
-    /** Behind a robot that is driven, until a hand turns the camera: then as that hand has left it. */
+    /** The camera chases a driven robot until the user turns the camera. */
     private chases(): boolean {
         const { tab, where } = this.session.state.get();
         const isDriven = tab === 'remote' && where?.state === 'playing';
@@ -155,7 +155,7 @@ export class RobotView extends HTMLElement {
     private watchSize(scene: RobotScene): void {
         const observer = new ResizeObserver(() => this.resize(scene));
         observer.observe(this);
-        if (this.cover) observer.observe(this.cover); // it has more rows when the robot's motions are known
+        if (this.cover) observer.observe(this.cover); // it grows when the robot's motions are known
         this.disposals.push(() => observer.disconnect());
     }
 
@@ -218,7 +218,7 @@ export class RobotView extends HTMLElement {
         return null;
     }
 
-    /** A second finger: what the first one drags is taken back. */
+    /** Reverts the drag of the first finger when a second one comes down. true: there was a drag. */
     private endDrag(): boolean {
         const hadHold = this.holder !== null;
         this.release(false);
@@ -250,12 +250,12 @@ export class RobotView extends HTMLElement {
         else this.take(picked);
     }
 
-    /** Nothing over the picture covers the hand that drags: what is told of the drag goes to the other half (robot-view.css). */
+    /** Keeps overlays away from the dragging hand: values of the drag move to the other half, the rest is hidden (robot-view.css). */
     private makeRoom(event: PointerEvent): void {
         this.dataset.hand = this.at(event)[1] > 0 ? 'high' : 'low';
     }
 
-    /** Your hand. A limb that is being taught becomes limp under it. */
+    /** Grabs a limb by hand. Servos that are being taught lose their torque. */
     private take(picked: Picked): void {
         this.grabbed = { ...picked, target: picked.world };
         const limb = limbTo(this.session.body, picked.link, picked.point).links.flatMap(({ joint }) => (joint ? [joint.servo] : []));
@@ -275,7 +275,7 @@ export class RobotView extends HTMLElement {
         this.session.sim.pull({ link: this.grabbed.link, point: this.grabbed.point, target });
     }
 
-    /** keep: false takes back what a drag has changed. */
+    /** keep: false reverts the drag. */
     private release(keep: boolean): void {
         if (!this.scene) return;
         this.scene.controls.enabled = true;
@@ -288,7 +288,7 @@ export class RobotView extends HTMLElement {
         void this.letGo();
     }
 
-    /** What was taught holds first, so that it does not drop. */
+    /** Taught servos get their torque back before the hand lets go, so that the limb does not drop. */
     private async letGo(): Promise<void> {
         const isTaught = this.taught.some(servo => this.editing.get().taught.has(servo));
         if (isTaught) await this.session.setTorque(true, this.taught);
@@ -302,14 +302,13 @@ export class RobotView extends HTMLElement {
         this.showJoint(link);
     }
 
-    /** Nothing is under the mouse any more. */
     private leave(): void {
         this.scene?.figure.mark(null);
         this.canvas.classList.remove('over-robot');
         this.label.hidden = true;
     }
 
-    /** The chosen joints, as the keys have turned them. */
+    /** Announces the chosen joints as the keys have turned them. */
     private speak(): void {
         const { joints } = this.session.editor.state.get();
         if (!this.pose?.isPosing || joints.size === 0) return;

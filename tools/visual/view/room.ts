@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The room: a floor without end, the light with its shadow, a sky down to the horizon. Floor, light and sky go with what the camera follows;
-// the floor goes by whole tiles, so that it is seen to lie still.
+// The room: an endless floor, a light with shadows, a sky down to the horizon. Floor, light and sky move with what the camera follows. The
+// floor moves by whole tile patterns, so that it seems to lie still.
 
 import {
     AmbientLight,
@@ -32,16 +32,16 @@ export interface RoomColours {
 
 const FLOOR_M = 12;
 const TILE_M = 0.1;
-/** The pattern of light and dark tiles comes again. */
+/** Period of the pattern of light and dark tiles. */
 const PATTERN_M = 2 * TILE_M;
-/** What is farther than that has the colour of the horizon: no edge of the floor is seen. */
+/** Beyond `far` everything has the colour of the horizon, so that the floor shows no edge. */
 const FOG_M = { near: 2.5, far: 8 };
 const SKY_M = 40;
-/** The camera looks down: only the lowest tenth of the sky is seen. */
+/** The camera looks down, so only the lowest tenth of the sky is visible. */
 const SKY_STEEPNESS = 8;
 
 export class Room {
-    /** What stands in the room, and leans with its floor. */
+    /** Everything that tilts with the floor. */
     readonly leaning = new Group();
     readonly light = new DirectionalLight(0xffffff, 2.4);
     private readonly scene: Scene;
@@ -73,7 +73,7 @@ export class Room {
         this.paintSky(new Color(horizon), new Color(sky));
     }
 
-    /** What is looked at is here (metres). */
+    /** Moves floor, light and sky to the point that the camera follows (metres). */
     goWith(at: Vector3): void {
         this.light.position.set(at.x + 0.5, at.y - 0.7, 1.9);
         this.light.target.position.copy(at);
@@ -89,7 +89,7 @@ export class Room {
         }
     }
 
-    /** The horizon's colour up to it, then over to the sky's. */
+    /** The horizon's colour up to the horizon, then a gradient to the sky's. */
     private paintSky(horizon: Color, sky: Color): void {
         const { position } = this.sky.geometry.attributes;
         if (!position) return;
@@ -103,12 +103,12 @@ export class Room {
     }
 }
 
-/** Of a way in metres. */
+/** Rounds a distance in metres to whole tile patterns. */
 export function wholePatterns(metres: number): number {
     return Math.round(metres / PATTERN_M) * PATTERN_M;
 }
 
-/** Tiles of 10 cm, so that one sees how far it walks. */
+/** Tiles of 10 cm, so that distances can be judged. */
 function tiles(floor: string, dark: string): CanvasTexture {
     const canvas = document.createElement('canvas');
     canvas.width = canvas.height = 64;

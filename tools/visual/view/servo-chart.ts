@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Goals against positions of one servo, over the last seconds of the robot's time, tick by tick.
+// Goals and positions of one servo over the last six seconds of robot time, tick by tick.
 
 import { TICKS_PER_SECOND } from '../model/motion.ts';
 import type { RobotState } from '../robot/robot-state.ts';
@@ -22,7 +22,7 @@ export class ServoChart extends HTMLElement {
         this.replaceChildren(this.canvas);
     }
 
-    /** Another servo: begins anew. */
+    /** Charts another servo, from an empty chart. */
     choose(servo: number): void {
         this.servo = servo;
         this.goals.length = this.positions.length = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All servos: goal, position, torque, alarms, and a fault for each. The chosen one is drawn over time.
+// All servos: goal, position, torque, alarms and a simulated fault for each. The chosen one is charted over time.
 
 import type { RobotState, ServoState } from '../robot/robot-state.ts';
 import type { Session } from './session/session.ts';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The status bar at the bottom: what the robot does, and what was said last, in the words that the board used.
+// The status bar at the bottom: what the robot does, and the last message.
 
 import { Announcer } from './announcer.ts';
 import type { Session, SessionState, Notice } from './session/session.ts';
@@ -11,7 +11,7 @@ export class StatusBar extends HTMLElement {
     session!: Session; // set before it is connected
     private readonly doing = make('p', { class: 'doing', role: 'status', 'aria-live': 'off', 'aria-label': TEXTS.status.activity });
     private readonly message = make('p', { class: 'message', role: 'log', 'aria-live': 'off', 'aria-label': TEXTS.status.message });
-    /** The only part that is read aloud. */
+    /** The only part that screen readers read aloud. */
     private readonly spoken = make('p', { class: 'visually-hidden', 'aria-live': 'polite', 'aria-label': TEXTS.status.announcements });
     private readonly announcer = new Announcer({
         say: text => setText(this.spoken, text),

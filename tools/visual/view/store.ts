@@ -18,7 +18,7 @@ export class Store<T extends object> {
         for (const listener of this.listeners) listener(this.value);
     }
 
-    /** Calls at once, and after every change; the returned function ends it. */
+    /** Calls the listener now and after every change. The returned function stops that. */
     watch(listener: (value: T) => void): () => void {
         this.listeners.add(listener);
         listener(this.value);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The terminal on the robot's serial line: Edit's full screen at 80x35, Play's shell, the boot loader's prompt. Its letters
-// are as large as the pane lets 80 columns be, but never too small to be read: then it scrolls, and there is the full screen.
+// The terminal on the robot's serial line: Edit's full screen at 80x35, Play's shell, the boot loader's prompt. The font is as large as 80
+// columns allow. Below a readable size the pane scrolls instead, and the user can go to full screen.
 
 import { Terminal } from '@xterm/xterm';
 import { TEXTS } from './texts/texts.ts';
@@ -12,10 +12,10 @@ import './terminal-pane.css';
 const COLUMNS = 80;
 const ROWS_MOST = 35;
 const ROWS_LEAST = 24;
-/** Width and height of a letter for a font size of 1. */
+/** Width and height of a character at font size 1. */
 const LETTER = { width: 0.602, height: 1.17 };
 const FONT = { least: 12, most: 16 };
-/** Between the button and the screen. */
+/** Gap between button and terminal. */
 const BELOW_PX = 8;
 const LINES_KEPT = 2000;
 
@@ -45,7 +45,7 @@ export class TerminalPane extends HTMLElement {
             theme: { background: '#10151a', foreground: '#d8e0e6', cursor: '#6db3f8' },
         });
         this.terminal = terminal;
-        // Tab goes on to the next thing, as everywhere: no firmware wants it, and a keyboard must get out of here.
+        // Tab moves the focus, so that keyboard users can leave the terminal. No firmware needs it.
         terminal.attachCustomKeyEventHandler(event => event.key !== 'Tab');
         terminal.onData(text => this.session.type(new TextEncoder().encode(text)));
         terminal.onBinary(text => this.session.type(Uint8Array.from(text, c => c.charCodeAt(0))));
@@ -67,7 +67,7 @@ export class TerminalPane extends HTMLElement {
         this.terminal?.focus();
     }
 
-    /** What stands on the screen, line by line: for tests and for screen readers. */
+    /** The text on the screen, line by line: for tests and screen readers. */
     get screenText(): string {
         const buffer = this.terminal?.buffer.active;
         if (!buffer) return '';
@@ -77,16 +77,16 @@ export class TerminalPane extends HTMLElement {
         ).join('\n');
     }
 
-    /** A browser that gives no element the screen (iPhone) gives it the whole page. */
+    /** Where elements cannot go to full screen (iPhone), the terminal fills the page. */
     private async fillScreen(): Promise<void> {
         if (document.fullscreenElement === this) await document.exitFullscreen();
         else if (document.fullscreenEnabled) await this.requestFullscreen();
         else this.full.setAttribute('aria-pressed', String(this.classList.toggle('full')));
-        this.focus(); // what is typed now is for the robot, and not for the button
+        this.focus(); // the next key is for the robot, not for the button
     }
 
-    /** xterm measures its letters on the screen and keeps no width of 0: opened while nobody sees it, it would measure every one of them
-     *  again with every line of the robot, which takes 70 ms of a slow computer. */
+    /** Call this only while the pane is visible. xterm measures characters on the screen and does not cache a width of 0: opened while
+     *  hidden, it would measure them again for every line of the robot, 70 ms on a slow computer. */
     private open(terminal: Terminal, screen: HTMLElement): void {
         terminal.open(screen);
         terminal.textarea?.setAttribute('aria-label', TEXTS.terminal.terminal);

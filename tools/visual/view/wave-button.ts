@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Waving while it walks: a page of the library that uses the right arm only, laid over the walk. A robot that stands begins to walk first.
+// Waves while the robot walks: overlays a page of the library that uses only the right arm. A standing robot begins to walk first.
 
 import type { Session, SessionState } from './session/session.ts';
 import { define, make } from './element.ts';
@@ -10,7 +10,7 @@ const WAVE = 'wave_over';
 export class WaveButton extends HTMLElement {
     session!: Session; // set before it is connected
     private readonly button = make('button', { title: TEXTS.remote.waveHint, onclick: () => this.press() }, TEXTS.remote.wave);
-    /** Asked for, and it does not walk yet. */
+    /** Pressed while the robot does not walk yet. */
     private isWanted = false;
     private unwatch: () => void = () => undefined;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A question in the page's own dialog: some answers, or a line of text. Escape and Cancel are no answer.
+// A question in a dialog of the page, with answers to choose or a line of text. Escape and Cancel give no answer.
 
 import { make } from '../element.ts';
 import { TEXTS } from '../texts/texts.ts';
@@ -27,12 +27,12 @@ function show(title: string, answers: readonly Answer[], ...content: HTMLElement
     });
 }
 
-/** The value of the answer chosen; null: none. */
+/** Resolves with the value of the chosen answer; null: none. */
 export function ask(title: string, text: string, answers: readonly Answer[], ...content: HTMLElement[]): Promise<string | null> {
     return show(title, answers, make('p', {}, text), ...content);
 }
 
-/** What was typed; null: nothing. */
+/** Resolves with the trimmed text; null: cancelled. */
 export async function askText(
     title: string,
     label: string,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The area Checks: what the firmware, the body and m512 say of the document, each with a button that goes there. It looks
-// while it is shown, and only anew at pages that changed.
+// The area Checks: findings from the firmware, the body and m512, each with a button that goes to its place. It checks only while it is
+// shown, and only pages that have changed.
 
 import { checkLinks, checkPage } from '../../model/checks.ts';
 import type { PageFinding } from '../../model/checks.ts';
@@ -19,8 +19,7 @@ import { touchText, verdictText } from '../texts/trials.ts';
 import './checks-pane.css';
 
 const WAIT_MS = 400;
-/** Of a CM-5's battery. */
-/** A page and what follows it within four seconds of it: enough for its own steps. */
+/** 47 s: usually enough for a page's own steps. */
 const CURVE_TICKS = 6000;
 
 interface Shown {
@@ -30,9 +29,9 @@ interface Shown {
     readonly text: string;
     readonly isFault: boolean;
     readonly tab: Tab;
-    /** Told from the poses alone: a trial in physics knows better. */
+    /** Derived from poses alone; a trial in physics overrides it. */
     readonly isGuess?: boolean;
-    /** In the words of m512, which are English. */
+    /** Text of m512, in English. */
     readonly isQuoted?: boolean;
 }
 
@@ -42,10 +41,10 @@ export class ChecksPane extends HTMLElement {
     private readonly list = make('ul', { 'aria-label': TEXTS.checks.findings });
     private readonly byPage = new WeakMap<Uint8Array, readonly PageFinding[]>();
     private shown: MotionDocument | null = null;
-    /** What is looked at next, or was looked at last. */
+    /** The document to check next, or checked last. */
     private due: MotionDocument | null = null;
     private drawn = '';
-    /** What is known without physics, as it was looked at last. */
+    /** Findings of the last check, without physics. */
     private known: { readonly document: MotionDocument; readonly all: readonly Shown[]; readonly note: string } | null = null;
     private timer: ReturnType<typeof setTimeout> | undefined;
     private readonly disposals: (() => void)[] = [];
@@ -69,8 +68,8 @@ export class ChecksPane extends HTMLElement {
     private later(): void {
         const { document, gesture } = this.session.editor.state.get();
         if (this.session.state.get().tab !== 'checks' || gesture) return;
-        if (document === this.shown) this.render(); // another law makes trials old
-        if (document === this.due) return; // a robot that talks does not put it off
+        if (document === this.shown) this.render(); // a change of law makes trials stale
+        if (document === this.due) return; // state changes of the robot must not delay the check
         clearTimeout(this.timer);
         this.due = document;
         if (document === this.shown) return;
@@ -84,7 +83,7 @@ export class ChecksPane extends HTMLElement {
         const checked = await this.session.files.formats.check(imageOf(document)).catch(() => null);
         if (this.shown !== document) return;
         const theirs = checked?.map(one => this.shownOfM512(one)) ?? [];
-        // What m512 says of damage it says in better words.
+        // m512 describes damage better than the page's own finding does.
         const rest = checked
             ? own.filter(one => !theirs.some(other => other.page === one.page && other.text.startsWith('damaged') && one.tab === 'pages'))
             : own;
@@ -103,7 +102,7 @@ export class ChecksPane extends HTMLElement {
             const bytes = pageOf(document, page);
             const found = this.byPage.get(bytes) ?? checkPage(document, page, options);
             this.byPage.set(bytes, found);
-            return found.map(one => ({ ...one, page })); // the same bytes may stand in two places
+            return found.map(one => ({ ...one, page })); // two pages may have the same bytes
         });
         return [...ofPages, ...checkLinks(editor.format, document)];
     }
@@ -133,7 +132,7 @@ export class ChecksPane extends HTMLElement {
         this.render();
     }
 
-    /** What physics says of the pages that it has tried. Of those that stand nothing is to be told. */
+    /** Findings from trials in physics. A robot that stands is no finding. */
     private physicsFindings(): Shown[] {
         const { editor, trials: physics } = this.session;
         const { document } = editor.state.get();
@@ -194,7 +193,7 @@ export class ChecksPane extends HTMLElement {
         if (this.summary.textContent !== text) this.summary.textContent = text;
         const sorted = [...all].sort((a, b) => Number(b.isFault) - Number(a.isFault) || a.page - b.page || (a.step ?? -1) - (b.step ?? -1));
         const drawn = JSON.stringify(sorted);
-        if (drawn === this.drawn) return; // the keyboard stays where it is
+        if (drawn === this.drawn) return; // keeps the focus
         this.drawn = drawn;
         this.list.replaceChildren(...sorted.map(one => this.row(one)));
     }

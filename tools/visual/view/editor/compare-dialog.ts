@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The document beside a robot, a backup, another document or a file: what differs, page by page, in pictures and in m512's words.
-// Single pages are taken over into the document; the others way round, pages are written into the robot.
+// Compares the document with a robot, a backup, another document or a file, page by page, in pictures and in m512's words. Pages can be
+// copied into the document or written to the robot.
 
 import { documentFrom, imageOf, pageOf } from '../../model/document.ts';
 import { readPage } from '../../model/page.ts';
@@ -13,7 +13,7 @@ import { transferText } from '../texts/editor.ts';
 import { TEXTS } from '../texts/texts.ts';
 import './compare-dialog.css';
 
-/** Lines of words that a page shows before somebody asks for all of them. */
+/** Lines of text that a page shows before it is expanded. */
 const LINES = 4;
 
 export class CompareDialog extends HTMLElement {
@@ -40,7 +40,7 @@ export class CompareDialog extends HTMLElement {
         onclose: () => this.reading !== null && this.session.files.cancel(),
     });
     private file: { readonly title: string; readonly pages: readonly Uint8Array[] } | null = null;
-    /** The file that is being read, and why the last one could not be; null: none. */
+    /** Text on the file being read, and why the last one could not be read; null: none. */
     private reading: string | null = null;
     private trouble: string | null = null;
     private other: readonly (Uint8Array | null)[] = [];
@@ -72,7 +72,7 @@ export class CompareDialog extends HTMLElement {
         for (const dispose of this.disposals.splice(0)) dispose();
     }
 
-    /** Opens with the robot, which is read. */
+    /** Opens the comparison with the robot and reads its pages. */
     async open(): Promise<void> {
         this.trouble = null;
         this.fillWhich('robot');
@@ -134,7 +134,6 @@ export class CompareDialog extends HTMLElement {
         else this.session.transfer.cancel();
     }
 
-    /** Shows what differs. */
     private async look(): Promise<void> {
         const mine = ++this.looked;
         const { session, key } = this;
@@ -188,7 +187,7 @@ export class CompareDialog extends HTMLElement {
         );
     }
 
-    /** m512 says the differences in its own words; it takes some seconds to come the first time. */
+    /** Adds m512's descriptions of the differences. Loading m512 the first time takes some seconds. */
     private async addWords(mine: number): Promise<void> {
         const { format, state } = this.session.editor;
         const { document } = state.get();
@@ -221,7 +220,7 @@ export class CompareDialog extends HTMLElement {
         this.trouble = null;
         if (this.key !== 'robot') return this.takeOver(this.chosen);
         await this.session.transfer.write(this.chosen);
-        this.fillWhich(this.key); // there is a backup more
+        this.fillWhich(this.key); // adds the new backup
         if (this.session.transfer.state.get().phase === 'written') await this.look();
     }
 
@@ -232,7 +231,7 @@ export class CompareDialog extends HTMLElement {
         await this.look();
     }
 
-    /** What was at hand may be gone or of no use now: the keyboard is at what comes next. */
+    /** If the focused control was removed, hidden or disabled, the focus moves to the next useful one. */
     private keepFocus(): void {
         const { activeElement } = document;
         const isThere = activeElement !== null && this.dialog.contains(activeElement) && !activeElement.matches(':disabled, [hidden]');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the document may be compared with: the robot, a backup of one, another document of this browser, a file.
+// What the document can be compared with: the robot, a backup, another document in this browser, a file.
 
 import { documentFrom } from '../../model/document.ts';
 import { ROBOT_IN_PAGE } from '../document-storage.ts';
@@ -7,12 +7,12 @@ import type { Session } from '../session/session.ts';
 import { TEXTS } from '../texts/texts.ts';
 
 export interface Compared {
-    /** robot, b:ID of a backup, d:ID of a document, file. */
+    /** `robot`, `b:` and ID of a backup, `d:` and ID of a document, or `file`. */
     readonly key: string;
     readonly title: string;
 }
 
-/** Everything that could be chosen now; a file is chosen by its own button. */
+/** All current choices, without files: those have a button of their own. */
 export function comparables(session: Session): Compared[] {
     const { documents, backups, openId } = session.documents.state.get();
     const when = (ms: number): string => new Date(ms).toLocaleString(window.document.documentElement.lang);
@@ -35,7 +35,7 @@ export function robotTitle(session: Session): string {
           : TEXTS.compare.yourRobot(portName);
 }
 
-/** Its 128 pages; null: gone, or (the robot) not read. */
+/** The 128 pages; null: it no longer exists, or the robot has not been read. */
 export async function pagesOf(session: Session, key: string): Promise<readonly (Uint8Array | null)[] | null> {
     const id = key.slice(2);
     if (key === 'robot') {

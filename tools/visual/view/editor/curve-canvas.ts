@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The curves of the page, drawn from the firmware's own player at every change. What a hand does to them: curve-hand.ts.
+// The curves of the page, computed by the firmware's own player and redrawn at every change. curve-hand.ts handles the input.
 
 import type { TickSpan } from '../../model/curve-speed.ts';
 import { jointAngle } from '../../model/body.ts';
@@ -19,28 +19,28 @@ import { ServoFollow } from './servo-follow.ts';
 
 export const CHOSEN_COLOURS = ['--curve-1', '--curve-2', '--curve-3', '--curve-4', '--curve-5', '--curve-6'];
 
-/** What a drawing shows, in numbers. */
+/** What a drawing shows, as data. */
 export interface Drawn {
-    /** Joints and places that are too fast. */
+    /** Spans that are too fast, by joint. */
     readonly fast: ReadonlyMap<number, readonly TickSpan[]>;
     readonly isShaped: boolean;
-    /** Joints whose lines are strong, in the order of their colours. */
+    /** Joints with bold lines, in order of their colours. */
     readonly chosen: readonly number[];
-    /** How far the chosen joints are behind at most, in physics (servo units); empty: not known. */
+    /** Largest lag of the chosen joints in physics (servo units); empty: unknown. */
     readonly lags: ReadonlyMap<number, number>;
-    /** Physics was asked and cannot tell. */
+    /** Physics could not compute the lag. */
     readonly isUnknown: boolean;
 }
 
 export class CurveCanvas extends HTMLElement {
     session!: Session; // set before it is connected
-    /** After each drawing. */
+    /** Called after each drawing. */
     onDrawn: (drawn: Drawn) => void = () => undefined;
     private shape = AS_STORED;
     private readonly canvas = make('canvas', { tabindex: 0, role: 'img', 'aria-label': TEXTS.curves.curves });
     private readonly label = make('p', { class: 'point', 'aria-hidden': true });
     private drawing: CurveDrawing | null = null;
-    private hand!: CurveHand; // made when it is connected, as the next one: they want the session
+    private hand!: CurveHand; // this and `follow` need the session, so connectedCallback() makes them
     private follow!: ServoFollow;
     private request = 0;
     private readonly disposals: (() => void)[] = [];
@@ -55,7 +55,7 @@ export class CurveCanvas extends HTMLElement {
         canvas.addEventListener('pointerleave', () => (this.label.textContent = ''));
         canvas.addEventListener('pointerup', () => this.end(true));
         canvas.addEventListener('pointercancel', () => this.end(false));
-        // A finger beside all way-points scrolls the area, as it does everywhere else.
+        // A finger that touches no way-point scrolls the area.
         canvas.addEventListener('touchstart', event => this.hand.dragged && event.preventDefault(), { passive: false });
         canvas.addEventListener('keydown', event => this.hand.key(event) && event.preventDefault());
         canvas.addEventListener('keyup', () => this.hand.keyUp());
@@ -83,12 +83,12 @@ export class CurveCanvas extends HTMLElement {
         this.later();
     }
 
-    /** Shows where the servos are, as physics has it. */
+    /** Shows the servo positions from physics. */
     setFollow(on: boolean): void {
         this.follow.setOn(on);
     }
 
-    /** One drawing a frame, however much has changed; none while the area is not shown. */
+    /** Draws at most once per frame, and only while the area is shown. */
     private later(): void {
         if (this.request !== 0) return;
         this.request = requestAnimationFrame(() => {
@@ -155,7 +155,7 @@ export class CurveCanvas extends HTMLElement {
 
     private down(event: PointerEvent): void {
         if (event.button !== 0 || !this.drawing) return;
-        event.preventDefault(); // no text is marked
+        event.preventDefault(); // prevents text selection
         this.canvas.focus({ preventScroll: true });
         if (this.hand.down(this.drawing, event, event.shiftKey || event.ctrlKey)) this.canvas.setPointerCapture(event.pointerId);
     }
@@ -186,7 +186,7 @@ function lineText(joint: Joint, point: WayPoint | null): string {
     return TEXTS.curves.atStep(joint.servo, title, point.step + 1, point.position, degrees);
 }
 
-/** Positions as degrees, if all of these joints count them alike, as those of a limb do; else null. */
+/** Converts positions to degrees. null: the joints differ in direction, zero or scale, which those of one limb do not. */
 export function degreesFor(body: Body, servos: ReadonlySet<number>): ((position: number) => number) | null {
     const joints = body.joints.filter(({ servo }) => servos.has(servo));
     const [first] = joints;

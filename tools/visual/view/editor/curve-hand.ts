@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a hand does to the curves. Mouse or finger: a way-point up and down is a position, to the sides a time; a click chooses a joint.
-// Keys: left and right choose the step, up and down turn the chosen joints, with Alt left and right change the time.
+// Input on the curves. Mouse or finger: dragging a way-point vertically changes a position, horizontally a time; a click chooses a joint.
+// Keys: left and right choose the step, up and down turn the chosen joints, Alt with left and right changes the time.
 
 import { JOINTS, POSITION_MAX, TICKS_PER_SECOND } from '../../model/motion.ts';
 import { BYTE_MAX } from '../../model/page.ts';
@@ -11,17 +11,17 @@ import { JointTurn } from './joint-turn.ts';
 import { nearestSetting } from './step-times.ts';
 
 const NEAR_PX = { mouse: 12, finger: 26 };
-/** So far the mouse goes before it is clear what is dragged. */
+/** Distance of a drag after which its direction decides between position and time. */
 const CLEAR_PX = 4;
 const COARSE_UNITS = 10;
 
-/** What is on the canvas now. */
+/** The current drawing on the canvas. */
 export interface CurveDrawing {
     readonly scene: CurveScene;
     readonly frame: CurveFrame;
 }
 
-/** A place on the canvas in pixels, and whose it is: `touch` is a finger. */
+/** A point on the canvas in pixels, and the type of its pointer; `touch`: a finger. */
 interface Spot {
     readonly pointerType: string;
     readonly offsetX: number;
@@ -48,12 +48,12 @@ export class CurveHand {
         );
     }
 
-    /** The picture in which a drag began: its edges stay while the drag is on. */
+    /** The scene in which the drag began: its edges stay during the drag. null: no drag. */
     get dragged(): CurveScene | null {
         return this.drag?.scene ?? null;
     }
 
-    /** true: a way-point is taken hold of, and the pointer belongs to it. */
+    /** true: a drag of a way-point begins; capture the pointer. */
     down(drawing: CurveDrawing, spot: Spot, add: boolean): boolean {
         const { editor } = this.session;
         const point = nearestPoint(drawing, spot);
@@ -93,7 +93,7 @@ export class CurveHand {
         }
     }
 
-    /** The end of a drag. keep: false takes it back. true: there was one. */
+    /** Ends a drag. keep: false reverts it. Returns true if there was one. */
     up(keep: boolean): boolean {
         const { drag } = this;
         this.drag = null;
@@ -102,7 +102,7 @@ export class CurveHand {
         return drag !== null;
     }
 
-    /** true: the key was meant for the curves. */
+    /** true: the key was handled. */
     key(event: KeyboardEvent): boolean {
         const side = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
         const turn = { ArrowUp: 1, ArrowDown: -1 }[event.key];
@@ -144,19 +144,19 @@ export class CurveHand {
     }
 }
 
-/** How far beside a thing it may still be meant. */
+/** Distance in pixels at which a pointer still hits. */
 function reachPx(pointerType: string): number {
     return pointerType === 'touch' ? NEAR_PX.finger : NEAR_PX.mouse;
 }
 
-/** The way-point under the mouse. */
+/** The nearest way-point within reach of the pointer. */
 export function nearestPoint({ scene, frame }: CurveDrawing, { offsetX, offsetY, pointerType }: Spot): WayPoint | null {
     const distance = (point: WayPoint): number => Math.hypot(frame.x(point.tick) - offsetX, frame.y(point.position) - offsetY);
     const near = scene.wayPoints.filter(point => distance(point) < reachPx(pointerType)).sort((a, b) => distance(a) - distance(b));
     return near[0] ?? null;
 }
 
-/** The joint whose curve is under the mouse. */
+/** The joint whose curve is nearest and within reach of the pointer. */
 export function jointAt({ scene, frame }: CurveDrawing, { offsetX, offsetY, pointerType }: Spot): number | null {
     const tick = Math.min(Math.max(Math.round(frame.tick(offsetX)) - 1, 0), scene.curve.ticks - 1);
     const off = (joint: number): number => Math.abs(frame.y(scene.curve.goals[tick * JOINTS + joint] ?? 0) - offsetY);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Draws curves on a canvas: time to the right, servo units upwards; the chosen joints strong with their way-points, the others
-// faint; too fast in red and dashed. Pure of the document: numbers in, strokes out.
+// Draws curves on a canvas: time to the right, servo units upwards. Chosen joints are bold with way-points, the others faint; spans that
+// are too fast are red and dashed. Independent of the document.
 
 import { JOINTS, TICKS_PER_SECOND } from '../../model/motion.ts';
 import type { Curve } from '../../model/motion.ts';
@@ -15,20 +15,20 @@ export interface WayPoint {
 }
 
 export interface CurveScene {
-    /** What will be sent: as it is shaped. */
+    /** The curve that is sent to the servos, with the shape applied. */
     readonly curve: Curve;
-    /** As it is stored, where a shape makes it another one. */
+    /** The stored curve; null: the shape does not change it. */
     readonly stored: Curve | null;
-    /** Where the servos are in physics, tick by tick: JOINTS servo units; null: not looked at. */
+    /** Servo positions in physics, JOINTS servo units per tick; null: unknown. */
     readonly followed: Float32Array | null;
-    /** Positions of the chosen joints in degrees; null: they do not count them alike. */
+    /** Converts positions of the chosen joints to degrees; null: their scales differ. */
     readonly degrees: ((position: number) => number) | null;
     readonly ticks: number;
     readonly joints: readonly number[];
     readonly chosen: ReadonlySet<number>;
     readonly fast: ReadonlyMap<number, readonly TickSpan[]>;
     readonly wayPoints: readonly WayPoint[];
-    /** Ticks at which steps end, and their pauses. */
+    /** Duration of each step's movement and pause, in ticks. */
     readonly ends: readonly { readonly move: number; readonly pause: number }[];
     readonly cursor: number;
     /** Servo units at the lower and upper edge. */
@@ -49,7 +49,7 @@ export interface CurveColours {
 const POINT = 6; // pixels
 const EDGE = { left: 34, right: 40, top: 8, bottom: 18 };
 
-/** Places in the picture, both ways (CSS pixels). */
+/** Converts between ticks, positions and CSS pixels. */
 export class CurveFrame {
     readonly width: number;
     readonly height: number;
@@ -94,7 +94,7 @@ export function drawCurves(context: CanvasRenderingContext2D, frame: CurveFrame,
     drawWayPoints(context, frame, scene, colours);
 }
 
-/** As stored dotted, as sent strong, where the servo is thin. */
+/** Stored curve dotted, sent curve bold, servo position thin. */
 function drawChosen(
     context: CanvasRenderingContext2D,
     frame: CurveFrame,
@@ -136,7 +136,7 @@ function drawGrid(
         context.strokeStyle = colours.grid;
         vertical(context, frame, begin);
         context.fillStyle = colours.text;
-        if (chosen.size === 0) context.fillText(String(step + 1), frame.x(begin - move - pause) + 4, EDGE.top + 10); // else at the points
+        if (chosen.size === 0) context.fillText(String(step + 1), frame.x(begin - move - pause) + 4, EDGE.top + 10); // else at way-points
     }
     const every = high - low > 500 ? 200 : high - low > 200 ? 100 : 50;
     for (let position = Math.ceil(low / every) * every; position <= high; position += every) {
@@ -152,7 +152,7 @@ function drawGrid(
     for (let second = 0; second <= seconds; second += seconds > 6 ? 1 : 0.5) secondText(context, frame, second);
 }
 
-/** Under the axis, and never cut by the edge. */
+/** Below the axis, never cut off by the edge. */
 function secondText(context: CanvasRenderingContext2D, frame: CurveFrame, second: number): void {
     const text = `${second} s`;
     const x = frame.x(second * TICKS_PER_SECOND) - 6;
@@ -178,7 +178,7 @@ interface Way {
     readonly goals: ArrayLike<number>;
 }
 
-/** No finer than the screen: one point a pixel. */
+/** Draws at most about one point per pixel. */
 function trace(context: CanvasRenderingContext2D, frame: CurveFrame, { ticks, goals }: Way, joint: number, from: number, to: number): void {
     const stride = Math.max(1, Math.floor(ticks / frame.width));
     context.beginPath();

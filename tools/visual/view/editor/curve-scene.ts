@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What there is to draw of a page's curves: what will be sent as it is shaped, what is stored, its way-points, where it is too fast.
+// Collects what to draw of a page's curves: sent and stored curves, way-points, and spans that are too fast.
 
 import { tooFast } from '../../model/curve-speed.ts';
 import { AS_STORED, JOINTS, POSITION_MAX, TICKS_PER_SECOND } from '../../model/motion.ts';
@@ -11,12 +11,11 @@ import { stepTimes } from './step-times.ts';
 
 const SPAN = { margin: 24, least: 120 };
 
-/** How a scene is to be made. */
 export interface SceneOptions {
     readonly shape: Shape;
-    /** Of the battery. */
+    /** Battery voltage. */
     readonly volts: number;
-    /** The edges of a drag under way: the picture does not move under the mouse. */
+    /** Edges to keep during a drag, so that the picture does not move under the mouse. */
     readonly edges: Pick<CurveScene, 'low' | 'high'> | null;
 }
 
@@ -24,7 +23,7 @@ function isShaped(shape: Shape): boolean {
     return (Object.keys(AS_STORED) as (keyof Shape)[]).some(name => shape[name] !== AS_STORED[name]);
 }
 
-/** null: the page cannot be played. Way-points and the ends of steps are those that are stored. */
+/** Way-points and step times are as stored, without the shape. null: the page cannot be played. */
 export function curveScene(editor: Editor, { shape, volts, edges }: SceneOptions): Omit<CurveScene, 'followed' | 'degrees'> | null {
     const { page, step, joints: chosen, document } = editor.state.get();
     const { steps } = editor.page(page);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Curves: what the firmware's player makes of the page, under either law, and as it is shaped.
+// The area Curves: the firmware player's output for the page, under the selected law and with the shape applied.
 
 import { degreesOf } from '../../model/body.ts';
 import type { TickSpan } from '../../model/curve-speed.ts';
@@ -64,7 +64,7 @@ export class CurvesPane extends HTMLElement {
         for (const dispose of this.disposals.splice(0)) dispose();
     }
 
-    /** Eighteen lines at once tell nothing: who comes sees the limb that the motion moves most. */
+    /** Eighteen lines at once are unreadable, so at first the limb that moves most is chosen. */
     private beginWithLimb(): void {
         const { editor, body } = this.session;
         const { page, joints } = editor.state.get();
@@ -73,7 +73,7 @@ export class CurvesPane extends HTMLElement {
         if (servos.length > 0) editor.select({ joints: new Set(servos) });
     }
 
-    /** The chosen lines by name, each in its colour. */
+    /** Lists the chosen lines by name and colour. */
     private sayLegend({ chosen }: Drawn): void {
         const key = chosen.join();
         if (key === this.legend.dataset.joints) return;
@@ -90,7 +90,7 @@ export class CurvesPane extends HTMLElement {
         this.legend.replaceChildren(...(items.length > 0 ? items : [make('li', { class: 'none' }, TEXTS.curves.noLine)]));
     }
 
-    /** What the other lines are. */
+    /** Explains the dotted and thin lines. */
     private sayLines(drawn: Drawn): void {
         const { joints } = this.session.editor.state.get();
         const text = [

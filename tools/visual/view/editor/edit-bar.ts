@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Above the editor's areas: which document is open, whether it is kept, undo and redo with their names, and the way to the robot.
+// Toolbar of the editor's areas: the open document, state of the autosave, undo and redo with their names, transfer to the robot.
 
 import { copyName } from '../../model/document.ts';
 import { dirtyPages } from '../../model/editor-state.ts';
@@ -22,7 +22,7 @@ const REMOVE = 'remove';
 
 export class EditBar extends HTMLElement {
     session!: Session; // set before it is connected
-    /** Opens the way to the robot. */
+    /** Opens the transfer to the robot. */
     onTransfer: () => void = () => undefined;
     private readonly documents = make('select', { 'aria-label': TEXTS.document.document });
     private readonly saving = make('span', { class: 'saving', role: 'status', 'aria-label': TEXTS.document.autosave });
@@ -114,7 +114,7 @@ export class EditBar extends HTMLElement {
         }
     }
 
-    /** from: asked when the name is given, for the document may have changed meanwhile. */
+    /** from: called after the name is entered, because the document may have changed meanwhile. */
     private async create(title: string, proposal: string, from?: () => MotionDocument): Promise<void> {
         const name = await askText(title, TEXTS.document.name, proposal);
         if (name) await this.session.documents.create(name, from?.());
@@ -122,12 +122,12 @@ export class EditBar extends HTMLElement {
 
     private async createFromRobot(): Promise<void> {
         const { transfer, editor } = this.session;
-        if (!(await transfer.read()).isDone) return this.onTransfer(); // which says why, and offers to try again
+        if (!(await transfer.read()).isDone) return this.onTransfer(); // shows the reason and offers to try again
         const pages = editor.state.get().robot.map(bytes => bytes ?? editor.format.empty);
         await this.create(TEXTS.document.fromRobotTitle, TEXTS.document.ofMyRobot, () => ({ name: '', pages }));
     }
 
-    /** Ctrl+Z and Ctrl+Y, but for what is being typed. */
+    /** Ctrl+Z, Ctrl+Shift+Z and Ctrl+Y, except while typing. */
     private key(event: KeyboardEvent): void {
         const isInDialog = event.target instanceof Element && event.target.closest('dialog') !== null;
         if (!(event.ctrlKey || event.metaKey) || event.altKey || isTyping(event) || isInDialog || this.closest('[hidden]')) return;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The pose that is edited: what the chosen step has for the joints, and where the figure stands with it. A page without steps begins
-// with the robot's pose.
+// The edited pose: the joints after the chosen step, and where the figure stands with them. A page without steps has the robot's pose.
 
 import { lowerFoot, trunkOn } from '../../model/balance.ts';
 import { angleIn, placeLinks } from '../../model/body.ts';
@@ -21,7 +20,7 @@ export class EditedPose {
     private readonly editor: Editor;
     private readonly body: Body;
     private readonly editing: Store<Editing>;
-    /** As it was seen last. */
+    /** Last known state. */
     robot: RobotState | null = null;
 
     constructor(editor: Editor, body: Body, editing: Store<Editing>) {
@@ -48,12 +47,12 @@ export class EditedPose {
         return stanceOf(this.body, this.editing.get(), angles, this.feet());
     }
 
-    /** The figure with these angles on this foot. */
+    /** The figure with these angles, standing on the foot of the stance. */
     posed(angles: Angles, stance: Stance): Posed {
         return { trunk: trunkOn(this.body, stance.keep, angles, stance.at), angles };
     }
 
-    /** The figure as a step of the page leaves it, on its own foot; null: there is no such step. */
+    /** The figure after a step of the page, on that pose's own foot; null: no such step. */
     atStep(at: number): Posed | null {
         const { page } = this.editor.state.get();
         if (at < 0 || at >= this.editor.page(page).steps.length) return null;
@@ -67,7 +66,7 @@ export class EditedPose {
         return this.editor.page(this.editor.state.get().page).steps.length === 0;
     }
 
-    /** Where the robot has its feet: there the edited step stands too. */
+    /** Places of the robot's feet, on which the edited step stands too. */
     private feet(): Record<Side, Place> {
         const { robot } = this;
         const places = robot ? placeLinks(this.body, robot.trunk, angleIn(robotAngles(this.body, robot))) : null;
@@ -75,7 +74,7 @@ export class EditedPose {
     }
 }
 
-/** Servo units by ID, as the robot stands. */
+/** The robot's measured pose (servo units by ID). */
 export function robotPose(robot: RobotState): number[] {
     const pose = new Array<number>(JOINTS).fill(POSITION_MIDDLE);
     for (const { id, position } of robot.servos) pose[id] = Math.round(position);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the editor's areas share beside the document: how the picture is used, and what the robot and the chosen step have for
-// a pose. Not in the history.
+// State shared by the editor's areas apart from the document: how the picture is used, and poses of the robot and the chosen step. Not part
+// of the history.
 
 import { lowerFoot } from '../../model/balance.ts';
 import { anglesOf, jointAngle, nearestPosition } from '../../model/body.ts';
@@ -13,19 +13,19 @@ import type { RobotState } from '../../robot/robot-state.ts';
 import type { Tab } from '../session/session.ts';
 import type { Editor } from '../session/editor.ts';
 
-/** pose: a drag in the picture changes the chosen step; hand: it pulls the robot. */
+/** What a drag in the picture does. pose: changes the chosen step; hand: pulls the robot. */
 export type PictureMode = 'pose' | 'hand';
 
 export interface Editing {
     readonly mode: PictureMode;
     readonly keep: Side | 'lower';
-    /** A foot that is dragged keeps its sole parallel to the floor. */
+    /** A dragged foot keeps its sole parallel to the floor. */
     readonly soleFlat: boolean;
     readonly onionSkin: boolean;
     readonly balance: boolean;
-    /** The robot goes where the chosen step is. */
+    /** The robot moves to the chosen step. */
     readonly follow: boolean;
-    /** Servos that are being taught: limp, but for the simulated robot, whose limbs hold when the mouse lets go of them. */
+    /** Servos being taught. They are limp, except on the simulated robot while the mouse does not hold the limb. */
     readonly taught: ReadonlySet<number>;
 }
 
@@ -39,14 +39,14 @@ export const EDITING_START: Editing = {
     taught: new Set(),
 };
 
-/** Areas in which a step is edited: there the picture shows it. */
+/** Areas that edit a step, which the picture then shows. */
 const EDITING_TABS: ReadonlySet<Tab> = new Set<Tab>(['steps', 'curves']);
 
 export function isEditing(tab: Tab): boolean {
     return EDITING_TABS.has(tab);
 }
 
-/** What is still being taught when servos that were limp hold again: Play switches on what it moves. */
+/** Servos still being taught: without those that were limp and have torque again. Play switches on the torque of servos it moves. */
 export function stillTaught(taught: ReadonlySet<number>, wereLimp: readonly number[], areLimp: readonly number[]): ReadonlySet<number> {
     return new Set([...taught].filter(servo => areLimp.includes(servo) || !wereLimp.includes(servo)));
 }
@@ -60,15 +60,14 @@ export function robotAngles(body: Body, robot: RobotState): Angles {
     return new Map(body.joints.map(joint => [joint.servo, jointAngle(joint, positions.get(joint.servo) ?? joint.zero)]));
 }
 
-/** Servo units by ID of the robot as it stands; null: no such servo. A joint that holds has its goal: what it was told, not how
- *  far the weight bends it. */
+/** The robot's pose (servo units by ID; null: no such servo). For a joint with torque it is the goal, not the position under load. */
 export function robotPositions(robot: RobotState): (number | null)[] {
     const positions = new Array<number | null>(JOINTS).fill(null);
     for (const servo of robot.servos) positions[servo.id] = Math.round((servo.torque ? servo.goalPos : null) ?? servo.position);
     return positions;
 }
 
-/** Positions of the joints whose angles differ. */
+/** New positions of the joints whose rounded positions differ (servo units by ID). */
 export function changedPositions(body: Body, before: Angles, after: Angles): Map<number, number> {
     return new Map(
         body.joints.flatMap(joint => {
@@ -78,7 +77,7 @@ export function changedPositions(body: Body, before: Angles, after: Angles): Map
     );
 }
 
-/** The foot on which the edited figure stands, where the robot has that foot. */
+/** The foot on which the edited figure stands, at the place of the robot's foot. */
 export function stanceOf(body: Body, editing: Editing, angles: Angles, feet: Readonly<Record<Side, Stance['at']>>): Stance {
     const keep = editing.keep === 'lower' ? lowerFoot(body, angles) : editing.keep;
     return { keep, at: feet[keep] };
@@ -87,18 +86,18 @@ export function stanceOf(body: Body, editing: Editing, angles: Angles, feet: Rea
 const SAFE_UNITS_PER_TICK = 2.5;
 const LEAST_TIME = 48;
 
-/** Time of a step (ticks at nominal speed) in which no joint has to hurry on its way from the pose before. */
+/** Time of a step (ticks at nominal speed) long enough for every joint to move slowly from the previous pose; at most 255. */
 export function easyTime(from: readonly (number | null)[], to: readonly (number | null)[]): number {
     const distances = to.map((position, id) => Math.abs((position ?? 0) - (from[id] ?? position ?? 0)));
     return Math.min(BYTE_MAX, Math.max(LEAST_TIME, Math.ceil(Math.max(...distances) / SAFE_UNITS_PER_TICK)));
 }
 
-/** A step of these positions that the robot reaches without haste. */
+/** A step with these positions, timed by easyTime(). */
 export function easyStep(positions: readonly (number | null)[], before: readonly (number | null)[]): Step {
     return { positions, time: easyTime(before, positions), pause: 0 };
 }
 
-/** The chosen joints turned by so many servo units from `pose` (by ID), each as far as it can. */
+/** Positions of the chosen joints turned by `by` servo units from `pose` (by ID), within their limits. */
 export function changedBy(body: Body, joints: ReadonlySet<number>, pose: readonly number[], by: number): Map<number, number> {
     return new Map(
         body.joints

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Open a file, save as a file, send as a link; files that are dropped anywhere on the page. What was read is shown first: nothing
-// is taken over before a person says so.
+// Opens files, also by drag and drop; saves files; makes links. A file that was read is shown first and imported only on request.
 
 import { SUFFIXES } from '../../model/file-formats.ts';
 import type { Suffix } from '../../model/file-formats.ts';
@@ -12,7 +11,7 @@ import { TEXTS } from '../texts/texts.ts';
 import './files-menu.css';
 
 const ACCEPTED = '.m512,.bin,.img,.hex,.ihex,.mtn';
-const FORGET_MS = 60_000; // a download has begun by then
+const FORGET_MS = 60_000; // a download has started by then
 
 export class FilesMenu extends HTMLElement {
     session!: Session; // set before it is connected
@@ -75,7 +74,7 @@ export class FilesMenu extends HTMLElement {
 
     private chosen(): void {
         const file = this.chooser.files?.[0];
-        this.chooser.value = ''; // the same file may be chosen again
+        this.chooser.value = ''; // allows choosing the same file again
         if (file) void this.read(file);
     }
 
@@ -97,7 +96,7 @@ export class FilesMenu extends HTMLElement {
             );
     }
 
-    /** The selected page as a link, in the clipboard and to be copied. */
+    /** Copies a link to the selected page to the clipboard and shows it. */
     async send(): Promise<void> {
         const hash = await this.session.files.link();
         if (hash === null) return;
@@ -178,14 +177,14 @@ export class FilesMenu extends HTMLElement {
     }
 }
 
-/** Of this page, in the language of whoever opens it. */
+/** Address without `lang`, so that the page opens in the recipient's language. */
 function addressOf(hash: string): string {
     const address = new URL(hash, window.location.href);
     address.searchParams.delete('lang');
     return address.href;
 }
 
-/** In the words of m512. Scrolls when it is long, also by keyboard. */
+/** Text of m512, in English. Focusable, so that a long list scrolls by keyboard too. */
 function lines(texts: readonly string[]): HTMLElement | null {
     return texts.length === 0 ? null : make('ul', { tabindex: 0, lang: 'en' }, ...texts.map(text => make('li', {}, text)));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Live follow: the robot goes, slowly, where the chosen step is. Off until somebody wants it, and off again when a limb is let
-// go or the robot is stopped.
+// Live follow: the robot moves slowly to the chosen step. Off by default, and switched off when the taught limbs change or the robot is
+// stopped.
 
 import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';

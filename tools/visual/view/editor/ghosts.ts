@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two versions of a page as pictures: the poses of the new one, with those of the old one as ghosts behind them.
+// Pictures of two versions of a page: poses of the new one, with the old ones as ghosts behind them.
 
 import { anglesOf } from '../../model/body.ts';
 import type { Body } from '../../model/body.ts';
@@ -34,7 +34,7 @@ function picture(body: Body, before: Step | undefined, after: Step | undefined):
     return canvas;
 }
 
-/** One for each step whose pose differs; the first pose when none does. */
+/** One picture per step whose pose differs; if none does, one of the first step. */
 export function ghosts(body: Body, before: PageView, after: PageView): HTMLElement {
     const count = Math.max(before.steps.length, after.steps.length);
     const steps = Array.from({ length: count }, (_, k) => [before.steps[k], after.steps[k]] as const);

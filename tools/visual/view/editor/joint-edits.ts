@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Edits of the chosen step's joints, as the picture and the number fields ask for them.
+// Edits of the chosen step's joints, for the picture and the number fields.
 
 import { limbTo } from '../../model/ik.ts';
 import type { Body } from '../../model/body.ts';
@@ -14,7 +14,7 @@ import type { RobotState } from '../../robot/robot-state.ts';
 import type { Editor } from '../session/editor.ts';
 import { easyStep, robotPositions } from './editing.ts';
 
-/** Joints that a drag of this part moves. */
+/** Servo IDs of the joints that a drag of this part moves. */
 export function jointsOfPart(body: Body, part: Part): number[] {
     const limb = (link: string): number[] => limbTo(body, link, [0, 0, 0]).links.flatMap(({ joint }) => (joint ? [joint.servo] : []));
     switch (part.kind) {
@@ -31,8 +31,7 @@ export function jointsOfPart(body: Body, part: Part): number[] {
     }
 }
 
-/** The chosen step with these positions (servo units by ID). A page without steps gets its first one: the robot's pose with
- *  them. */
+/** Sets positions of the chosen step (servo units by ID). A page without steps gets a first step: the robot's pose with these positions. */
 export function changeStep(
     editor: Editor,
     start: MotionDocument,

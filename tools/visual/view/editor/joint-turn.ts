@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The arrows that turn the chosen joints: a key that is held is one undo step, and turns from the pose in which it was pressed.
+// Turns the chosen joints by arrow keys. A held key is one undo step and turns from the pose at its first press.
 
 import type { Body } from '../../model/body.ts';
 import type { MotionDocument } from '../../model/document.ts';
@@ -8,7 +8,7 @@ import type { Transaction } from '../../model/transaction.ts';
 import type { Editor, Gesture } from '../session/editor.ts';
 import { changedBy } from './editing.ts';
 
-/** The edit that gives the chosen step these positions (servo units by ID). */
+/** Makes the edit that sets these positions of the chosen step (servo units by ID). */
 export type PositionsEdit = (start: MotionDocument, positions: ReadonlyMap<number, number>) => Result<Transaction>;
 
 interface Held {
@@ -33,7 +33,7 @@ export class JointTurn {
         return this.held !== null;
     }
 
-    /** The key goes down, or repeats itself. pose: servo units by ID, asked for once. */
+    /** Call on key press and repeat. pose: servo units by ID, called once per held key. */
     turn(units: number, pose: () => readonly number[]): void {
         this.held ??= { gesture: this.editor.gesture('set-joints'), pose: pose(), units: 0 };
         const held = this.held;
@@ -41,7 +41,7 @@ export class JointTurn {
         held.gesture.change(this.edit(held.gesture.start, changedBy(this.body, this.editor.state.get().joints, held.pose, held.units)));
     }
 
-    /** The key was let go. keep: false takes back what it turned. */
+    /** Call on release. keep: false reverts the turn. */
     end(keep: boolean): void {
         if (keep) this.held?.gesture.finish();
         else this.held?.gesture.cancel();

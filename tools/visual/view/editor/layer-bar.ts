@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What goes on beside a play: a page laid over it, joints that code moves. The robot does all of it; here it is only told to.
+// Controls for what runs in parallel to a play: an overlaid page, joints moved by code. The robot does all of it.
 
 import { jointAngle, nearestPosition } from '../../model/body.ts';
 import type { Joint } from '../../model/body.ts';
@@ -99,7 +99,7 @@ export class LayerBar extends HTMLElement {
         const { version, tab, source } = this.session.state.get();
         if (tab !== 'remote') return;
         const { document, gesture } = this.session.editor.state.get();
-        if (this.shown !== document.pages && !gesture) this.list(document.pages); // not at every frame of a drag
+        if (this.shown !== document.pages && !gesture) this.list(document.pages); // not during a drag
         const isPlay = version?.image === 'play';
         for (const button of this.actions) button.disabled = !isPlay;
         this.startPlay.hidden = isPlay || version === null || source === 'yours';
@@ -123,7 +123,7 @@ export class LayerBar extends HTMLElement {
         if (kept) this.page.value = kept;
     }
 
-    /** The first of the chosen joints, from its middle on. */
+    /** Shows the first of the chosen joints; the field starts at its zero position. */
     private showJoint(): void {
         const [joint = null] = this.chosen;
         this.byCode.classList.toggle('none', joint === null);
@@ -133,7 +133,7 @@ export class LayerBar extends HTMLElement {
         if (joint) this.position.value = String(Math.round(joint.zero));
     }
 
-    /** What the robot says is in force. */
+    /** The overlays that the robot reports. */
     private inForce(): string {
         const fields = this.session.state.get().where?.fields;
         const page = Number(fields?.get('layer') ?? 0);
@@ -167,7 +167,7 @@ export class LayerBar extends HTMLElement {
         void this.session.overlay({ kind: 'swing', joint: joint.servo, centre: this.within(joint), amplitude, periodMs });
     }
 
-    /** The position in the field, as far as the body lets the joint. */
+    /** The position in the field, limited to the joint's range. */
     private within(joint: Joint): number {
         const wanted = Number.isFinite(this.position.valueAsNumber) ? this.position.valueAsNumber : joint.zero;
         const position = nearestPosition(joint, jointAngle(joint, wanted));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The pages as a graph, laid out by dagre and drawn as SVG. Shows; decides nothing.
+// The pages as a graph, laid out by dagre and drawn as SVG. Display only.
 
 import { Graph, layout } from '@dagrejs/dagre';
 import type { LinkGraph, PageLink, PageNode } from '../../model/links.ts';
@@ -22,7 +22,7 @@ function draw(tag: string, attributes: Readonly<Record<string, string | number>>
     return element;
 }
 
-/** "walk_go → walk_l by ▲": for a title. */
+/** Tooltip of a link: "walk_go → walk_l by ▲". */
 function linkTitle(link: PageLink, nodes: ReadonlyMap<number, PageNode>): string {
     const title = (page: number): string => TEXTS.motion.title(page, nodes.get(page)?.name ?? '');
     return TEXTS.links.link(title(link.from), TEXTS.links.names[link.kind], codeText(link.code), title(link.to), link.isDead);
@@ -30,7 +30,7 @@ function linkTitle(link: PageLink, nodes: ReadonlyMap<number, PageNode>): string
 
 type Point = { readonly x: number; readonly y: number };
 
-/** Where everything stands. Places of nodes are their middles. */
+/** The layout. Nodes are given by their centres. */
 interface Laid {
     readonly nodes: Map<number, Point>;
     readonly edges: Map<PageLink, { readonly points: readonly Point[]; readonly label: Point | null }>;
@@ -38,8 +38,8 @@ interface Laid {
     height: number;
 }
 
-/** The chart; nodes carry data-page. Pages that hang together are laid out together, one group below the other; those that are
- *  linked to nothing fill rows at the end. `width`: what is there, in pixels. */
+/** The chart; nodes have data-page. Connected pages are laid out as groups, one below the other. Pages without links fill rows at the end.
+ *  `width`: available width in pixels. */
 export function linkChart({ nodes, links }: LinkGraph, width: number): SVGElement {
     const byPage = new Map(nodes.map(node => [node.page, node]));
     const between = links.filter(link => link.from !== link.to);
@@ -62,7 +62,7 @@ export function linkChart({ nodes, links }: LinkGraph, width: number): SVGElemen
     );
 }
 
-/** Pages that hang together, the largest group first; where nothing can be played counts as well. */
+/** Groups of connected pages, the largest first. Link targets that cannot be played are included. */
 function groupsOf(pages: readonly number[], links: readonly PageLink[]): number[][] {
     const group = new Map<number, number[]>(pages.map(page => [page, [page]]));
     for (const { from, to } of links) {
@@ -88,11 +88,11 @@ function placeGroup(laid: Laid, links: readonly PageLink[], pages: readonly numb
         );
     layout(graph);
     const at = ({ x, y }: Point): Point => ({ x: x + PADDING, y: y + laid.height });
-    const size = graph.graph() as { width?: number; height?: number }; // what layout() has put there
+    const size = graph.graph() as { width?: number; height?: number }; // set by layout()
     for (const page of pages) laid.nodes.set(page, at(graph.node(String(page)) as Point));
     for (const link of links) {
         const { points = [] } = graph.edge({ v: String(link.from), w: String(link.to), name: link.kind }) as { points?: Point[] };
-        const [a, b] = points.slice(Math.floor((points.length - 1) / 2)); // the line goes through the middle between the two
+        const [a, b] = points.slice(Math.floor((points.length - 1) / 2)); // the line passes midway between them
         laid.edges.set(link, {
             points: points.map(at),
             label: link.code && a && b ? at({ x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 }) : null,
@@ -155,7 +155,7 @@ function edge(link: PageLink, laid: Laid, byPage: ReadonlyMap<number, PageNode>)
     );
 }
 
-/** Through the middles of dagre's points, which are the corners. */
+/** A smooth path through the midpoints of dagre's points, which are its control points. */
 function smooth(points: readonly Point[]): string {
     const [first, ...rest] = points;
     if (!first) return '';
@@ -202,10 +202,10 @@ function box(page: number, laid: Laid, node: PageNode | null, links: readonly Pa
     );
 }
 
-/** What is chosen and what plays, on a chart that stands. */
+/** Marks the selected and the playing page on an existing chart. */
 export function markChart(chart: Element, { selected, playing }: ChartMarks): void {
     const nodes = [...chart.querySelectorAll<SVGElement>('.node')];
-    const entry = nodes.find(node => Number(node.dataset.page) === selected) ?? nodes[0]; // Tab comes to it
+    const entry = nodes.find(node => Number(node.dataset.page) === selected) ?? nodes[0]; // the node that Tab reaches
     for (const node of nodes) {
         const page = Number(node.dataset.page);
         node.classList.toggle('selected', page === selected);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The links of one page as a list: where each leads, set by choosing, followed by a button; and which pages lead here.
+// The links of one page as a list: targets to choose or to go to, and the pages that lead here.
 
 import { PAGE_COUNT } from '../../model/motion.ts';
 import { LINK_FIELDS, PARTNER_FIELDS } from '../../model/page.ts';
@@ -14,7 +14,7 @@ import { codeText } from '../texts/editor.ts';
 import { TEXTS } from '../texts/texts.ts';
 
 const CODE_OF: Partial<Record<LinkField, 'linked1Code' | 'linked2Code'>> = { linked1: 'linked1Code', linked2: 'linked2Code' };
-/** What may be chosen: no key, each button alone, and the slanting directions. */
+/** Choices: no key, each button alone, and the diagonal directions. */
 const CHORDS: readonly (readonly RemoteButton[])[] = [
     [],
     ...(Object.keys(REMOTE_BUTTONS) as RemoteButton[]).map(button => [button]),
@@ -76,7 +76,7 @@ function field(editor: Editor, page: number, link: LinkField): HTMLElement[] {
     return [make('label', {}, TEXTS.links.names[link]), choice, code ? codeField(editor, page, link, code) : make('span'), go];
 }
 
-/** Empty pages stand at the end: one may be filled later. */
+/** Possible targets. Empty pages come last: they may be filled later. */
 function targets(editor: Editor): [number, string][] {
     const { document } = editor.state.get();
     const all = Array.from({ length: PAGE_COUNT - 1 }, (_, i) => i + 1);

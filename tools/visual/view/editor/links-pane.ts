@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The area Links: the graph of all pages, and beside it the links of the chosen one as a list. A page is chosen by a click, by
-// the arrow keys (to the next page that way) or in the list; a link is set by a drag from page to page, or in the list.
+// The area Links: the graph of all pages, and the links of the chosen one as a list. A page is chosen by click, arrow keys (nearest page in
+// that direction) or in the list. A link is set by a drag from page to page or in the list.
 
 import { linkGraph } from '../../model/links.ts';
 import type { LinkGraph } from '../../model/links.ts';
@@ -48,7 +48,7 @@ export class LinksPane extends HTMLElement {
         this.disposals.push(
             this.session.editor.state.watch(() => this.render()),
             this.session.state.watch(() => queueMicrotask(() => this.render())),
-        ); // by then the area is shown, and has a width
+        ); // by then the area is visible and has a width
     }
 
     disconnectedCallback(): void {
@@ -72,7 +72,7 @@ export class LinksPane extends HTMLElement {
         this.centre(this.chart.querySelector('.node.selected'));
     }
 
-    /** Scrolls the chart and nothing around it. */
+    /** Scrolls only the chart, unlike scrollIntoView(). */
     private centre(node: Element | null): void {
         if (!node) return;
         const [at, room] = [node.getBoundingClientRect(), this.chart.getBoundingClientRect()];
@@ -121,11 +121,11 @@ export class LinksPane extends HTMLElement {
             TEXTS.links.which(title(from), title(to)),
             kinds.map(kind => [TEXTS.links.names[kind], kind]),
         );
-        if (answer) editor.dispatch(editor.edits.setLink(editor.state.get().document, from, answer as LinkField, to)); // one of the kinds
+        if (answer) editor.dispatch(editor.edits.setLink(editor.state.get().document, from, answer as LinkField, to)); // one of `kinds`
         this.choose(from);
     }
 
-    /** Arrows go to the nearest page that way; Enter opens its steps. */
+    /** Arrows go to the nearest page in that direction; Enter opens the page's steps. */
     private key(event: KeyboardEvent): void {
         const at = event.target instanceof Element ? event.target.closest<SVGElement>('.node') : null;
         if (event.key === 'Enter') {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What people do with whole pages, with the questions that belong to it: copy, move, exchange, rename, clear.
+// Actions on whole pages with their dialogs: copy, move, swap, rename, clear.
 
 import { pageOf } from '../../model/document.ts';
 import { freePage } from '../../model/page-edits.ts';
@@ -10,7 +10,7 @@ import { TEXTS } from '../texts/texts.ts';
 
 export class PageActions {
     private readonly editor: Editor;
-    /** The page that Ctrl+C or Ctrl+X took; 0: none. */
+    /** The page taken by Ctrl+C or Ctrl+X; 0: none. */
     private taken = 0;
 
     constructor(editor: Editor) {
@@ -41,7 +41,7 @@ export class PageActions {
         if (this.taken !== 0) await this.transfer(this.taken, onto);
     }
 
-    /** By number, for those who do not drag. */
+    /** Asks for the target page's number, as an alternative to dragging. */
     async transferByNumber(page: number): Promise<void> {
         const { document } = this.editor.state.get();
         const free = freePage(this.editor.format, document, page);
@@ -53,7 +53,7 @@ export class PageActions {
         if (answer !== null) await this.transfer(page, Number(answer));
     }
 
-    /** Asks what is meant, and whether links follow. */
+    /** Asks whether to copy, move or swap, and whether links follow. */
     async transfer(from: number, to: number): Promise<void> {
         if (from === to) return;
         const { editor } = this;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One of the 128 pages: its most telling pose, number, name, duration and what calls it. The picture is drawn when it is first seen.
+// Card of one of the 128 pages: its most distinctive pose, number, name, duration and remote code. The picture is drawn when it first comes
+// into view.
 
 import { anglesOf } from '../../model/body.ts';
 import type { Body } from '../../model/body.ts';
@@ -13,7 +14,7 @@ import { TEXTS } from '../texts/texts.ts';
 
 const PICTURE = { width: 64, height: 74 };
 
-/** The step that is farthest from the first one: most motions begin and end standing, and look alike there. */
+/** The step farthest from the first one. Most motions begin and end standing and look alike there. */
 export function tellingStep(page: PageView): Step | undefined {
     const [first] = page.steps;
     const way = (step: Step): number =>
@@ -26,7 +27,7 @@ export function tellingStep(page: PageView): Step | undefined {
 
 export interface CardState {
     readonly isSelected: boolean;
-    /** The robot has another one. */
+    /** The robot's page differs. */
     readonly isDirty: boolean;
     readonly isPlaying: boolean;
 }
@@ -51,7 +52,7 @@ export class PageCard extends HTMLElement {
         this.append(this.frame, make('span', { class: 'line' }, this.title1, ' ', this.name1), ' ', this.facts);
     }
 
-    /** A name by which it is found, in small letters. */
+    /** Text for the search, in lower case. */
     get words(): string {
         return `${this.page} ${this.name1.textContent ?? ''}`.toLowerCase();
     }
@@ -65,7 +66,7 @@ export class PageCard extends HTMLElement {
         this.title = state.isDirty ? TEXTS.motion.ofRobotDiffers : '';
     }
 
-    /** It is in sight: its picture is drawn. */
+    /** Call when the card comes into view: draws its picture. */
     see(): void {
         this.isSeen = true;
         this.draw();
@@ -90,7 +91,7 @@ export class PageCard extends HTMLElement {
         this.draw();
     }
 
-    /** Begins with what stands on the card, in its order: who calls it by what they see is understood (WCAG 2.5.3). Then the whole word. */
+    /** The accessible name. It begins with the visible text in its order (WCAG 2.5.3), for voice control. Then come unabbreviated words. */
     private label(isEmpty: boolean, steps: number): string {
         const title = TEXTS.motion.card(this.page, this.name1.textContent ?? '');
         const whole = isEmpty ? TEXTS.motion.empty : TEXTS.motion.steps(steps);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which page is edited: its number and name, a new one, and playing it.
+// Header for the edited page: choose, rename, create and play it.
 
 import { PAGE_COUNT } from '../../model/motion.ts';
 import type { Session } from '../session/session.ts';
@@ -21,7 +21,7 @@ export class PageHead extends HTMLElement {
     });
     private readonly play = make('button', { onclick: event => this.playPressed(event) }, TEXTS.steps.play);
     private readonly library = make('div', { class: 'library', role: 'status' });
-    /** Pages of the library that somebody wants to edit themselves. */
+    /** Library pages that the user wants to edit directly, not as copies. */
     private readonly agreed = new Set<number>();
     private shown: readonly Uint8Array[] | null = null;
     private readonly disposals: (() => void)[] = [];
@@ -88,7 +88,7 @@ export class PageHead extends HTMLElement {
         this.shown = pages;
     }
 
-    /** The second click of a double click would ask a robot that has just begun, and be refused as busy. */
+    /** Ignores the second click of a double click: the robot would refuse it as busy. */
     private playPressed(event: Event): void {
         const isSecondClick = event instanceof UIEvent && event.detail > 1;
         if (!isSecondClick) void this.session.playEdited(this.session.editor.state.get().page);
@@ -113,7 +113,7 @@ export class PageHead extends HTMLElement {
         const { editor } = this.session;
         const { page, document } = editor.state.get();
         editor.dispatch(editor.edits.rename(document, page, this.name.value.trim()));
-        this.name.value = editor.page(page).name; // what there is now, refused or without the blanks around it
+        this.name.value = editor.page(page).name; // the current name: trimmed, or unchanged after a refusal
     }
 
     private newPage(): void {

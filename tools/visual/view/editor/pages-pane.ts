@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The area Pages: all 128 of the document, found by name, chosen, copied, moved, renamed and cleared by mouse and by keyboard.
+// The area Pages: all 128 pages of the document, to search, choose, copy, move, rename and clear by mouse and keyboard.
 
 import { pageOf } from '../../model/document.ts';
 import { dirtyPages } from '../../model/editor-state.ts';
@@ -34,7 +34,7 @@ export class PagesPane extends HTMLElement {
     );
     private readonly list = make('div', { class: 'cards', role: 'listbox', 'aria-label': TEXTS.motions.list });
     private readonly nothing = make('p', { class: 'nothing', hidden: true }, TEXTS.motions.nothingFound);
-    private actions!: PageActions; // made with the session
+    private actions!: PageActions; // needs the session
     private dragged = 0;
     private playing = -1;
     private readonly disposals: (() => void)[] = [];
@@ -85,7 +85,7 @@ export class PagesPane extends HTMLElement {
             Object.assign(card, { body: this.session.body, format: this.session.editor.format, page });
             this.cards.push(card);
         }
-        this.list.append(...this.cards.slice(1), ...this.cards.slice(0, 1)); // the trim stands last: no motion
+        this.list.append(...this.cards.slice(1), ...this.cards.slice(0, 1)); // page 0, the trim, comes last: it is no motion
     }
 
     private watchSight(): () => void {
@@ -129,7 +129,7 @@ export class PagesPane extends HTMLElement {
             event.target instanceof Element ? event.target.closest<PageCard>('page-card') : null;
         this.list.addEventListener('click', event => this.choose(cardOf(event)));
         this.list.addEventListener('focusin', event => {
-            // however a page got the focus, keys mean that page
+            // keys act on the page with the focus, however it got it
             const page = cardOf(event)?.page ?? this.current;
             if (page !== this.current) this.session.editor.select({ page });
         });
@@ -190,7 +190,7 @@ export class PagesPane extends HTMLElement {
         void action();
     }
 
-    /** Arrows go through what is shown, rows as they stand. */
+    /** Arrow keys move among the cards shown, in rows as laid out. */
     private move(key: string): (() => void) | undefined {
         const shown = this.cards
             .slice(1)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// In Checks: lets physics try motions, says how far it is and what came of it, in short.
+// Part of Checks: starts trials of motions in physics, shows progress and a summary of the results.
 
 import { pageOf } from '../../model/document.ts';
 import type { Session } from '../session/session.ts';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The motion in the picture only: shown, stopped, looked at moment by moment, over and over. The robot hears nothing of it.
+// Previews the motion in the picture only: play, pause, seek, loop. Nothing is sent to the robot.
 
 import { TICKS_PER_SECOND } from '../../model/motion.ts';
 import type { Session } from '../session/session.ts';
@@ -79,7 +79,7 @@ export class PlayBar extends HTMLElement {
         const { preview, editor } = this.session;
         const share = Number(this.moment.value) / Number(this.moment.max);
         const { page } = editor.state.get();
-        if (preview.state.get().ticks === 0) preview.seek(page, 0); // how long it is shows only now
+        if (preview.state.get().ticks === 0) preview.seek(page, 0); // this computes its length
         preview.seek(page, Math.round(share * (preview.state.get().ticks - 1)));
     }
 }

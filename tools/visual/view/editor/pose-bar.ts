@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Over the picture, while a step is edited: what a drag does, the chosen joints as numbers, and what is shown besides.
+// Controls over the picture while a step is edited: what a drag does, positions of the chosen joints, view options, balance and collisions.
 
 import { jointAngle, nearestPosition } from '../../model/body.ts';
 import type { Joint } from '../../model/body.ts';
@@ -22,13 +22,13 @@ const KEEPS = ['lower', 'right', 'left'] as const;
 export class PoseBar extends HTMLElement {
     session!: Session; // these are set before it is connected
     editing!: Store<Editing>;
-    /** Metres inside the ground of the soles; null: not looked at. */
+    /** Distance of the centre of mass inside the support polygon (metres); null: not computed. */
     margin: () => number | null = () => null;
-    /** Limbs of the shown figure that are in each other. */
+    /** Limbs of the figure that intersect. */
     touches: () => readonly Touch[] = () => [];
     private readonly modes = new Map<PictureMode, HTMLButtonElement>();
     private readonly joints = make('div', { class: 'joints', role: 'group', 'aria-label': TEXTS.picture.chosenJoints });
-    /** shown: the position that stands in the input, unless somebody types there. */
+    /** shown: position last written to the input. */
     private readonly fields = new Map<number, { readonly input: HTMLInputElement; readonly degrees: HTMLElement; shown: number }>();
     private readonly balance = make('p', { class: 'balance', role: 'status', 'aria-label': TEXTS.picture.balance });
     private readonly touch = make('p', { class: 'touch', role: 'status', 'aria-label': TEXTS.picture.limbsMeet });
@@ -109,12 +109,12 @@ export class PoseBar extends HTMLElement {
         const { editor } = this.session;
         const { page, step } = editor.state.get();
         const isEmpty = editor.page(page).steps.length === 0;
-        const pose = isEmpty && this.robot ? robotPositions(this.robot) : editor.poseAfter(page, step); // with what an edit begins
+        const pose = isEmpty && this.robot ? robotPositions(this.robot) : editor.poseAfter(page, step); // an edit starts from it
         for (const joint of joints) {
             const field = this.fields.get(joint.servo);
             const position = pose[joint.servo] ?? joint.zero;
             if (!field) continue;
-            if (field.shown !== position) field.input.value = String(position); // else it would take away what is being typed
+            if (field.shown !== position) field.input.value = String(position); // else it would overwrite what is being typed
             field.shown = position;
             field.degrees.textContent = `${Math.round((jointAngle(joint, position) * 180) / Math.PI)}°`;
         }
@@ -130,12 +130,12 @@ export class PoseBar extends HTMLElement {
 
     private set(joint: Joint, input: HTMLInputElement): void {
         const field = this.fields.get(joint.servo);
-        if (field) field.shown = NaN; // what comes of it is shown anew
+        if (field) field.shown = NaN; // makes showJoints() rewrite the input
         if (!Number.isFinite(input.valueAsNumber)) return this.render();
         const { editor } = this.session;
         const position = nearestPosition(joint, jointAngle(joint, input.valueAsNumber));
         editor.dispatch(changeStep(editor, editor.state.get().document, new Map([[joint.servo, position]]), this.robot));
-        this.render(); // a position that is the same changes nothing in the document
+        this.render(); // an unchanged position does not change the document, so no event follows
     }
 
     private showBalance(): void {

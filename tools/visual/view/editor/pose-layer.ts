@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the room shows beside the figure: the other one of robot and edited step as a ghost, the steps before and after as an
-// onion skin, the centre of mass over the soles' ground. Shows what it is told.
+// What the room shows besides the figure: a ghost of the robot or the edited step, onion skins of the previous and next step, and the
+// centre of mass with the support polygon. Display only.
 
 import { BufferGeometry, CircleGeometry, Group, Line, LineBasicMaterial, LineLoop, Mesh, MeshBasicMaterial, Vector3 } from 'three';
 import { centreOfMass, marginInside, supportPolygon } from '../../model/balance.ts';
@@ -19,7 +19,7 @@ export interface Posed {
 export interface Balance {
     readonly polygon: readonly Point[];
     readonly centre: Vector;
-    /** Metres inside the soles' ground; negative: outside. */
+    /** Distance of the centre of mass inside the support polygon (metres); negative: outside. */
     readonly margin: number;
 }
 
@@ -39,7 +39,7 @@ export type GhostName = keyof typeof LOOKS;
 const FLOOR_M = 0.0015;
 const COLOURS = { good: 0x1a9a55, near: 0xe09c00, bad: 0xe5484d };
 const NEAR_M = 0.008;
-/** Parts that stand nearer than this are one to the eye; cosine of half the turn. */
+/** Below these differences two parts look identical: metres, and the cosine of half the angle. */
 const SAME = { m: 0.004, cosine: 0.9996 };
 
 export class PoseLayer {
@@ -58,12 +58,12 @@ export class PoseLayer {
         this.showBalance(null);
     }
 
-    /** A second figure is seen. */
+    /** The ghost named `ghost` is visible. */
     get hasGhost(): boolean {
         return this.ghosts.get('ghost')?.root.visible === true;
     }
 
-    /** Figures are made when they are first wanted. What stands as in `figure` is left out. */
+    /** Shows or, with null, hides a ghost. Its parts that coincide with `figure` are hidden. Ghosts are made on first use. */
     show(name: GhostName, posed: Posed | null, figure: Posed | null = null): void {
         let ghost = this.ghosts.get(name);
         if (!ghost) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Small pictures of a pose, drawn flat on a 2D canvas from the body's own shapes, so that a row of steps or 128
-// pages can have one, also where there is no WebGL. The robot is seen from its front and a little from its right, as in the room.
+// Small pictures of a pose, drawn on a 2D canvas from the body's shapes: cheap enough for a row of steps or 128 pages, and without WebGL.
+// The robot is seen from its front and slightly from its right, as in the room.
 
 import { lowerFoot, trunkOn, ORIGIN } from '../../model/balance.ts';
 import { angleIn, placeLinks } from '../../model/body.ts';
@@ -8,7 +8,7 @@ import type { Angles, Body, Shape } from '../../model/body.ts';
 import { add, cross, length, rotate, scale, within } from '../../model/space.ts';
 import type { Place, Vector } from '../../model/space.ts';
 
-/** Metres from the floor to the picture's upper edge, and below it to the lower one. */
+/** Visible metres above and below the floor. */
 const SEEN = { above: 0.47, below: 0.035 };
 const TO_CAMERA: Vector = unit([0.82, -0.5, 0.28]);
 const RIGHT: Vector = unit(cross([0, 0, 1], TO_CAMERA));
@@ -44,7 +44,7 @@ function shaded(rgb: readonly number[], normal: Vector): string {
     return `rgb(${r} ${g} ${b})`;
 }
 
-/** The three faces of a box that one sees. */
+/** Draws the visible faces of a box. */
 function box(painter: Painter, place: Place, half: Vector, rgb: readonly number[]): void {
     const { context, at } = painter;
     const axes = (
@@ -71,7 +71,7 @@ function box(painter: Painter, place: Place, half: Vector, rgb: readonly number[
         context.closePath();
         context.fillStyle = context.strokeStyle = shaded(rgb, normal);
         context.fill();
-        context.stroke(); // closes the hair's breadth between two faces
+        context.stroke(); // closes hairline gaps between faces
     }
 }
 
@@ -104,8 +104,8 @@ function paint(painter: Painter, shape: Shape, place: Place, rgb: readonly numbe
     }
 }
 
-/** Draws the robot in this pose, standing on its lower foot, into a canvas of width x height (CSS pixels; the context is
- *  scaled by its caller). What was there stays; clear it first. */
+/** Draws the robot in this pose, standing on its lower foot, on a canvas of width x height (CSS pixels; the caller scales the context).
+ *  Does not clear the canvas. */
 export function drawPose(context: CanvasRenderingContext2D, body: Body, angles: Angles, width: number, height: number): void {
     const pixelsPerMetre = height / (SEEN.above + SEEN.below);
     const places = placeLinks(body, trunkOn(body, lowerFoot(body, angles), angles, ORIGIN), angleIn(angles));
@@ -132,7 +132,7 @@ function shadow(context: CanvasRenderingContext2D, [x, y]: readonly [number, num
     context.fill();
 }
 
-/** A canvas of its own with the picture, sharp on every screen. */
+/** Sizes the canvas for the screen's pixel ratio (at most 2) and draws the picture. */
 export function showPose(canvas: HTMLCanvasElement, body: Body, angles: Angles, width: number, height: number): void {
     const sharpness = Math.min(window.devicePixelRatio, 2);
     canvas.width = Math.round(width * sharpness);

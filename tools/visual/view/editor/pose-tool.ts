@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The picture as an editor of the chosen step: shows it, and turns drags and keys into edits. One drag or one key held is one
-// undo step; Escape takes it back.
+// The picture as an editor of the chosen step: shows it, and turns drags and keys into edits. One drag or one held key is one undo step;
+// Escape reverts it.
 
 import { anglesOf } from '../../model/body.ts';
 import type { Angles, Body } from '../../model/body.ts';
@@ -22,7 +22,7 @@ import { PoseLayer, balanceOf } from './pose-layer.ts';
 import type { Balance, Posed } from './pose-layer.ts';
 import { TouchWatch } from './touch-watch.ts';
 
-/** Poses that differ less than this need no ghost (radians). */
+/** Poses whose joints differ by less than this need no ghost (radians). */
 const SAME_RAD = 0.02;
 const KEY_UNITS = { fine: 1, coarse: 10 };
 
@@ -41,9 +41,9 @@ export class PoseTool {
     private readonly edited: EditedPose;
     private readonly arrows: JointTurn;
     private drag: Drag | null = null;
-    /** Where the figure is: the camera goes with it. */
+    /** Trunk of the figure, which the camera follows. */
     figureTrunk: Place | null = null;
-    /** Of what is shown as the edited step; null: nothing is. */
+    /** Balance of the edited step; null: it is not shown, or balance is switched off. */
     private balance: Balance | null = null;
     private readonly touchWatch: TouchWatch;
 
@@ -70,22 +70,22 @@ export class PoseTool {
         return this.drag !== null;
     }
 
-    /** Metres inside the ground of the soles; null: not looked at. */
+    /** Distance of the centre of mass inside the support polygon (metres); null: not computed. */
     get margin(): number | null {
         return this.balance?.margin ?? null;
     }
 
-    /** Limbs of the shown figure that are in each other. */
+    /** Limbs of the figure that intersect. */
     get touches(): readonly Touch[] {
         return this.touchWatch.touches;
     }
 
-    /** Servo units by ID of what is edited. */
+    /** The edited pose (servo units by ID). */
     get shownPose(): readonly number[] {
         return this.edited.positions;
     }
 
-    /** Puts figure and ghosts where they belong; true when the figure is the edited step. isInHand: somebody drags the robot, and no ghost covers it. */
+    /** Updates figure and ghosts. isInHand: the user drags the figure, so no ghost may cover it. true: drags edit the shown step. */
     show(robot: RobotState, isInHand: boolean): boolean {
         this.edited.robot = robot;
         const real: Posed = { trunk: robot.trunk, angles: robotAngles(this.body, robot) };
@@ -113,14 +113,14 @@ export class PoseTool {
         return isPosing;
     }
 
-    /** The figure is the edited step from now on: what is pulled is a step, not a motion or the robot. */
+    /** Before a drag: makes the figure the edited step, so that the drag changes a step and not a previewed motion or the robot. */
     showStep(robot: RobotState): void {
         if (!this.isPosing || this.session.preview.state.get().figure === 'step') return;
         this.session.preview.showStep();
         this.show(robot, false);
     }
 
-    /** Takes hold of what is under the mouse: picks its joints. add: beside those that are chosen. */
+    /** Starts a drag of the picked part and chooses its joints. add: keeps the joints already chosen. */
     down(picked: Picked, add: boolean): void {
         const { angles } = this.edited;
         const held = grab(this.body, picked.shape, picked.link, picked.point, angles, this.edited.stance(angles));
@@ -143,7 +143,7 @@ export class PoseTool {
         drag.gesture.change(changeStep(this.session.editor, drag.gesture.start, positions, this.edited.robot));
     }
 
-    /** The end of a drag. keep: false takes it back. */
+    /** Ends a drag. keep: false reverts it. */
     up(keep: boolean): void {
         const gesture = this.drag?.gesture;
         this.drag = null;
@@ -151,7 +151,7 @@ export class PoseTool {
         else gesture?.cancel();
     }
 
-    /** true: the key was meant for this. Left and right choose a joint, up and down turn what is chosen. */
+    /** Left and right choose a joint, up and down turn the chosen ones. true: the key was handled. */
     key(event: KeyboardEvent): boolean {
         if (event.key === 'Escape') return this.escape();
         const turn = { ArrowUp: 1, ArrowDown: -1 }[event.key];
@@ -162,7 +162,7 @@ export class PoseTool {
         return true;
     }
 
-    /** The arrow was let go: what it turned is one edit. */
+    /** Ends the edit of a held arrow key. */
     keyUp(): void {
         this.arrows.end(true);
     }
@@ -194,7 +194,7 @@ export class PoseTool {
         if (id !== undefined) this.session.editor.select({ joints: new Set([id]) });
     }
 
-    /** The edited step; while the mouse drags, on the foot on which it stood before. */
+    /** The edited step. During a drag it stands on the same foot as before. */
     private shown(): Posed {
         const { angles } = this.edited;
         return this.edited.posed(angles, this.drag?.held.stance ?? this.edited.stance(angles));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A motion that came in the address of the page: it is taken into the document and runs. The card says what it is, and what next.
+// A motion from the page's address is added to the document and played. The card names it and offers what to do next.
 
 import type { Session } from '../session/session.ts';
 import { define, handOver, make, pictureCanvas } from '../element.ts';
@@ -9,9 +9,9 @@ import './sent-card.css';
 
 export class SentCard extends HTMLElement {
     session!: Session; // these are set before it is connected
-    /** A motion has come. */
+    /** Called when a motion was received. */
     onSent: () => void = () => undefined;
-    /** Somebody wants to teach one. */
+    /** Called when the user wants to teach a motion. */
     onTeach: () => void = () => undefined;
     private unwatch: () => void = () => undefined;
 
@@ -29,7 +29,7 @@ export class SentCard extends HTMLElement {
     private take({ name }: SentMotion): void {
         this.onSent();
         const page = this.session.files.addSent();
-        if (page === 0) return this.session.files.dismiss(); // there is no room, and that has been said
+        if (page === 0) return this.session.files.dismiss(); // no space; addSent() has reported it
         window.history.replaceState(null, '', window.location.pathname + window.location.search);
         this.show(name, page);
         void this.session.run(page);

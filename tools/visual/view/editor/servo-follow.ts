@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the servos follow a curve, as physics has it: asked for in the background once the hand rests, and only while somebody
-// wants to see it.
+// How the servos follow a curve in physics. Computed in the background, while switched on and after edits have paused.
 
 import { JOINTS } from '../../model/motion.ts';
 import type { Curve, Shape } from '../../model/motion.ts';
@@ -10,15 +9,15 @@ const REST_MS = 250;
 
 export class ServoFollow {
     private readonly session: Session;
-    /** Something else is to be drawn. */
+    /** Called when the drawing must be updated. */
     private readonly changed: () => void;
     private isOn = false;
     private asked: readonly unknown[] = [];
     private stop = new AbortController();
     private timer: ReturnType<typeof setTimeout> | undefined;
-    /** JOINTS servo units a tick; null: not known now. */
+    /** JOINTS servo units per tick; null: unknown now. */
     positions: Float32Array | null = null;
-    /** Physics was asked and cannot tell. */
+    /** Physics could not compute the positions. */
     isUnknown = false;
 
     constructor(session: Session, changed: () => void) {
@@ -32,7 +31,7 @@ export class ServoFollow {
         this.changed();
     }
 
-    /** What is drawn now: asks again when it is another motion. */
+    /** Call with what is drawn now: requests new positions if the motion has changed. */
     look(ticks: number, shape: Shape): void {
         const { document, page, law, gesture } = this.session.editor.state.get();
         const wanted = [document, page, law, shape, ticks];
@@ -43,7 +42,7 @@ export class ServoFollow {
         this.timer = setTimeout(() => void this.ask(page, ticks, shape), REST_MS);
     }
 
-    /** The most that a joint is behind what it is sent (servo units); null: not known. */
+    /** Largest difference between goal and position of a joint (servo units); null: unknown. */
     lag({ ticks, goals }: Curve, joint: number): number | null {
         const { positions } = this;
         if (!positions) return null;

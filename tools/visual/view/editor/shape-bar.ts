@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Speed, size and turn of what plays: told to the robot while Play runs, and drawn in the curves.
+// Speed, amplitude and turn of the current play. They are sent to the robot while Play runs, and drawn in the curves.
 
 import { AS_STORED, SHAPE_RANGES } from '../../model/motion.ts';
 import type { Shape } from '../../model/motion.ts';
@@ -50,7 +50,7 @@ export class ShapeBar extends HTMLElement {
         return make('label', { class: 'slider' }, make('span', {}, TEXTS.remote.shapes[name]), input, output);
     }
 
-    /** tell: also to the robot, if Play runs there. */
+    /** tell: also sends the shape to the robot if Play runs there. */
     private set(change: Partial<Shape>, tell: boolean): void {
         this.shape.set(change);
         if (tell && this.session.state.get().version?.image === 'play') void this.session.shape(this.shape.get());

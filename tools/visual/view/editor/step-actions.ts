@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What can be done with the chosen steps: buttons, their keys, and the clipboard.
+// Actions on the chosen steps: buttons, their keys, and the clipboard.
 
 import { stepsFromText, stepsToText } from '../../model/step-text.ts';
 import { easyStep, robotPositions } from './editing.ts';
@@ -9,9 +9,9 @@ import { define, make } from '../element.ts';
 import { TEXTS } from '../texts/texts.ts';
 
 interface Action {
-    /** Of its texts. */
+    /** Key of its texts. */
     readonly name: 'insert' | 'duplicate' | 'between' | 'mirrorLeft' | 'mirrorRight' | 'exchange' | 'copy' | 'paste' | 'remove';
-    /** Works with the row of steps under the keyboard. */
+    /** Works while the row of steps has the focus. */
     readonly key?: string;
     readonly run: () => void;
     readonly needs: 'nothing' | 'step' | 'two';
@@ -56,7 +56,7 @@ export class StepActions extends HTMLElement {
         for (const dispose of this.disposals.splice(0)) dispose();
     }
 
-    /** A key over the row of steps; true: it was one of these. */
+    /** Handles a key of the row of steps. true: it was an action's key. */
     key(event: KeyboardEvent): boolean {
         if (event.ctrlKey || event.metaKey || event.altKey) return false;
         const action = this.actions.find(({ key }) => key === event.key);
@@ -66,7 +66,7 @@ export class StepActions extends HTMLElement {
         return true;
     }
 
-    /** The clipboard's own events: they need no permission. */
+    /** Clipboard events, unlike navigator.clipboard, need no permission. */
     onCopy(event: ClipboardEvent): void {
         event.clipboardData?.setData('text/plain', this.text());
         event.preventDefault();
@@ -82,7 +82,7 @@ export class StepActions extends HTMLElement {
         event.preventDefault();
     }
 
-    /** A step that is the robot as it stands, behind the chosen one. */
+    /** Inserts the robot's pose as a step after the chosen one. */
     addFromRobot(): void {
         if (!this.robot) return;
         const { editor } = this.session;
@@ -163,7 +163,7 @@ export class StepActions extends HTMLElement {
             await navigator.clipboard.writeText(this.text());
             this.session.say({ text: TEXTS.steps.copied, tone: 'good' });
         } catch {
-            this.session.say({ text: TEXTS.steps.noClipboard, tone: 'bad' }); // the browser forbids it here
+            this.session.say({ text: TEXTS.steps.noClipboard, tone: 'bad' }); // the browser denies access
         }
     }
 
@@ -185,7 +185,7 @@ export class StepActions extends HTMLElement {
     }
 }
 
-/** As it is printed on keyboards. */
+/** The key's name as printed on keyboards. */
 function keyName(key: string): string {
     const { insertKey, deleteKey, shiftKey } = TEXTS.steps;
     const letter = key.toUpperCase();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The steps of the page as pictures in a row. A click chooses, Shift and Ctrl choose several, a drag moves them; by keyboard
-// the arrows choose, with Shift several, with Alt they move. Below each picture its time and pause.
+// The steps of the page as a row of pictures with time and pause. A click chooses a step, Shift and Ctrl choose several, a drag moves them.
+// Arrow keys choose, with Shift several; with Alt they move the steps.
 
 import { anglesOf } from '../../model/body.ts';
 import type { Step } from '../../model/page.ts';
@@ -13,7 +13,7 @@ import type { TimedField } from './step-times.ts';
 
 const PICTURE = { width: 64, height: 84 };
 const DRAG_PX = 6;
-/** Seconds that a field goes by at once. */
+/** Increment of the fields in seconds. */
 const FIELD_STEP = 0.05;
 
 interface Card {
@@ -32,7 +32,7 @@ export class StepRow extends HTMLElement {
     private readonly empty = make('p', { class: 'empty', tabindex: -1 }, TEXTS.steps.empty);
     private playing = -1;
     private isBehind = false;
-    /** The field in which somebody types. */
+    /** The field in which the user is typing. */
     private typing: HTMLInputElement | null = null;
     private drag: { readonly from: number; readonly startX: number; to: number | null } | null = null;
     private readonly disposals: (() => void)[] = [];
@@ -59,7 +59,7 @@ export class StepRow extends HTMLElement {
         for (const dispose of this.disposals.splice(0)) dispose();
     }
 
-    /** Ctrl+A chooses all steps, wherever in Steps one is, but where one types. */
+    /** Ctrl+A chooses all steps anywhere in Steps, except while typing. */
     listenForAll(): void {
         const all = (event: KeyboardEvent): void => {
             if (
@@ -77,7 +77,7 @@ export class StepRow extends HTMLElement {
         this.disposals.push(() => document.removeEventListener('keydown', all));
     }
 
-    /** The step that the robot plays, or that the picture shows. */
+    /** Marks the step that the picture previews or the robot plays. */
     private markPlaying(): void {
         const { where } = this.session.state.get();
         const { figure, at } = this.session.preview.state.get();
@@ -89,7 +89,7 @@ export class StepRow extends HTMLElement {
         for (const [index, card] of this.cards.entries()) card.root.classList.toggle('playing', index === playing);
     }
 
-    /** The cursor's card gets the keyboard; without a step, what is said instead of them. */
+    /** Focuses the cursor's card; without steps, the hint in its place. */
     focusCursor(): void {
         const { page, step } = this.session.editor.state.get();
         const isEmpty = this.session.editor.page(page).steps.length === 0;
@@ -97,12 +97,12 @@ export class StepRow extends HTMLElement {
     }
 
     private render(): void {
-        this.isBehind = this.session.state.get().tab !== 'steps'; // nobody looks: drawn when somebody does
+        this.isBehind = this.session.state.get().tab !== 'steps'; // hidden: rendered when shown again
         if (this.isBehind) return;
         const { editor } = this.session;
         const state = editor.state.get();
         const { steps, schedule } = editor.page(state.page);
-        const count = Math.max(1, steps.length); // one that is not seen keeps the room of the first step: nothing jumps when that comes
+        const count = Math.max(1, steps.length); // without steps an invisible card reserves the space, so that nothing jumps later
         while (this.cards.length > count) this.cards.pop()?.root.remove();
         while (this.cards.length < count) this.addCard(this.cards.length);
         const isEmpty = steps.length === 0;
@@ -172,7 +172,7 @@ export class StepRow extends HTMLElement {
         input.addEventListener('input', () => (this.typing = input));
         const typed = (): void => {
             this.typing = null;
-            this.render(); // what the step has now, which is not always what was typed
+            this.render(); // the stored value may differ from what was typed
         };
         input.addEventListener('change', () => {
             this.setField(index, field, input.valueAsNumber);
@@ -182,7 +182,7 @@ export class StepRow extends HTMLElement {
         return input;
     }
 
-    /** What is typed is seconds (or speed); all chosen steps get it when this is one of them. */
+    /** typed: seconds or speed. If this step is among the chosen ones, all of them get the value. */
     private setField(index: number, field: TimedField, typed: number): void {
         const { editor } = this.session;
         const { page, steps, document } = editor.state.get();
@@ -196,7 +196,7 @@ export class StepRow extends HTMLElement {
         );
     }
 
-    /** false: no step can last so long, and that has been said. What is out by one step of the field is rounded: 2 where 1.99 is the longest. */
+    /** false: no step can last that long, and a message says so. One increment above the maximum is accepted and rounded: 2 for 1.99. */
     private isPossible(index: number, field: TimedField, seconds: number): boolean {
         const { editor } = this.session;
         const [least, most] = possibleSeconds(editor, editor.state.get().page, index, field).map(limit => limit.toFixed(2));
@@ -231,7 +231,7 @@ export class StepRow extends HTMLElement {
         this.focusCursor();
     }
 
-    /** By keyboard: one place on. */
+    /** Moves the chosen steps by one place, for the keyboard. */
     private moveChosen(by: 1 | -1): void {
         const { steps } = this.session.editor.state.get();
         const sorted = [...steps].sort((a, b) => a - b);
@@ -239,7 +239,7 @@ export class StepRow extends HTMLElement {
         if (to >= 0 && to <= this.cards.length) this.moveTo(to);
     }
 
-    /** The chosen steps go before the step that is at `to` now; the cursor goes with them. */
+    /** Moves the chosen steps before the one that is at `to` now; the cursor moves with them. */
     private moveTo(to: number): void {
         const { editor } = this.session;
         const { page, step, steps, document } = editor.state.get();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Seconds of steps, as the firmware plays them, and back to what the page holds.
+// Converts between the seconds that the firmware plays a step and the bytes in the page.
 
 import type { PageView } from '../../model/page.ts';
 import { BYTE_MAX, stepSeconds, writePage } from '../../model/page.ts';
@@ -14,7 +14,7 @@ export interface StepTime {
     readonly pause: number;
 }
 
-/** Of all steps of a page of the document. */
+/** Times of all steps of a page of the document. */
 export function stepTimes(editor: Editor, page: number): StepTime[] {
     const { document, law } = editor.state.get();
     const bytes = pageOf(document, page);
@@ -26,7 +26,7 @@ function withField(view: PageView, step: number, field: TimedField, value: numbe
     return { steps: view.steps.map((one, index) => (index === step ? { ...one, [field]: value } : one)) };
 }
 
-/** Seconds of a step with this byte; Infinity: there is no such one. */
+/** Returns a function from byte to seconds of the step; Infinity: the byte is invalid. */
 function secondsWith(editor: Editor, page: number, step: number, field: TimedField): (value: number) => number {
     const { document, law } = editor.state.get();
     const bytes = pageOf(document, page);
@@ -40,13 +40,13 @@ function secondsWith(editor: Editor, page: number, step: number, field: TimedFie
     };
 }
 
-/** The shortest and the longest that a step can last, in seconds. */
+/** Shortest and longest time that the field allows, in seconds. */
 export function possibleSeconds(editor: Editor, page: number, step: number, field: TimedField): readonly [number, number] {
     const lasts = secondsWith(editor, page, step, field);
     return [lasts(0), lasts(BYTE_MAX)];
 }
 
-/** The byte 0..255 with which the firmware comes nearest to so many seconds. Both fields grow with their byte: halving finds it. */
+/** The byte 0..255 whose time is nearest to `seconds`. Binary search: times must grow with the byte. */
 export function nearestSetting(editor: Editor, page: number, step: number, field: TimedField, seconds: number): number {
     const lasts = secondsWith(editor, page, step, field);
     let [low, high] = [0, BYTE_MAX];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Steps: the page as pictures, its times, and what can be done with them.
+// The area Steps: the page's steps as pictures, their times, and actions on them.
 
 import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';

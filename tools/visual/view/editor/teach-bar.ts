@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Teaching by hand: let limbs of the robot go, move them (in the picture the simulated one's, by your own hand yours), hold
-// them, take the pose as a step.
+// Teaching by hand: release limbs, move them (the simulated robot's in the picture, a real robot's by hand), hold them, add the pose as a
+// step.
 
 import { handLimb, footLimb } from '../../model/ik.ts';
 import type { Body } from '../../model/body.ts';
@@ -30,16 +30,16 @@ export function limbGroups(body: Body): LimbGroup[] {
 export class TeachBar extends HTMLElement {
     session!: Session; // these are set before it is connected
     editing!: Store<Editing>;
-    /** Takes the robot's pose as a step. */
+    /** Adds the robot's pose as a step. */
     add: () => void = () => undefined;
     private readonly limbs = new Map<LimbGroup, HTMLButtonElement>();
     private readonly adds = make('button', { onclick: () => this.add() }, TEXTS.teach.add);
     private readonly hold = make('button', { onclick: () => void this.holdAll() }, TEXTS.teach.hold);
     private readonly hint = make('p', { class: 'hint', role: 'status', 'aria-label': TEXTS.teach.state });
     private limp: readonly number[] = [];
-    /** The hand that holds the body was asked for here. */
+    /** This bar made the simulated hand hold the body. */
     private isCarrying = false;
-    /** Legs were let go in it. */
+    /** Legs were released meanwhile. */
     private mustCarry = false;
     private readonly disposals: (() => void)[] = [];
 
@@ -67,7 +67,7 @@ export class TeachBar extends HTMLElement {
         for (const dispose of this.disposals.splice(0)) dispose();
     }
 
-    /** A limb of the simulated robot is taught also while it holds: its button stays as it is. */
+    /** Takes the servos without torque. On the simulated robot a taught limb may have torque, so its button stays pressed. */
     private takeLimp(limp: readonly number[]): void {
         const { taught } = this.editing.get();
         const isSimulated = this.session.state.get().source === 'simulated';
@@ -80,7 +80,7 @@ export class TeachBar extends HTMLElement {
     private render(): void {
         const { taught } = this.editing.get();
         const { editor } = this.session;
-        this.adds.classList.toggle('primary', editor.page(editor.state.get().page).steps.length === 0); // then there is nothing to play
+        this.adds.classList.toggle('primary', editor.page(editor.state.get().page).steps.length === 0); // then Play is not primary
         for (const [group, button] of this.limbs)
             button.setAttribute('aria-pressed', String(group.servos.every(servo => taught.has(servo))));
         this.hold.disabled = taught.size === 0 && this.limp.length === 0;
@@ -88,8 +88,8 @@ export class TeachBar extends HTMLElement {
         this.hint.textContent = this.hold.disabled ? TEXTS.teach.stiff : isSimulated ? TEXTS.teach.limpSimulated : TEXTS.teach.limpYours;
     }
 
-    /** Lets a limb go, or holds it where it is. In the simulation a hand holds the body meanwhile: whoever pulls at an arm would
-     *  pull the robot over, and limp legs do not carry it. */
+    /** Releases a limb, or holds it where it is. In the simulation a hand holds the body meanwhile: a pull at an arm would topple the
+     *  robot, and limp legs do not carry it. */
     private async toggle(group: LimbGroup): Promise<void> {
         const { taught } = this.editing.get();
         const isTaught = group.servos.every(servo => taught.has(servo));
@@ -112,7 +112,8 @@ export class TeachBar extends HTMLElement {
         this.letStand(new Set());
     }
 
-    /** On legs that somebody has bent it may not stand: then the hand stays, until Play or "Let go". */
+    /** Lets go of the body when nothing is taught any more. After teaching legs the robot may not stand, so the hand stays until Play or
+     *  "Let go". */
     private letStand(taught: ReadonlySet<number>): void {
         if (taught.size > 0 || !this.isCarrying) return;
         this.isCarrying = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Time and pause of the steps, drawn to scale; their ends are dragged. By keyboard the fields below the pictures do the same.
+// Time and pause of the steps, drawn to scale, with ends to drag. The fields below the pictures do the same by keyboard.
 
 import { TICKS_PER_SECOND } from '../../model/motion.ts';
 import { BYTE_MAX } from '../../model/page.ts';
@@ -10,9 +10,9 @@ import { nearestSetting, stepTimes } from './step-times.ts';
 import type { TimedField } from './step-times.ts';
 import { TEXTS } from '../texts/texts.ts';
 
-/** How far beside an end it may be taken hold of. */
+/** Distance at which a pointer grabs an end. */
 const NEAR_PX = { mouse: 7, finger: 24 };
-/** Seconds behind the end, so that the last step can be dragged longer. */
+/** Spare seconds at the end, so that the last step can be dragged longer. */
 const ROOM_S = 0.4;
 
 interface Drag {
@@ -71,14 +71,14 @@ export class TimeLine extends HTMLElement {
     }
 
     private render(): void {
-        this.isBehind = this.session.state.get().tab !== 'steps'; // nobody looks: drawn when somebody does
+        this.isBehind = this.session.state.get().tab !== 'steps'; // hidden: rendered when shown again
         if (this.isBehind) return;
         const { editor } = this.session;
         const { page, steps: chosen } = editor.state.get();
         const times = stepTimes(editor, page);
         const isTimed = editor.page(page).schedule === 'time';
         const all = times.reduce((sum, { move, pause }) => sum + move + pause, 0);
-        if (!this.drag) this.scale = all + ROOM_S; // the scale stands still under a drag
+        if (!this.drag) this.scale = all + ROOM_S; // the scale stays fixed during a drag
         const share = (seconds: number): string => `${(100 * seconds) / this.scale}%`;
         this.bar.replaceChildren(
             ...times.flatMap(({ move, pause }, index) => {
@@ -100,7 +100,7 @@ export class TimeLine extends HTMLElement {
         this.bar.setAttribute('aria-label', TEXTS.steps.takes(all.toFixed(2)));
     }
 
-    /** How often the steps are played one after another, before the motion ends or goes on. */
+    /** Sets how often the steps are repeated before the motion ends or continues. */
     private setTimes(): void {
         const { editor } = this.session;
         const { page, document: motions } = editor.state.get();
@@ -111,7 +111,7 @@ export class TimeLine extends HTMLElement {
         this.times.value = String(editor.page(page).repetitions);
     }
 
-    /** Beside all ends: the picture shows the moment under the pointer. */
+    /** For a pointer away from all ends: the picture shows the moment under it. */
     private scrub(event: PointerEvent): void {
         event.preventDefault();
         this.bar.setPointerCapture(event.pointerId);
@@ -135,7 +135,7 @@ export class TimeLine extends HTMLElement {
         preview.seek(page, preview.tickOf(page, index) + Math.round((isPause ? move + share * pause : share * move) * TICKS_PER_SECOND));
     }
 
-    /** The moment that the picture shows, while it is one of this page. */
+    /** Marks the moment that the picture shows, if it belongs to this page. */
     private renderHead(): void {
         const { editor, preview } = this.session;
         const { page } = editor.state.get();
@@ -178,12 +178,12 @@ export class TimeLine extends HTMLElement {
         };
     }
 
-    /** The nearest end; a step without pause is drawn a little wide, so that both of its ends can be taken hold of. */
+    /** The nearest end within reach. CSS draws an empty pause slightly wide, so that both ends of a step can be grabbed. */
     private endAt({ clientX, pointerType }: PointerEvent): { readonly index: number; readonly field: TimedField } | null {
         const { editor } = this.session;
         const isTimed = editor.page(editor.state.get().page).schedule === 'time';
         const ends = [...this.bar.children].map((part, i) => {
-            const field: TimedField = i % 2 === 0 ? 'time' : 'pause'; // as render() draws them
+            const field: TimedField = i % 2 === 0 ? 'time' : 'pause'; // in the order of render()
             return { index: Math.floor(i / 2), field, off: Math.abs(clientX - part.getBoundingClientRect().right) };
         });
         const [nearest] = ends.filter(({ field }) => isTimed || field === 'pause').sort((a, b) => a.off - b.off);

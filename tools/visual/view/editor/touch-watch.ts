@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which limbs of the shown figure are in each other. Physics is asked in the background: one question at a time, always of the
-// newest pose, so that a drag never waits.
+// Which limbs of the figure intersect. Physics is asked in the background, one request at a time and always for the newest pose, so that a
+// drag never waits.
 
 import type { Touch } from '../../model/trial.ts';
 import type { Trials } from '../session/trials.ts';
@@ -12,14 +12,14 @@ export class TouchWatch {
     private asked: readonly number[] | null = null;
     private wanted: readonly number[] | null = null;
     private isAsking = false;
-    /** Of the last pose that was answered. */
+    /** Result for the last pose that was answered. */
     touches = NONE;
 
     constructor(trials: Pick<Trials, 'touching'>) {
         this.trials = trials;
     }
 
-    /** The figure stands like this now (servo units by ID); null: nothing is to be told of it. */
+    /** Takes the current pose (servo units by ID); null: clears the result. */
     look(pose: readonly number[] | null): void {
         this.wanted = pose;
         if (pose === null) {

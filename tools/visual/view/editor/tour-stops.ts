@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The stops of the tour: what each says, what ends it, and what its ring is around.
+// The stops of the tour: text, goal, and target of the ring.
 
 import { TEXTS } from '../texts/texts.ts';
 
 export interface TourStop {
     readonly text: string;
-    /** What ends the stop; `read`: the button alone. */
+    /** Ends the stop when reached; `read`: only the button ends it. */
     readonly goal: 'read' | 'steps-tab' | 'new-page' | 'let-go' | 'drag' | 'add' | 'name' | 'times' | 'play' | 'send';
-    /** Steps that the page has then. */
+    /** Number of steps that the page must have. */
     readonly steps?: number;
-    /** "#Name" of a tab, button or field, or a shape of the robot. */
+    /** `#` and the name of a tab, button or field, or a shape of the robot. */
     readonly target?: string;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The tour: two minutes to the first wave. A card says what to do next and a ring shows where; it goes on by itself when it is
-// done, and by its button whenever somebody wants. It does nothing by itself.
+// The tour: two minutes to the first wave. A card says what to do next and a ring shows where. It advances when the goal is reached, or by
+// its button. It never acts for the user.
 
 import type { RobotState } from '../../robot/robot-state.ts';
 import type { Session } from '../session/session.ts';
@@ -12,18 +12,18 @@ import { tourStops } from './tour-stops.ts';
 import type { TourStop } from './tour-stops.ts';
 import './tour.css';
 
-/** Servo units that the arm is off where it was: it has been dragged. */
+/** Change in servo units from which the arm counts as dragged. */
 const MOVED_UNITS = 25;
 const RING_PX = 46;
 
 export class TourCard extends HTMLElement {
     session!: Session; // these are set before it is connected
     editing!: Store<Editing>;
-    /** Where a shape of the robot is on the screen. */
+    /** Screen position of a shape of the robot. */
     placeOf: (shape: string) => { readonly x: number; readonly y: number } | null = () => null;
-    /** A stop wants something in the area. */
+    /** Called when a stop's target is in an area, not in the picture. */
     onArea: () => void = () => undefined;
-    /** The motion that was made is to be sent. */
+    /** Called when the user wants to send the motion. */
     onSend: () => void = () => undefined;
     private readonly stops = tourStops();
     private at = -1;
@@ -77,7 +77,7 @@ export class TourCard extends HTMLElement {
         this.next.focus();
     }
 
-    /** For who has said already what they want: in Steps, with a motion of their own. */
+    /** Starts at the stop for a new motion, in Steps, for users who want to teach. */
     teach(): void {
         this.hidden = false;
         this.session.show('steps');
@@ -102,7 +102,7 @@ export class TourCard extends HTMLElement {
         this.showRing();
     }
 
-    /** Where the picture is the matter, the card leaves it the room; what is wanted in the area comes into sight. */
+    /** Moves the card out of the way of a target in the picture; scrolls a target in an area into view. */
     private lead(target: string): void {
         this.classList.toggle('low', target !== '' && !target.startsWith('#'));
         if (!target.startsWith('#')) return;
@@ -173,7 +173,7 @@ export class TourCard extends HTMLElement {
         for (const [name, value] of Object.entries(box)) style.setProperty(name, `${Math.round(value)}px`);
     }
 
-    /** A tab, a button or a field, by what stands on it. */
+    /** Box around a tab, button or field with this accessible name. */
     private boxOf(name: string): { left: number; top: number; width: number; height: number } | null {
         const box = this.find(name)?.getBoundingClientRect();
         return box && box.width > 0 ? { left: box.left - 4, top: box.top - 4, width: box.width + 8, height: box.height + 8 } : null;
@@ -190,7 +190,7 @@ export class TourCard extends HTMLElement {
     }
 }
 
-/** The right arm. */
+/** Servos of the right arm. */
 const ARM: readonly number[] = [1, 3, 5];
 
 define('tour-card', TourCard);

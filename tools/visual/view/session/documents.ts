@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The documents that this browser keeps, as the views see them. app/documents.ts is behind it.
+// Interface of the views to the documents stored in this browser. app/documents.ts implements it.
 
 import type { Backup } from '../document-storage.ts';
 import type { MotionDocument } from '../../model/document.ts';
@@ -12,26 +12,26 @@ export interface DocumentEntry {
 }
 
 export interface DocumentsState {
-    /** The open one is among them. */
+    /** Includes the open one. */
     readonly documents: readonly DocumentEntry[];
     readonly openId: string;
     readonly backups: readonly Backup[];
-    /** Names of what is kept but cannot be read. */
+    /** Names of stored entries that cannot be read. */
     readonly unreadable: readonly string[];
-    /** So many of the oldest steps of the open one's history are not kept any more. */
+    /** Number of the oldest steps of the open document's history that are no longer stored. */
     readonly forgotten: number;
-    /** 'off': this browser keeps nothing. */
+    /** 'off': this browser stores nothing. */
     readonly saving: 'saved' | 'saving' | 'off';
 }
 
 export interface Documents {
     readonly state: Store<DocumentsState>;
-    /** Opens a new one of that name, with these pages; without them all pages are empty. */
+    /** Creates and opens a document with the pages of `from`; without it all pages are empty. */
     create(name: string, from?: MotionDocument): Promise<void>;
     open(id: string): Promise<void>;
     rename(name: string): void;
-    /** The open one; the newest of the others takes its place. Cannot be undone: ask first. */
+    /** Removes the open document and opens the newest of the others. Cannot be undone: ask first. */
     remove(): Promise<void>;
-    /** The pages of another document, to compare with. null: it is not there any more. */
+    /** Reads another document, to compare with. null: it no longer exists. */
     read(id: string): Promise<MotionDocument | null>;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The editor as the views see it: the document and its edits, and what may be done with them. app/editor.ts is behind it.
+// Interface of the views to the editor: the document and its edits. app/editor.ts implements it.
 
 import type { JointPair } from '../../model/step-edits.ts';
 import type { MotionDocument } from '../../model/document.ts';
@@ -12,26 +12,26 @@ import type { Result } from '../../model/result.ts';
 import type { EditName, Transaction } from '../../model/transaction.ts';
 import type { Store } from '../store.ts';
 
-/** One drag or one key held: one undo step. It ends by finish() or cancel(), or by any edit outside it. */
+/** One drag or one held key: a single undo step. It ends with finish(), cancel() or any other edit. */
 export interface Gesture {
-    /** The document as it was when the gesture began: edits are made against it, never against what they changed. */
+    /** The document at the start of the gesture. All edits of the gesture are made against it. */
     readonly start: MotionDocument;
-    /** What the gesture amounts to now; replaces what it amounted to before. false: refused and said, nothing changed. */
+    /** Sets the gesture's edit, in place of the previous one. false: nothing changed; a refusal is reported to the user. */
     change(edit: Result<Transaction>): boolean;
     finish(): void;
     cancel(): void;
 }
 
 export interface CurveOptions {
-    /** The selected one, unless it is given. */
+    /** Default: the selected one. */
     readonly law?: Law;
-    /** The code that calls it; 0: by number. */
+    /** Remote code that calls the page; 0: called by number. */
     readonly code?: number;
-    /** At most so many ticks of 1/128 s, 4096 unless given. */
+    /** Most ticks of 1/128 s. Default: 4096. */
     readonly ticks?: number;
-    /** Where the joints stand before (31 servo units); the page's first pose unless given. */
+    /** Pose before the play (31 servo units). Default: the page's first pose. */
     readonly from?: ArrayLike<number>;
-    /** As stored, unless it is given. */
+    /** Default: as stored. */
     readonly shape?: Shape;
 }
 
@@ -42,24 +42,24 @@ export interface Editor {
     /** Joints that mirror each other, by servo ID. */
     readonly pairs: readonly JointPair[];
 
-    /** A page of the document as it is now, read once for each of its versions. */
+    /** A page of the current document, parsed once per version. */
     page(page: number): PageView;
-    /** The page is as the robot came with it. */
+    /** The page is identical to one of the factory library. */
     isOfLibrary(page: number): boolean;
-    /** Does an edit that was made against `state.get().document`. false: refused; the status bar says why, and nothing has changed. */
+    /** Applies an edit made against `state.get().document`. false: refused; nothing has changed and the status bar says why. */
     dispatch(edit: Result<Transaction>): boolean;
     gesture(label: EditName): Gesture;
     undo(): void;
     redo(): void;
-    /** Moves the cursor and what is chosen; values that are not there are left out. */
+    /** Changes cursor and selection; absent values stay. */
     select(change: Partial<Selection>): void;
-    /** What the firmware's player makes of a page of the document; null: it is damaged or has no action. */
+    /** The firmware player's output for a page of the document; null: the page is damaged or has no action. */
     curve(page: number, options?: CurveOptions): Curve | null;
-    /** Pose in which a play of the page begins (31 servo units); joints that its first step does not use stand at 512. As stored,
-     *  unless a shape is given. */
+    /** Pose in which a play of the page begins (31 servo units). Joints that its first step does not use are at 512. shape: default as
+     *  stored. */
     firstPose(page: number, shape?: Shape): Uint16Array;
-    /** Where the page leaves the joints behind a step (31 servo units): those that it does not use stay as the steps before left them. */
+    /** Pose after a step (31 servo units). Joints that the step does not use stay as earlier steps left them. */
     poseAfter(page: number, step: number): number[];
-    /** The fastest that servos may be asked to go at this voltage (servo units a tick). */
+    /** Highest speed that servos may be commanded at this voltage (servo units per tick). */
     topSpeed(volts: number): number;
 }

@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: MIT
-// Files and links as the views see them. app/files.ts is behind it.
+// Interface of the views to files and links. app/files.ts implements it.
 
 import type { FileFormats, Refused, Suffix } from '../../model/file-formats.ts';
 import type { Store } from '../store.ts';
 
-/** A motion file that was read, before anything of it is taken over. */
+/** A motion file that was read but not yet imported. */
 export interface OpenedFile {
     readonly name: string;
     /** 65,536 bytes. */
     readonly image: Uint8Array;
     readonly notes: readonly string[];
     readonly losses: readonly string[];
-    /** Pages of motions in it, and how many of them are damaged. */
+    /** Number of motion pages; `damaged` of them are damaged. */
     readonly count: number;
     readonly damaged: number;
-    /** It brings a page 0: the trim of the robot that it was made on. */
+    /** It contains page 0: the trim of the robot that it was made on. */
     readonly hasTrim: boolean;
 }
 
-/** Motions that came in the address of the page. */
+/** Motions from the page's address. */
 export interface SentMotion {
     readonly name: string;
     readonly pages: ReadonlyMap<number, Uint8Array>;
 }
 
-/** A file that a person has chosen or dropped; nothing of it was read yet. */
+/** A file that the user chose or dropped; not read yet. */
 export interface ChosenFile {
     readonly name: string;
     readonly size: number;
@@ -32,17 +32,17 @@ export interface ChosenFile {
 }
 
 export interface FilesState {
-    /** What is being done, in words; null: nothing. */
+    /** Description of the running task; null: none. */
     readonly busy: string | null;
     readonly opened: OpenedFile | null;
-    /** A file with pages that have no room among 128, and which. */
+    /** A file with pages beyond the 128 that fit; `pages` lists them. */
     readonly tooLarge: { readonly name: string; readonly pages: string } | null;
     readonly sent: SentMotion | null;
-    /** One sentence for what went wrong. */
+    /** What went wrong, in one sentence. */
     readonly trouble: string | null;
 }
 
-/** A file that somebody only looks at; `text` says why it could not be read. Cancelled: somebody had enough of it. */
+/** Result of reading a file only to view it. Refused: `text` says why it could not be read. */
 export type LookedAt = { readonly kind: 'read'; readonly image: Uint8Array } | Refused | { readonly kind: 'cancelled' };
 
 export interface SavedFile {
@@ -52,30 +52,31 @@ export interface SavedFile {
 }
 
 export interface Files {
-    /** m512 itself, for those who only want to know: what a file holds, how two images differ, what is wrong with one. */
+    /** m512 for queries that change nothing: contents of a file, differences of two images, faults of one. */
     readonly formats: FileFormats;
     readonly state: Store<FilesState>;
-    /** Opens it, unless it is too large for any motion file. */
+    /** Opens a file unless it is larger than any motion file can be. */
     choose(file: ChosenFile): Promise<void>;
     open(name: string, bytes: Uint8Array): Promise<void>;
-    /** Reads it for somebody who only looks: of the state only `busy` changes. */
+    /** Reads a file only to view it; of the state only `busy` changes. */
     look(file: ChosenFile): Promise<LookedAt>;
-    /** Ends what is being read or written; nothing was changed. */
+    /** Cancels the running read or write; nothing changes. */
     cancel(): void;
-    /** The same file, without the pages that have no room. */
+    /** Opens the file that is too large, without the pages that do not fit. */
     openWithoutRest(): Promise<void>;
-    /** Its whole motions go into free pages, links and all; what is there already stays. One undo step. */
+    /** Copies the opened file's intact pages with their links into free pages. Existing pages stay. One undo step. */
     addOpened(): void;
-    /** It becomes a document of its own, trim and all. */
+    /** Makes a new document of the opened file, including its trim. */
     createFromOpened(): Promise<void>;
-    /** All its pages take the places of the document's: one undo step. */
+    /** Replaces all pages of the document by the opened file's, page 0 only withTrim. One undo step. */
     replaceAll(withTrim: boolean): void;
-    /** Puts what was opened or sent away; nothing of it was taken. */
+    /** Drops the opened file or sent motion without importing it. */
     dismiss(): void;
-    /** Null: refused, `trouble` says why. */
+    /** null: refused; `trouble` says why. */
     save(suffix: Suffix): Promise<SavedFile | null>;
-    /** The address that holds the selected page and those that it leads to; null: it has none, or too many; `trouble` says which. */
+    /** Address fragment with the selected page and the pages that it leads to. null: there is nothing to send, or too much; `trouble` says
+     *  which. */
     link(): Promise<string | null>;
-    /** Puts what was sent into free pages; returns the number of the first, 0: there was no room. */
+    /** Copies the sent motion into free pages. Returns the number of the first; 0: no space. */
     addSent(): number;
 }

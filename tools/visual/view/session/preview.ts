@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: MIT
-// A motion of the document as the firmware's own player makes it, in the picture only: nothing is written and no robot moves.
+// Interface of the views to the preview: a motion of the document, computed by the firmware's own player and shown only in the picture.
+// Nothing is written and no robot moves.
 
 import type { Place } from '../../model/space.ts';
 import type { Store } from '../store.ts';
 
-/** What the figure in the picture is: the step that is edited, a motion that is only shown, or the robot. */
+/** What the figure in the picture shows: the edited step, a previewed motion or the robot. */
 export type Figure = 'step' | 'shown' | 'robot';
 
 export interface PreviewState {
     readonly figure: Figure;
-    /** The page that is shown, or was last; 0: none. */
+    /** The page shown now or last; 0: none. */
     readonly page: number;
     readonly isRunning: boolean;
     readonly isLooping: boolean;
-    /** Of 1/128 s, from the beginning; the whole motion lasts `ticks`, and what it leads to is in it. */
+    /** Ticks of 1/128 s since the beginning. The motion and what it leads to last `ticks`. */
     readonly tick: number;
     readonly ticks: number;
-    /** Where it is at that tick: page and step, which counts from 1. */
+    /** Page and step at that tick; steps count from 1. */
     readonly at: { readonly page: number; readonly step: number };
 }
 
-/** Servo units by ID, and where the trunk is. */
+/** positions: servo units by ID. */
 export interface ShownPose {
     readonly positions: ArrayLike<number>;
     readonly trunk: Place;
@@ -28,20 +29,20 @@ export interface ShownPose {
 
 export interface Preview {
     readonly state: Store<PreviewState>;
-    /** Shows a motion from its beginning, or from a step (0..6) of its page. false: it has no action. */
+    /** Shows a motion from a step (0..6) of its page. false: the page has no action. */
     start(page: number, step?: number): boolean;
-    /** Goes on from where it stands; at its end, from the beginning. */
+    /** Continues; from the end, starts over. */
     resume(): void;
     pause(): void;
-    /** Stands still at this tick. */
+    /** Shows this tick and pauses. */
     seek(page: number, tick: number): void;
-    /** The first tick of a step (0..6) of the page that is shown. */
+    /** First tick of a step (0..6) of the page; 0: it is not played. */
     tickOf(page: number, step: number): number;
-    /** Ticks since the step that is shown began. */
+    /** Ticks since the start of the step shown. */
     sinceStep(): number;
     setLooping(isLooping: boolean): void;
-    /** The figure is the edited step again. */
+    /** Switches the figure back to the edited step. */
     showStep(): void;
-    /** What is in the picture now; null: nothing is shown. */
+    /** The pose shown now; null: no motion is shown. */
     pose(): ShownPose | null;
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The robot in use as the views see it: what they may know, and what they may ask for. main.ts puts the simulated
-// robot or a port behind it; no view ever touches a stream or a worker.
+// Interface of the views to the robot in use. main.ts connects it to the simulated robot or a port; no view touches a stream or a worker.
 
 import type { Body } from '../../model/body.ts';
 import type { Shape } from '../../model/motion.ts';
@@ -22,13 +21,13 @@ export type ImageName = 'play' | 'edit';
 export type PanelButton = 'up' | 'down' | 'left' | 'right' | 'start' | 'mode';
 export type Tab = 'remote' | 'steps' | 'curves' | 'pages' | 'links' | 'checks' | 'terminal' | 'robot';
 
-/** What is said in the messages. `board`: in the words that the board used. */
+/** A message in the status bar. */
 export interface Notice {
     readonly text: string;
     readonly tone: 'calm' | 'good' | 'bad';
 }
 
-/** In letters. */
+/** In characters. */
 export interface TerminalSize {
     readonly rows: number;
     readonly columns: number;
@@ -41,45 +40,45 @@ export interface SessionState {
     readonly version: Version | null;
     readonly where: Where | null;
     readonly pages: readonly PageEntry[];
-    /** Image that the simulated robot runs. */
+    /** Image of the simulated robot. */
     readonly image: ImageName;
     readonly physics: 'loading' | 'on' | 'off';
     readonly speed: number;
-    /** The robot in the page has stopped for good; this says why. */
+    /** Why the simulated robot has stopped for good; null: it has not. */
     readonly stopped: string | null;
     /** What the robot does. */
     readonly doing: Notice;
-    /** What went wrong last, or was said last; null: nothing. */
+    /** The last error or message; null: none. */
     readonly message: Notice | null;
     readonly faultNames: readonly string[];
     readonly tab: Tab;
-    /** A newer version of this page waits for takeNewVersion(). */
+    /** A newer version of this web page waits for takeNewVersion(). */
     readonly hasNewVersion: boolean;
-    /** A page that the picture shows while no robot plays it; null: none. */
+    /** Motion page that is only previewed in the picture; null: none. */
     readonly shownPage: number | null;
-    /** Its name in the document; the robot may know none yet. */
+    /** Its name in the document, which the robot may not have yet. */
     readonly shownName?: string;
     readonly isPowered: boolean;
-    /** The adapter of My servos was pulled out; it is back, and nothing has played since. */
+    /** Adapter of My servos. out: unplugged; back: plugged in again, and nothing has played since. */
     readonly adapter?: 'out' | 'back' | null;
-    /** The robot in the page has not answered for longer than a start takes. */
+    /** The simulated robot has not answered for longer than a start takes. */
     readonly isLate: boolean;
 }
 
-/** A hand at a point of a link (metres, in the link's frame), pulling towards a place in the room. */
+/** A hand at a point of a link (metres, in the link's frame) that pulls towards a target in the room. */
 export interface Hand {
     readonly link: string;
     readonly point: Vector;
     readonly target: Vector;
 }
 
-/** What goes on beside a play: a second page on joints of its own (null: no more; no joints: those that its first step uses), or
- *  joints that code moves. Servo units. */
+/** Runs in parallel to a play, in servo units. layer: a second page on joints of its own (page null: end it; no joints: those of its first
+ *  step). The others: joints moved by code. */
 export type Overlay =
     | { readonly kind: 'layer'; readonly page: number | null; readonly joints: readonly number[] }
     | { readonly kind: 'aim'; readonly joint: number; readonly position: number; readonly degreesPerSecond: number }
     | { readonly kind: 'swing'; readonly joint: number; readonly centre: number; readonly amplitude: number; readonly periodMs: number }
-    /** No joints: all. */
+    /** Empty joints: all. */
     | { readonly kind: 'free'; readonly joints: readonly number[] };
 
 export interface Floor {
@@ -88,16 +87,16 @@ export interface Floor {
     readonly friction: number;
 }
 
-/** What a person can do to the robot in the page besides talking to it. To yours it does nothing. */
+/** Controls of the simulation. They have no effect on a real robot. */
 export interface SimControls {
-    /** Times the robot's own; 0: it waits. */
+    /** Factor for the robot's time; 0: paused. */
     setSpeed(speed: number): void;
     oneTick(): void;
     setPower(on: boolean): void;
     press(button: PanelButton, down: boolean): void;
     setBattery(volts: number): void;
     setFault(servo: number, fault: number, on: boolean): void;
-    /** ticks: lets go by itself after so many of the robot's time; without it, at the next pull. */
+    /** null: lets go. ticks of robot time: lets go by itself afterwards; absent: at the next pull. */
     pull(hand: Hand | null, ticks?: number): void;
     hold(held: boolean): void;
     setFloor(floor: Floor): void;
@@ -115,46 +114,47 @@ export interface Session {
     readonly sim: SimControls;
     /** Up to 60 times a second. */
     onFrame(listener: (state: RobotState) => void): () => void;
-    /** What the board says to a terminal. */
+    /** Text of the board for a terminal. */
     onText(listener: (bytes: Uint8Array) => void): () => void;
-    /** Somebody wants the robot to stop: what waits for it is dropped. */
+    /** The user wants the robot to stop: pending actions must be dropped. */
     onStop(listener: () => void): () => void;
 
     show(tab: Tab): void;
-    /** The terminal shows so many letters. */
+    /** Reports the size of the terminal. */
     terminalSize(size: TerminalSize): void;
     play(page: number): Promise<void>;
     command(command: Command): Promise<void>;
-    /** Without servos: of all. */
+    /** Default: all servos. */
     setTorque(on: boolean, servos?: readonly number[]): Promise<void>;
-    /** Plays a page of the document: writes it and what it leads to first, as far as the robot has it otherwise. The picture shows it at once. */
+    /** Plays a page of the document. First writes it and the pages it leads to, where the robot's differ. The picture previews it
+     *  meanwhile. */
     playEdited(page: number): Promise<void>;
-    /** Shows a page of the document again and again, until the robot does it: as soon as it can. */
+    /** Previews a page of the document in a loop until the robot is ready to play it. */
     run(page: number): Promise<void>;
-    /** How what plays is shaped, from its next step on. Only Play can. */
+    /** Shape of the current play, from its next step on. Only for Play. */
     shape(shape: Shape): Promise<void>;
-    /** What goes on beside a play. Only Play can. */
+    /** Starts, changes or ends what runs in parallel to a play. Only for Play. */
     overlay(what: Overlay): Promise<void>;
-    /** From now on the robot goes slowly to this pose (servo units by ID; null: this joint stays); null: no more. */
+    /** Makes the robot move slowly to this pose and keep following (servo units by ID; null: this joint stays). null: ends it. */
     follow(positions: readonly (number | null)[] | null): void;
-    /** Says something in the messages. */
+    /** Shows a message in the status bar. */
     say(notice: Notice): void;
     remote(held: ReadonlySet<RemoteButton>): void;
-    /** A stick: x to the right, y ahead, -1..1; null: let go. It walks, the farther the stick the larger the steps. */
+    /** Walks by stick: x to the right, y ahead, -1..1; null: released. The farther the stick, the larger the steps. */
     drive(stick: { readonly x: number; readonly y: number } | null): void;
     type(bytes: Uint8Array): void;
 
-    /** Reloads the page as its newest version. */
+    /** Reloads the web page in its newest version. */
     takeNewVersion(): void;
     useSimulated(): void;
-    /** Opens the browser's chooser; call it in a click. */
+    /** Opens the browser's port chooser; call it in a click handler. */
     connectYours(): Promise<void>;
 
-    /** Play runs in this page, at servos on an adapter. Opens the browser's chooser; call it in a click. */
+    /** Runs Play in this page, with servos on an adapter. Opens the browser's port chooser; call it in a click handler. */
     connectServos(): Promise<void>;
 
-    /** Starts the robot in the page anew with that image; motions and settings stay. */
+    /** Restarts the simulated robot with that image; motions and settings stay. */
     runImage(image: ImageName): void;
-    /** Forgets flash and EEPROM of the robot in the page: a robot fresh from the factory. */
+    /** Resets the simulated robot's flash and EEPROM to factory state. */
     forget(): Promise<void>;
 }

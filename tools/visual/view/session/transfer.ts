@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: MIT
-// Pages between the document and a robot, as the views see it. app/transfer.ts is behind it.
+// Interface of the views to the transfer of pages between document and robot. app/transfer.ts implements it.
 
 import type { PageAccount } from '../../robot/page-write.ts';
 import type { RobotError } from '../../robot/robot-error.ts';
 import type { Store } from '../store.ts';
 
 export interface TransferState {
-    /** stopped: something went wrong in mid-way; `trouble` says what, and tryAgain() goes on. */
+    /** stopped: an error or a cancel interrupted it; `trouble` says what, and tryAgain() continues. */
     readonly phase: 'idle' | 'reading' | 'writing' | 'stopped' | 'written';
-    /** Pages done, of how many. */
+    /** Number of pages done, of `total`. */
     readonly done: number;
     readonly total: number;
-    /** Of the write under way or of the last one, by page. */
+    /** State of the current or last write, by page. */
     readonly account: ReadonlyMap<number, PageAccount>;
     readonly trouble: string | null;
 }
 
-/** How a transfer ended. `trouble` of the state says the error in words, unless it is transfer-busy: then the one under way goes on. */
+/** How a transfer ended. The state's `trouble` describes the error, except transfer-busy: then another transfer is still running. */
 export type TransferEnd = { readonly isDone: true } | { readonly isDone: false; readonly error: RobotError };
 
 export interface Transfer {
     readonly state: Store<TransferState>;
-    /** Reads what the robot has; what is known of it needs no time. */
+    /** Reads the robot's pages; known ones are not read again. */
     read(): Promise<TransferEnd>;
-    /** Writes these pages of the document, after a backup of the robot. */
+    /** Backs up the robot, then writes these pages of the document. */
     write(pages: readonly number[]): Promise<TransferEnd>;
-    /** Goes on with what was stopped. */
+    /** Continues a stopped transfer. */
     tryAgain(): Promise<TransferEnd>;
-    /** Stops at once, or between two pages. */
+    /** Stops at once or between two pages. */
     cancel(): void;
 }

@@ -1,42 +1,42 @@
 // SPDX-License-Identifier: MIT
-// Motions tried in physics, as the views see it. app/trials.ts is behind it.
+// Interface of the views to trials of motions in physics. app/trials.ts implements it.
 
 import type { Shape } from '../../model/motion.ts';
 import type { StepTouch, Touch, Verdict } from '../../model/trial.ts';
 import type { Store } from '../store.ts';
 
-/** What came of one page. */
+/** Result for one page. */
 export interface PageTrial {
     readonly verdict: Verdict;
-    /** Pages that were played, in the order of their beginnings. */
+    /** Pages played, in order of their start. */
     readonly pages: readonly number[];
-    /** Limbs that meet in its own steps, as they are asked for; none that only brush. */
+    /** Limbs that collide in the page's own steps, in commanded poses; without mere brushes. */
     readonly touches: readonly StepTouch[];
 }
 
 export interface TrialsState {
-    /** loading: physics, at the first trial. */
+    /** loading: loads physics, at the first trial. */
     readonly phase: 'idle' | 'loading' | 'trying' | 'failed';
-    /** Tried now; null: none. */
+    /** Page under trial; null: none. */
     readonly page: number | null;
     readonly done: number;
     readonly total: number;
     readonly trials: ReadonlyMap<number, PageTrial>;
-    /** Why nothing can be tried, in the words of what failed; null: nothing failed. */
+    /** Error text when trials are impossible; null: no error. */
     readonly trouble: string | null;
 }
 
 export interface Trials {
     readonly state: Store<TrialsState>;
-    /** Plays these pages one after the other in physics; those whose trial still holds are left out. */
+    /** Plays these pages one after the other in physics. Pages whose trial is still valid are skipped. */
     run(pages: readonly number[]): Promise<void>;
-    /** Ends run() behind the page under way; what is known stays. */
+    /** Stops run(). The page under trial gets no result; earlier results stay. */
     cancel(): void;
-    /** Nothing that the play of this page reaches has changed since it was tried. */
+    /** The page was tried, and nothing that its play reaches has changed since. */
     isFresh(page: number): boolean;
-    /** Where the servos are in a play of this page, tick by tick (31 servo units by ID; NaN: no such servo); null when it cannot be
-     *  played, does not stand in its first pose, or there is no physics. Rejects when it is aborted. */
+    /** Servo positions in a play of this page, tick by tick (31 servo units by ID; NaN: no such servo). null: it cannot be played, the
+     *  robot does not stand in its first pose, or there is no physics. Rejects when aborted. */
     follow(page: number, ticks: number, shape: Shape, signal: AbortSignal): Promise<Float32Array | null>;
-    /** Links that are in each other in a pose (servo units by ID). Without physics: none. */
+    /** Links that intersect in a pose (servo units by ID). Without physics: none. */
     touching(pose: ArrayLike<number>): Promise<readonly Touch[]>;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is said of the document and its edits, in the words of the language that is used.
+// Texts on the document and its edits, in the current language.
 
 import type { PageFinding } from '../../model/checks.ts';
 import { NOMINAL_VOLTS } from '../../model/motion.ts';
@@ -9,7 +9,7 @@ import { buttonsOf } from '../../robot/remote.ts';
 import type { TransferState } from '../session/transfer.ts';
 import { TEXTS } from './texts.ts';
 
-/** An undo or redo for its button: "Undo: pose (motion 12)". */
+/** Text of the undo or redo button: "Undo: pose (motion 12)". */
 export function editText(edit: Transaction, way: 'undoes' | 'redoes'): string {
     const { document } = TEXTS;
     const [first, ...more] = edit.changes.map(change => change.page);
@@ -17,12 +17,12 @@ export function editText(edit: Transaction, way: 'undoes' | 'redoes'): string {
     return document[way](document.edits[edit.label], where);
 }
 
-/** One sentence: what was refused, and what to do. */
+/** What was refused and what to do, in one sentence. */
 export function refusalText({ code, words }: Refusal): string {
     return TEXTS.document.refusals[code](words);
 }
 
-/** What the autosave says. */
+/** State of the autosave. */
 export function savingText(saving: 'saved' | 'saving' | 'off'): string {
     const { document } = TEXTS;
     return { saved: document.saved, saving: document.saving, off: document.savesNot }[saving];
@@ -37,7 +37,7 @@ export function codeText(code: number): string {
         .join(' + ');
 }
 
-/** What the transfer does, in one sentence. */
+/** State of the transfer in one sentence; '' when idle. */
 export function transferText({ phase, done, total, trouble }: TransferState): string {
     const { compare } = TEXTS;
     switch (phase) {
@@ -56,15 +56,15 @@ export function transferText({ phase, done, total, trouble }: TransferState): st
     }
 }
 
-/** Beyond this a servo cannot follow at all: the limit is 90 % of what it turns without load. */
+/** Beyond this factor a servo cannot follow at all: the limit is 90 % of its no-load speed. */
 const HOPELESS = 1 / 0.9;
 
-/** Faults keep a page from doing what it says; the others may surprise. */
+/** true: the page cannot do what it says. Other findings are only warnings. */
 export function isFaulty({ kind, amount }: PageFinding): boolean {
     return kind === 'damaged' || kind === 'out-of-reach' || kind === 'exit-circle' || (kind === 'too-fast' && amount > HOPELESS);
 }
 
-/** One finding as a sentence; joint: its title. */
+/** One finding as a sentence; joint: title of its joint. */
 export function findingText({ kind, step, amount, fault }: PageFinding, joint: string): string {
     const { checks } = TEXTS;
     const at = step === null ? null : step + 1;

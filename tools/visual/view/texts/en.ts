@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// English: every text that a person reads on the page or a screen reader speaks. Another language is a file of the same type (texts.ts).
-// A text with parts is a function that makes the whole of it, so that each language has its own order of words.
+// English: every text that the page shows or a screen reader speaks. Other languages are files of the same type (texts.ts). A text with
+// arguments is a function that returns all of it, so that each language can have its own word order.
 //
-// Not here: names of motions and documents, what the firmware says (its words are quoted), and what m512 says of files and motions.
+// Not here: names of motions and documents, text of the firmware (quoted), and text of m512 on files and motions.
 
 import type { LinkField } from '../../model/page.ts';
 import type { RefusalCode } from '../../model/result.ts';
@@ -15,21 +15,20 @@ import type { PageAccount } from '../../robot/page-write.ts';
 import type { RobotErrorCode } from '../../robot/robot-error.ts';
 import type { PanelButton, Tab } from '../session/session.ts';
 
-/** Where a motion fell. motion: its title, when it is another one than the one that was tried. */
+/** Where a motion fell. motion: title of the motion that was playing; null: the one that was tried. */
 export interface FallPlace {
     readonly step: number;
     readonly motion: string | null;
     readonly seconds: string;
 }
 
-/** Two limbs that are in each other, and how deep; null: they only brush. */
+/** Two limbs that intersect. mm: depth; null: they only brush. */
 export interface Meeting {
     readonly a: string;
     readonly b: string;
     readonly mm: number | null;
 }
 
-/** A title, and rows of keys and what they do. */
 export type KeyGroup = readonly [title: string, keys: readonly (readonly [key: string, what: string])[]];
 
 function plural(count: number, one: string, many: string): string {
@@ -155,7 +154,7 @@ const pageFaults: Record<PageFault, string> = {
     position: 'a position is above 1023',
 };
 
-/** What a servo in the simulation can have, by the simulator's names. */
+/** Faults of simulated servos, by the simulator's names. */
 const servoFaults: Record<string, string> = {
     silent: 'does not answer',
     dead: 'unplugged',
@@ -173,7 +172,7 @@ const servoFaults: Record<string, string> = {
     blocked: 'blocked',
 };
 
-/** By the names of the body file. */
+/** By name in the body file. */
 const joints: Record<string, string> = {
     right_shoulder_swing: 'right shoulder swing',
     left_shoulder_swing: 'left shoulder swing',
@@ -195,7 +194,7 @@ const joints: Record<string, string> = {
     left_ankle_roll: 'left ankle roll',
 };
 
-/** By the names of the body file. */
+/** By name in the body file. */
 const limbs: Record<string, string> = {
     trunk: 'trunk',
     neck: 'neck',
@@ -220,7 +219,7 @@ const limbs: Record<string, string> = {
     left_foot: 'left foot',
 };
 
-/** Of the board: START and MODE are printed there. */
+/** Buttons of the board, where START and MODE are printed. */
 const panel: Record<PanelButton, string> = {
     up: 'panel button up',
     down: 'panel button down',
@@ -234,7 +233,7 @@ const shapes: Record<keyof Shape, string> = { rate: 'Speed', amplitude: 'Size', 
 
 const fileTypes: Record<Suffix, string> = { '.m512': 'text', '.bin': 'image', '.hex': 'Intel HEX', '.mtn': 'RoboPlus' };
 
-/** "40 motions stand". */
+/** For example "40 motions stand". */
 const counted: Record<VerdictKind, (count: number) => string> = {
     stands: count => plural(count, '1 motion stands', `${count} motions stand`),
     rises: count => plural(count, '1 goes to the floor and rises', `${count} go to the floor and rise`),
@@ -243,7 +242,7 @@ const counted: Record<VerdictKind, (count: number) => string> = {
     'no-start': count => `${count} cannot be judged alone`,
 };
 
-/** Of a motion that does not stand in its first pose: what comes of it behind another one. */
+/** For a motion that does not stand in its first pose: the result when it is played after another one. */
 const behind: Record<VerdictKind, (other: string) => string> = {
     stands: other => `Does not stand in its first pose. Played behind ${other} it stands.`,
     rises: other => `Does not stand in its first pose. Played behind ${other} it gets to its feet.`,
@@ -361,7 +360,7 @@ export const EN = {
         show: 'Show',
     },
 
-    /** The menu in the head of the page. */
+    /** The menu in the header of the page. */
     menu: {
         menu: 'Menu',
         whichRobot: 'Which robot',
@@ -372,7 +371,7 @@ export const EN = {
         licences: 'Licences',
         theme: 'Light or dark',
         language: 'Language',
-        /** Of a language that nobody who speaks it has read; '' for English. */
+        /** Note on a translation that no native speaker has read; '' for English. */
         translation: '',
     },
 
@@ -385,7 +384,7 @@ export const EN = {
         moreHint: 'Curves, motions, links, checks, the terminal, and what can be done to the robot',
     },
 
-    /** Over the picture, until somebody has begun. */
+    /** The card over the picture on a first visit. */
     first: {
         region: 'What to do first',
         what: 'A humanoid with real firmware, in your browser',
@@ -432,7 +431,7 @@ export const EN = {
             'The robot in this page does not answer. If its terminal shows a "-", type GO there; otherwise start it anew under "Robot".',
         searches: 'Looking for your servos …',
         isOff: 'The robot is switched off. Switch it on under "Robot".',
-        /** It waits as well; this is what one has to know of it. */
+        /** Also while the robot waits, because the user must know that Edit runs. */
         editRuns: 'Edit runs: its screen is in the terminal.',
         fallen: 'The robot lies on the floor.',
         getUp: 'The robot lies on the floor. Press Get up.',
@@ -441,7 +440,7 @@ export const EN = {
         approaches: (motion: string) => `Going slowly to the first pose of ${motion}.`,
         playing: (motion: string, step: number) => `Playing ${motion}, step ${step}.`,
         paused: (motion: string, step: number) => `Paused in ${motion}, step ${step}.`,
-        /** The same for screen readers, said once. */
+        /** For screen readers: without steps, so that they are announced once. */
         plays: (motion: string) => `Plays ${motion}.`,
         pauses: (motion: string) => `Paused in ${motion}.`,
     },
@@ -464,14 +463,14 @@ export const EN = {
             "This browser does not save the robot's memory (private window, or the disk is full). What you save is gone with the page.",
         second: 'Another tab has this robot, too, so what this one saves is gone when its tab is closed. Documents stay.',
         isBackedUp: 'All motions of your robot are read, and saved in this browser as a backup.',
-        /** kind and words are the simulator's. */
+        /** kind and words come from the simulator. */
         violation: (kind: string, words: string) =>
             `The firmware did what no chip allows. Start the robot anew under "Robot". (${kind}: ${words})`,
         startsEdit: 'The robot in the page starts anew with Edit, the firmware that saves motions.',
         startsPlay: 'The robot in the page starts anew with Play, the firmware that hears the remote control.',
     },
 
-    /** The area Robot: what can be done to the one in the page. */
+    /** The area Robot: controls of the simulated robot. */
     robotPane: {
         onlyInPage: 'This is about the robot in the page. Choose it in the menu.',
         time: 'Time',
@@ -522,7 +521,7 @@ export const EN = {
         draw: (servo: number) => `Draw servo ${servo}`,
         noFault: 'none',
         faults: servoFaults,
-        /** By the bits of the servo's error. */
+        /** By bit of the servo's error byte. */
         alarms: ['voltage', 'angle limit', 'hot', 'range', 'checksum', 'overload', 'instruction'],
         holds: 'holds',
         limp: 'limp',
@@ -617,7 +616,7 @@ export const EN = {
             `Touching: ${pairs.map(({ a, b, mm }) => `${a} and ${b}${mm === null ? '' : ` (${mm} mm)`}`).join('; ')}${more > 0 ? `; ${more} more` : ''}`,
     },
 
-    /** Motions and documents, as they are called. */
+    /** Names of motions and documents. */
     motion: {
         title: (page: number, name: string) => (name === '' ? `motion ${page}` : `motion ${page} (${name})`),
         count: (count: number) => plural(count, '1 motion', `${count} motions`),
@@ -747,7 +746,7 @@ export const EN = {
             'Move the limp limb by hand; the picture follows. Then hold it or add a step. Support the robot: limp legs do not carry it.',
     },
 
-    /** A motion in the picture, without the robot. */
+    /** Preview of a motion in the picture, without the robot. */
     preview: {
         inPicture: 'In the picture',
         show: '▷ Show',
@@ -875,7 +874,7 @@ export const EN = {
             'Its exit links go round in a circle, so a stop comes to no motion that ends. The robot breaks the circle off where it began.',
     },
 
-    /** Motions tried in physics. */
+    /** Trials of motions in physics. */
     trials: {
         purpose: 'Physics: plays motions on a body of their own, as fast as it can; the robot in the picture stays as it is.',
         state: 'What physics says',
@@ -977,7 +976,7 @@ export const EN = {
         asDocumentHint: 'Beside the documents that you have',
         replace: 'Replace all motions',
         replaceHint: 'Every motion that is here now is replaced; Undo brings them back',
-        /** pages: their numbers, as m512 names them. */
+        /** pages: numbers as listed by m512. */
         tooLarge: (pages: string) => `It was made for a robot with 256 motions. These have no room here: ${pages}`,
         openWithoutRest: 'Open without them',
         losses: (name: string) => `${name} cannot hold everything:`,
@@ -992,7 +991,7 @@ export const EN = {
         nameless: 'a motion without a name',
     },
 
-    /** A motion that came in the address. */
+    /** A motion from the page's address. */
     sent: {
         region: 'A motion for you',
         title: (name: string) => `“${name}”, a motion for you`,
@@ -1034,7 +1033,7 @@ export const EN = {
         heading: 'A humanoid with real firmware, in your browser',
         toRobot: 'To the robot',
         choose: 'Ten of its motions. Choose one, and the robot does it.',
-        /** By the names of the motions in the library: what stands on a card, and below it. */
+        /** By name of the motion in the library: title of the card, and text below it. */
         cards: {
             walk: ['Walk', 'It goes on until you stop it.'],
             wave: ['Wave', 'The right hand, beside the head.'],

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A language for tests, made from English: letters with accents, 40 % longer, in brackets. What is plain English on the page in this language
-// does not come from the texts; what is cut off in it would be cut off in German. Parts of a text stay as they are given.
+// A language for tests, made from English: accented letters, 40 % longer, in brackets. Plain English on the page then reveals text that is
+// not from en.ts, and cut-off text would be cut off in German too. Arguments in a text stay unchanged.
 
 import { EN } from './en.ts';
 import type { Texts } from './texts.ts';
@@ -8,14 +8,14 @@ import type { Texts } from './texts.ts';
 const PLAIN = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ';
 const ACCENTED = 'àƀçďèƒĝĥìĵķļɱñöþɋŕšţùṽŵẋýžÀɃÇĎÈƑĜĤÌĴĶĻṀÑÖÞɊŔŠŢÙṼŴẊÝŽ';
 const LONGER = 0.4;
-/** Longer words are none of German, either. */
+/** Length of the filling's words: German has few longer ones. */
 const WORD = 8;
 
 function accented(text: string): string {
     return [...text].map(letter => ACCENTED[PLAIN.indexOf(letter)] ?? letter).join('');
 }
 
-/** The text and as much filling as makes it longer: in words, if it has some. */
+/** The accented text with filling, which is split into words if the text has several. */
 export function pseudo(text: string): string {
     if (!/[A-Za-z]/.test(text)) return text;
     const filling = 'ö'.repeat(Math.ceil(text.length * LONGER) - 1);
@@ -23,7 +23,7 @@ export function pseudo(text: string): string {
     return `[${accented(text)}${words}]`;
 }
 
-/** The parts are kept out of it by signs that no text has. */
+/** Protects arguments by replacing them with private-use characters, which occur in no text. */
 function pseudoFunction(make: (...parts: unknown[]) => unknown): (...parts: unknown[]) => unknown {
     return (...parts) => {
         const kept: string[] = [];
@@ -47,4 +47,4 @@ export function pseudoOf(value: unknown): unknown {
     return value;
 }
 
-export default pseudoOf(EN) as Texts; // the same but for its letters
+export default pseudoOf(EN) as Texts; // has the same shape

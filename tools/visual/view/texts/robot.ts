@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is said of the robot, in the words of the language that is used.
+// Texts on the robot, in the current language.
 
 import type { Joint } from '../../model/body.ts';
 import type { ConnectionState } from '../../robot/connection-table.ts';
@@ -8,7 +8,7 @@ import type { RobotError } from '../../robot/robot-error.ts';
 import type { SessionState } from '../session/session.ts';
 import { TEXTS } from './texts.ts';
 
-/** One sentence for an error; the board's own words are quoted behind it. */
+/** One sentence for an error, followed by the board's own words. */
 export function errorText(error: RobotError): string {
     const sentence = TEXTS.robot.errors[error.code];
     return error.words === '' || error.code === 'no-answer' ? sentence : `${sentence} ${error.words}`;
@@ -18,12 +18,12 @@ export function connectionText(state: ConnectionState): string {
     return TEXTS.robot.connections[state];
 }
 
-/** "right hip pitch". */
+/** For example "right hip pitch". */
 export function jointTitle(joint: Joint): string {
     return TEXTS.joints[joint.name] ?? joint.name.replaceAll('_', ' ');
 }
 
-/** "right forearm", by its name in the body file. */
+/** link: name in the body file. For example "right forearm". */
 export function limbTitle(link: string): string {
     return TEXTS.limbs[link] ?? link.replaceAll('_', ' ');
 }
@@ -66,7 +66,7 @@ function robotText(state: SessionState, where: Where | null): string {
     }
 }
 
-/** That the robot begins to move, or has ended: without its steps. */
+/** For announcements of start and end: like doingText(), without steps. */
 export function startText(state: SessionState): string {
     const { where } = state;
     if (where === null || where.state === 'idle' || where.state === 'ready') return robotText(state, where);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The texts in the language that is used. languages.ts chooses it before anything of the page is made, so no module may keep a text from the
-// time when it was loaded: texts are looked up where elements are made.
+// The texts in the current language. languages.ts chooses it after modules are loaded but before the page is built, so no module may keep a
+// text from load time. Look up texts where elements are made.
 
 import { EN } from './en.ts';
 
-/** What each language has. */
+/** Texts that every language has. */
 export type Texts = typeof EN;
 
 export let TEXTS: Texts = EN;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What physics says of motions, in the words of the language that is used.
+// Texts on trials of motions in physics, in the current language.
 
 import { TICKS_PER_SECOND } from '../../model/motion.ts';
 import { BRUSH_M } from '../../model/trial.ts';
@@ -21,7 +21,7 @@ export function countedText(kinds: readonly VerdictKind[], untried: number, chan
     return trials.list(parts);
 }
 
-/** The verdict on a page in one sentence. titleOf: of a page; behind: a page that was tried and led through this one. */
+/** The verdict on a page in one sentence. titleOf: title of a page; behind: tried page whose play led through this one, and its verdict. */
 export function verdictText(
     { kind, at, seconds }: Verdict,
     page: number,
@@ -50,7 +50,7 @@ export function verdictText(
     }
 }
 
-/** What the picture marks; the two deepest in words. */
+/** Describes the two deepest collisions and counts the others; '' for none. */
 export function touchesText(touches: readonly Touch[]): string {
     const deepest = [...touches].sort((a, b) => b.depthM - a.depthM).slice(0, 2);
     if (deepest.length === 0) return '';
@@ -62,7 +62,7 @@ export function touchesText(touches: readonly Touch[]): string {
     return TEXTS.picture.touching(pairs, touches.length - deepest.length);
 }
 
-/** deepest: of all; steps: those in which limbs meet, 0..6. */
+/** touch: the deepest one; steps: steps in which the limbs collide, 0..6. */
 export function touchText({ links: [a, b], depthM }: Touch, steps: readonly number[]): string {
     return TEXTS.trials.touch(
         steps.map(step => step + 1),
