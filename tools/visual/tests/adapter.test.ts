@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The port of a servo adapter: another rate, a refusal, a plug that is pulled out and put back.
+// The port of a servo adapter: a change of rate, a refusal, an unplugged and replugged adapter.
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { Adapter } from '../servos/adapter.ts';
 import { BytePort } from '../sim/byte-port.ts';
@@ -102,7 +102,7 @@ test('a plug that is pulled out is told, nothing is sent, and the port is taken 
     bench.isPlugged = true;
     await vi.advanceTimersByTimeAsync(LONG_MS);
     expect(bench.told).toEqual([false, true]);
-    expect(bench.heard()).toEqual([]); // what came before is no answer to anything
+    expect(bench.heard()).toEqual([]); // bytes received before the loss are dropped: they answer nothing
     bench.adapter.write(Uint8Array.of(6));
     await vi.advanceTimersByTimeAsync(1);
     expect(bench.sent).toEqual([6]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a screen reader hears of a robot that walks for 12 seconds, falls and is told that something cannot be.
+// What a screen reader announces while a robot walks for 12 seconds, falls and refuses a request.
 import { expect, test, vi } from 'vitest';
 import { Announcer } from '../view/announcer.ts';
 import type { SessionState } from '../view/session/session.ts';
@@ -73,7 +73,7 @@ test('get up: one that has rolled over gets up from there, and gives up behind t
     getUp.start(LIES.face);
     ends('back');
     ends('back', false); // it stands
-    ends('face'); // and falls later: nobody has asked
+    ends('face'); // a later fall that nobody asked for
     expect(played).toEqual(['face', 'back']);
     played.length = 0;
     getUp.start(LIES.back);
@@ -90,7 +90,7 @@ test('one that was told to be starting, or without a cable, is told when it answ
     const { announcer, message } = heard();
     const starts = { ...START, connection: 'asking', doing: { text: 'The robot is starting …', tone: 'calm' } } as SessionState;
     announcer.look(starts, '');
-    announcer.look({ ...starts, connection: 'ready' }, ''); // what it does is asked next
+    announcer.look({ ...starts, connection: 'ready' }, ''); // its state is asked next
     await vi.advanceTimersByTimeAsync(5000);
     announcer.look(at('idle', 0, 0), '');
     expect(message.map(([, text]) => text)).toEqual(['The robot is starting …', 'Ready.']);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A robot that answers is asked what it has, and stands up. One that starts anew meanwhile is no trouble: it answers again.
+// When a robot answers, it is asked for its pages and stands up. A restart in between is no error.
 import { expect, test, vi } from 'vitest';
 import { Arrival } from '../app/arrival.ts';
 import { RobotError } from '../robot/robot-error.ts';

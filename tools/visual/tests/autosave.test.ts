@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The autosave: a tab that is closed at any moment has kept every finished edit, and nothing of one that was not finished.
+// The autosave: a tab closed at any moment has kept every finished edit and nothing of an unfinished one.
 import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import { KeptDocuments } from '../app/documents.ts';
@@ -58,7 +58,7 @@ function now(editor: DocumentEditor): MotionDocument {
     return editor.state.get().document;
 }
 
-/** Undo and redo, to the last, go through the same versions of the document as before. */
+/** Undo and redo, all the way, go through the same versions of the document as before. */
 function checkUndo(editor: DocumentEditor, versions: readonly Uint8Array[], at: number, where: string): void {
     const is = (version: Uint8Array | undefined): boolean => Buffer.from(imageOf(now(editor))).equals(Buffer.from(version ?? []));
     const { done, undone } = editor.state.get().history;
@@ -79,7 +79,7 @@ test('closed at 500 moments: all that was finished is there, with its undo and r
         const random = randomNumbers(seed);
         const disk = new PassingStorage();
         const { editor } = await openTab(disk);
-        const versions: Uint8Array[] = [imageOf(now(editor))]; // what a person has seen finished, as undo goes through it
+        const versions: Uint8Array[] = [imageOf(now(editor))]; // the finished versions, as undo passes through them
         let at = 0;
         let open: ReturnType<DocumentEditor['gesture']> | null = null;
         const finished = (): void => {
@@ -116,7 +116,7 @@ test('closed at 500 moments: all that was finished is there, with its undo and r
         closed.edits += at;
         closed.inGesture += Number(open !== null);
         closed.undone += Number(at < versions.length - 1);
-        const { editor: next } = await openTab(disk); // the first tab is gone, in whatever it was doing
+        const { editor: next } = await openTab(disk); // the first tab is gone, whatever it was doing
         expect(Buffer.from(imageOf(now(next))).equals(Buffer.from(versions[at] ?? [])), `seed ${seed}`).toBe(true);
         checkUndo(next, versions, at, `seed ${seed}`);
     }
@@ -216,7 +216,7 @@ test('several documents, each with its own pages; the one edited last is opened'
     expect(imageOf(now(editor))).toEqual(imageOf(library));
     editor.dispatch(editor.edits.rename(now(editor), 2, 'curtsy'));
     documents.rename('Bows');
-    expect(editor.state.get().history.done).toHaveLength(1); // a new name keeps the history
+    expect(editor.state.get().history.done).toHaveLength(1); // renaming keeps the history
     const again = await openTab(disk);
     expect(now(again.editor).name).toBe('Bows');
     expect(
@@ -234,7 +234,7 @@ test('what is edited right after a copy was asked for belongs to the copy, and t
     const { editor, documents } = await openTab(disk);
     const first = documents.state.get().openId;
     const made = documents.create('My motions (copy)', now(editor));
-    editor.dispatch(editor.edits.rename(now(editor), 2, 'curtsy')); // before the browser has given the copy to this tab
+    editor.dispatch(editor.edits.rename(now(editor), 2, 'curtsy')); // before the browser has given the copy's lock to this tab
     await made;
     await settle();
     const kept = new Map((await disk.load()).documents.map(one => [one.name, one.image]));
@@ -252,7 +252,7 @@ test('a document that another tab has opens as a copy', async () => {
     const second = await openTab(disk, { taken: documents.state.get().openId });
     expect(now(second.editor).name).toBe('My motions (copy)');
     expect(second.documents.state.get().documents).toHaveLength(2);
-    expect(second.copies).toEqual(['My motions (copy)']); // said, not only done
+    expect(second.copies).toEqual(['My motions (copy)']); // the page reports it
 });
 
 test('a copy for a second tab is kept from its first edit on: tabs that only look leave none behind', async () => {
@@ -261,7 +261,7 @@ test('a copy for a second tab is kept from its first edit on: tabs that only loo
     const taken = documents.state.get().openId;
     const kept = async (): Promise<string[]> => (await disk.load()).documents.map(one => one.name).sort();
     for (let visit = 0; visit < 3; visit++) {
-        editor.dispatch(editor.edits.rename(now(editor), 2, `bow${visit}`)); // the first tab's is the newest again
+        editor.dispatch(editor.edits.rename(now(editor), 2, `bow${visit}`)); // the first tab's document is the newest again
         const { copies } = await openTab(disk, { taken });
         expect(copies).toEqual(['My motions (copy)']);
         expect(await kept()).toEqual(['My motions']);
@@ -272,7 +272,7 @@ test('a copy for a second tab is kept from its first edit on: tabs that only loo
     expect(await kept()).toEqual(['My motions', 'My motions (copy)']);
     expect(second.editor.page(3).name).toBe('mine');
     const third = await openTab(disk, { taken });
-    expect(now(third.editor).name).toBe('My motions (copy)'); // the edited one, which nobody has open now
+    expect(now(third.editor).name).toBe('My motions (copy)'); // the edited copy, which no tab has open now
     expect(third.editor.page(3).name).toBe('mine');
 });
 
@@ -323,7 +323,7 @@ test('a page of the library is one until it is changed; its copy is under a name
     expect(editor.page(copy.page)).toMatchObject({ name: 'wave 2', code: 0, next: editor.page(3).next });
     expect(editor.page(copy.page).steps).toEqual(editor.page(3).steps);
     expect([editor.isOfLibrary(3), editor.isOfLibrary(copy.page)]).toEqual([true, false]);
-    editor.undo(); // one step
+    editor.undo(); // one undo step
     expect(editor.page(copy.page).steps).toEqual([]);
 });
 

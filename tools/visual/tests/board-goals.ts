@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the servos of the board in the page are told by Play: My servos must be told the same.
+// The goals that Play sends to the servos of the simulated board. My servos must receive the same.
 import { CYCLES_PER_MS, CYCLES_PER_TICK } from '../sim/board.ts';
 import { SERVO_IDS, makeMachine } from '../sim/machine.ts';
 import { robotImages, wasmModule } from './robot-bench.ts';
@@ -13,12 +13,12 @@ export function posesOf(frames: readonly ReadonlyMap<number, number>[]): number[
     });
 }
 
-/** All goals of the servos after each frame, without repetitions in a row. */
+/** All goals of the servos after each frame, without consecutive duplicates. */
 export function distinct(poses: readonly (readonly number[])[]): string[] {
     return poses.map(pose => pose.join(' ')).filter((pose, i, all) => pose !== all[i - 1]);
 }
 
-/** Of the board that plays this motion. */
+/** The goals of the board while it plays this motion. */
 export async function goalsOfBoard(motion: string): Promise<string[]> {
     const board = await makeMachine(await wasmModule('board'), await robotImages('play'), null);
     const poses: number[][] = [];

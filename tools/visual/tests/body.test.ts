@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The body as the page has it, against what tools/body/README.md and the public descriptions say in words.
+// The page's body against tools/body/README.md and the public descriptions.
 import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import { jointAngle, placeLinks, servoPosition, soleCorners } from '../model/body.ts';

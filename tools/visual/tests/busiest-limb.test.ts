@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The limb with which Curves begins.
+// The limb that Curves shows first.
 import { expect, test } from 'vitest';
 import { busiestLimb } from '../model/busiest-limb.ts';
 

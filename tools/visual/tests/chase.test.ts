@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The camera goes behind a robot that is driven; the floor goes with it by whole patterns of tiles.
+// The camera follows a driven robot from behind. The floor moves along in whole tile patterns.
 import { expect, test } from 'vitest';
 import { chaseTurn, headingOf } from '../view/chase.ts';
 import { wholePatterns } from '../view/room.ts';
 
 const TURN = 2 * Math.PI;
-/** A trunk turned about the vertical, then about its own axis across. */
+/** A trunk turned about the vertical (yaw), then about its own lateral axis (pitch). */
 function trunk(yaw: number, pitch: number) {
     const [cy, sy, cp, sp] = [Math.cos(yaw / 2), Math.sin(yaw / 2), Math.cos(pitch / 2), Math.sin(pitch / 2)];
     return { pos: [0, 0, 0.2], quat: [cy * cp, -sy * sp, cy * sp, sy * cp] } as const;

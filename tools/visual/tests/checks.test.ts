@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks and links: figures of the makers' sheets and small documents worked out by hand.
+// Checks and links: figures from the manufacturers' data sheets and small documents calculated by hand.
 import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import type { Body } from '../model/body.ts';
@@ -35,7 +35,7 @@ test('a step of 300 units in 20 ticks without a ramp is told, with how much too 
     const [found, ...others] = checkPage(fast, 5, options(fast)).filter(one => one.kind === 'too-fast');
     expect(others).toEqual([]);
     expect(found).toMatchObject({ page: 5, step: 1, joint: 3 });
-    expect(found?.amount).toBeCloseTo(15 / 6.8, 1); // 90 % of 7.5 units a tick (body/README.md)
+    expect(found?.amount).toBeCloseTo(15 / 6.8, 1); // 90 % of 7.5 units per tick (body/README.md)
     const slow = withPage(emptyDocument(format, ''), 5, [step({ 3: 512 }), step({ 3: 812 }, 60)], { accelTime: 0 });
     expect(checkPage(slow, 5, options(slow)).filter(one => one.kind === 'too-fast')).toEqual([]);
 });
@@ -87,7 +87,7 @@ test('our own library has nothing to be told, at the nominal voltage too', async
 test('the graph: dead ends, pages that nothing reaches, exits that go round', () => {
     let document = emptyDocument(format, '');
     const links: Record<number, HeaderChange> = {
-        1: { code: 1, next: 2, exit: 3, linked1: 4, linked1Code: 4, linked2: 9 }, // linked2, and linked1 of page 2, have no code: never followed
+        1: { code: 1, next: 2, exit: 3, linked1: 4, linked1Code: 4, linked2: 9 }, // linked2, and linked1 of page 2, have no code: not followed
         2: { exit: 3, blendLeft: 5, linked1: 9 },
         3: { exit: 2 },
         4: { next: 50 },

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The clock for a real robot on a computer that is busy elsewhere for a second.
+// The clock for a real robot while the computer is busy for a second.
 import { expect, test } from 'vitest';
 import { wallClock } from '../robot/clock.ts';
 

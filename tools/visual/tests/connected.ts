@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page's connection to a robot on the bench, with what it says and what it is sent. Closed when the test is over.
+// The page's connection to a robot on the bench, with what it reports and what it is sent. Closed at the end of the test.
 import { afterEach, expect } from 'vitest';
 import { Connection } from '../robot/connection.ts';
 import { RobotBench } from './robot-bench.ts';
@@ -20,7 +20,7 @@ export function connected(bench: RobotBench) {
     return { connection, text: () => text, forget: () => (text = '') };
 }
 
-/** Edit, ready. sent: what goes down the line from now on. */
+/** Edit, ready. sent: the requests sent from now on. */
 export async function connectedEdit(seed: number) {
     const bench = await RobotBench.make('edit', seed);
     const sent: string[] = [];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the area Curves draws of a shaped motion: the curve is the shaped one, way-points stay on what is stored and is edited.
+// What Curves draws of a shaped motion: the curve is the shaped one, the way-points stay on the stored values, which are edited.
 import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import { DocumentEditor } from '../app/editor.ts';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Too fast is too fast, and shaping changes curves as SHAPING.md says.
+// Finds goals that are too fast, and checks that shaping changes curves as SHAPING.md says.
 import { expect, test } from 'vitest';
 import { tooFast } from '../model/curve-speed.ts';
 import { AS_STORED, JOINTS } from '../model/motion.ts';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Damaged, hostile and strange files: every one that m512's own tests read (m512_cases.py records them while they run), opened in the
-// page. CASES=all: all of them (minutes); else one of each kind of answer.
+// Damaged, hostile and strange files: every file that m512's own tests read (recorded by m512_cases.py during those tests), opened in the
+// page. CASES=all: all of them (minutes); otherwise one for each kind of answer.
 import { execFile } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
@@ -19,7 +19,7 @@ const ROOT = new URL('../../../', import.meta.url).pathname;
 const body = JSON.parse(readFileSync(`${ROOT}build/wasm/body.json`, 'utf8')) as Body;
 const how = process.env.CASES === 'all' ? 'all' : 'quick';
 
-/** What m512 makes of a file on this machine. */
+/** The result of m512 for a file on this computer. */
 interface Case {
     readonly test: string;
     readonly name: string;
@@ -52,7 +52,7 @@ async function openPage() {
     return { editor, files: new DocumentFiles(editor, formats, { cancel: () => undefined, create: () => Promise.resolve() }) };
 }
 
-/** Why another file cannot be read depends on where one is: a page has no folder. */
+/** Why another file cannot be read depends on the place: a page has no folder. */
 function withoutReason(sentence: string): string {
     return sentence.replace(/(: cannot read [^:]+): .*/, '$1');
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The document: random edits, undone and redone; what single edits do, worked out by hand.
+// The document: random edits with undo and redo, and single edits calculated by hand.
 import { expect, test } from 'vitest';
 import { emptyDocument, imageOf, isSamePage, pageOf, withChanges } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
@@ -18,7 +18,7 @@ const PAIRS: readonly JointPair[] = [1, 3, 5, 7, 9, 11, 13, 15, 17].map(id => [i
 const view = (document: MotionDocument, page: number): PageView => readPage(format, pageOf(document, page));
 const after = (document: MotionDocument, edit: Result<Transaction>): MotionDocument => withChanges(document, must(edit).changes);
 
-/** One edit of any kind with arguments by chance; some are refused, as those of people are. */
+/** A random edit with random arguments. Some are refused. */
 function randomEdit(random: () => number, document: MotionDocument): Result<Transaction> {
     const below = (count: number): number => Math.floor(random() * count);
     const page = below(128);
@@ -83,7 +83,7 @@ test('10,000 random edits: all undone is the first document, all redone the last
             for (let n = Math.floor(random() * 20); n > 0; n--) state = random() < 0.6 ? states.undoOne(state) : states.redoOne(state);
     }
     expect(refused).toBeGreaterThan(100);
-    expect(effective.size).toBe(18); // every kind of edit above has changed something, and often
+    expect(effective.size).toBe(18); // every kind of edit above has changed something, most of them often
     expect(Math.min(...effective.values())).toBeGreaterThan(15);
     const last = imageOf(state.document);
     for (const [page, bytes] of state.document.pages.entries()) if (page > 0) expect(format.fault(bytes), `page ${page}`).toBeNull();
@@ -129,7 +129,7 @@ test('steps are moved, duplicated, deleted and put in between as one would by ha
     expect(order()).toEqual([4, 1, 3, 4, 3, 5, 2]);
     expect(refusalOf(edits.interpolate(document, 5, 0))).toBe('steps-full');
     document = after(document, edits.deleteSteps(document, 5, [3, 4]));
-    document = after(document, edits.interpolate(document, 5, 1)); // between 1 and 3, whose time 31 becomes 16 and 15, as Edit's INT shares it
+    document = after(document, edits.interpolate(document, 5, 1)); // between 1 and 3; its time 31 is split into 16 and 15, as INT in Edit
     expect(order()).toEqual([4, 1, 2, 3, 5, 2]);
     expect(
         view(document, 5)

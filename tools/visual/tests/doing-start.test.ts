@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the status bar says of a robot in the page that starts, that has no power, and that does not start.
+// The status bar for a simulated robot that starts, has no power, or does not start.
 import { expect, test, vi } from 'vitest';
 import { Status } from '../app/status.ts';
 import type { SessionState } from '../view/session/session.ts';
@@ -33,7 +33,7 @@ test('without power it is off, whatever it said last', () => {
 test('one that never answers, and yours: what to do', () => {
     const late = doingText({ ...START, connection: 'silent', isLate: true }, null);
     expect(late).toMatch(/type GO there; otherwise start it anew under "Robot"/);
-    expect(late).not.toMatch(/flash|port/); // it is the robot in the page
+    expect(late).not.toMatch(/flash|port/); // not for the robot in the page
     expect(doingText({ ...START, connection: 'silent', source: 'yours' }, null)).toMatch(/Switch the robot on/);
 });
 
@@ -48,12 +48,12 @@ test('a slow computer is no silent robot: it is late by its own time alone', () 
         isWriting: () => false,
     });
     status.tell();
-    vi.advanceTimersByTime(100_000); // the computer is busy, and the robot has not had a second yet
+    vi.advanceTimersByTime(100_000); // the computer is busy, and the robot has had less than a second
     for (const ticks of [0, 64, 128]) status.reach(ticks);
     expect(state.get().doing.text).toBe('The robot is starting …');
     status.reach(128 * 11);
     expect(state.get().doing.text).toMatch(/does not answer/);
-    status.reach(1); // made anew
+    status.reach(1); // a new robot
     expect(state.get().doing.text).toBe('The robot is starting …');
     status.reach(128 * 11);
     state.set({ connection: 'ready', where: null });

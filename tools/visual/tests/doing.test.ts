@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The sentence about what the robot does, for Edit: it has to stay as long as it is true, because who starts Edit looks for its screen.
+// The sentence about what the robot does, for Edit. It must stay while it is true, because a person who starts Edit looks for its screen.
 import { expect, test } from 'vitest';
 import type { PlayState, Where } from '../robot/protocol.ts';
 import type { SessionState } from '../view/session/session.ts';

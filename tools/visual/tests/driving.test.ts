@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A key that is pressed before the robot can do it: kept, carried out when it can, and never in the air.
+// A key pressed before the robot is ready is kept, is carried out later, and never moves a robot in the air.
 import { expect, test, vi } from 'vitest';
 import { Driving } from '../app/driving.ts';
 import { StatusMessages } from '../app/status-messages.ts';

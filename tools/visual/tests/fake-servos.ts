@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Servos behind an adapter, in a time that is told: the machine below servos-*.wasm for tests. They are where they are told to be at once;
-// how real ones move is for tools/sim/servo.
+// Servos behind an adapter in simulated time: the machine below servos-*.wasm for tests. They reach their goals at once; tools/sim/servo
+// models real movement.
 
 import type { MachineParts, Memories } from '../servos/machine.ts';
 import { runProgram } from '../servos/machine.ts';
@@ -9,7 +9,7 @@ const EVERYBODY = 254;
 const [PING, READ, WRITE, SYNC_WRITE] = [1, 2, 3, 0x83];
 const GOAL = 30;
 const PRESENT = 36;
-/** Registers of an AX-12 as it is shipped, as far as they are not 0: address, value. */
+/** Factory settings of an AX-12's registers that are not 0: address, value. */
 const SHIPPED = [
     [0, 12],
     [2, 24],
@@ -53,7 +53,7 @@ export class FakeServos {
     nowMs = 0;
     isThere = true;
     isAskedToEnd = false;
-    /** An answer comes so many milliseconds after it was asked for. */
+    /** Delay of an answer in milliseconds. */
     latencyMs: number;
     rate = 1_000_000;
     text = '';
@@ -81,7 +81,7 @@ export class FakeServos {
         }
     }
 
-    /** Resolves when the program has ended, or when stop() ended it. */
+    /** Resolves when the program has ended or stop() was called. */
     async run(module: WebAssembly.Module): Promise<void> {
         await runProgram(module, this.parts()).catch((error: unknown) => {
             if (!this.isStopped) throw error;
@@ -96,7 +96,7 @@ export class FakeServos {
         this.typing.push(...new TextEncoder().encode(text));
     }
 
-    /** Resolves when that is so, while the program goes on. Rejects after ten minutes of its time. */
+    /** Runs the program until the condition holds. Rejects after ten minutes of its time. */
     until(what: () => boolean): Promise<void> {
         const endMs = this.nowMs + 600_000;
         return new Promise((done, fail) => {

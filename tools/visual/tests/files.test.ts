@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files through the page's Python and through m512 on this machine: the same bytes, losses and sentences.
+// Files through the page's Python and through m512 on this computer: the same bytes, losses and messages.
 import { execFile } from 'node:child_process';
 import { mkdtemp, readFile, readdir, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
@@ -28,7 +28,7 @@ interface Told {
     readonly losses: string[];
 }
 
-/** m512 as it is installed here. */
+/** Runs the m512 that is installed here. */
 async function m512(...words: string[]): Promise<string> {
     return (await run(join(ROOT, 'build/venv/bin/python'), ['-m', 'm512', ...words], { cwd: folder })).stdout;
 }
@@ -148,7 +148,7 @@ test('a link cannot fill the memory', async () => {
     const packed = Buffer.from(await new Response(bomb).arrayBuffer()).toString('base64url');
     expect(packed.length).toBeLessThan(100_000);
     expect(await decodeMotion(packed)).toBeNull();
-    await new Promise(resolve => setTimeout(resolve, 50)); // nor does it go on behind the answer
+    await new Promise(resolve => setTimeout(resolve, 50)); // it must not continue after the answer
     expect(inflated).toBeGreaterThan(0);
     expect(inflated).toBeLessThan(1_000_000);
 });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Live follow against the real Edit: the robot ends in the pose that was wanted last, and is never faster than is safe.
+// Live follow with the real Edit: the robot ends in the last wanted pose and never exceeds the safe speed.
 import { expect, test } from 'vitest';
 import { FOLLOW_DEGREES_PER_SECOND, Follow } from '../app/follow.ts';
 import { Connection } from '../robot/connection.ts';
@@ -41,8 +41,8 @@ test('many poses in a hurry: the last one counts, slowly', async () => {
     follow.set(null);
     expect(failed).toEqual([]);
     expect(Math.abs(before - 702)).toBeLessThan(5);
-    expect(fastest).toBeGreaterThan(20); // units a second: it moved
-    expect(fastest).toBeLessThan(FOLLOW_DEGREES_PER_SECOND * UNITS_PER_DEGREE * 1.5); // a question takes part of the time
+    expect(fastest).toBeGreaterThan(20); // units per second: it moved
+    expect(fastest).toBeLessThan(FOLLOW_DEGREES_PER_SECOND * UNITS_PER_DEGREE * 1.5); // a request takes part of the time
     await connection.close();
 });
 

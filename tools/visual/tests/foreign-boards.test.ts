@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Boards that are none of ours, and noise: what m512's test_noise.py puts before m512, put before the page's connection. It ends in a state
-// that has a sentence, every question is answered or refused in bounded time, and nothing but a RobotError comes out.
+// Foreign boards and noise: the input of m512's test_noise.py, given to the page's connection. It must end in a state that has a message,
+// answer or refuse every request in bounded time, and throw nothing but a RobotError.
 import { execFileSync } from 'node:child_process';
 import { expect, test } from 'vitest';
 import { Connection } from '../robot/connection.ts';
@@ -16,7 +16,7 @@ import { SimulatedClock, randomNumbers, settle } from './robot-bench.ts';
 
 const ROOT = new URL('../../../', import.meta.url).pathname;
 const SEED = 20261122;
-/** Each question has its time limit, and they wait for each other. */
+/** Each request has its own time limit, and they run one after the other. */
 const LIMIT_MS = 300_000;
 const { format } = await makeFormat();
 const crcOf = (bytes: Uint8Array): number => format.crc(bytes);
@@ -37,7 +37,7 @@ function talks(): Uint8Array[] {
     return lines.map(line => new Uint8Array(Buffer.from(JSON.parse(line) as string, 'base64')));
 }
 
-/** A board that says some of its bytes whenever it is spoken to, and then no more. */
+/** A board that sends some of its bytes whenever it receives something, until they are used up. */
 function boardThatSays(bytes: Uint8Array, random: () => number): BytePort {
     let left = bytes;
     const port: BytePort = new BytePort('a strange board', () => {
@@ -48,7 +48,7 @@ function boardThatSays(bytes: Uint8Array, random: () => number): BytePort {
     return port;
 }
 
-/** A port at which a board is in its loader: a line is answered by Bad Command, `sent` is all that came to it. */
+/** A port with a board in its loader, which answers every line with Bad Command. `sent` is what the board received. */
 function loaderThatSays(banner: string) {
     const sent: string[] = [];
     const port: BytePort = new BytePort('a loader', bytes => {

@@ -2,7 +2,7 @@
 import { expect, test } from 'vitest';
 import { glide } from '../view/glide.ts';
 
-/** What is left of a way of 1 after frames that took so many milliseconds each. */
+/** The remaining distance of 1 after frames of these lengths in milliseconds. */
 const left = (framesMs: readonly number[]): number => framesMs.reduce((way, ms) => way * (1 - glide(0.08, ms)), 1);
 
 test('a camera that follows is as far after a second of 60 pictures, of 16, of 2, and of uneven ones', () => {

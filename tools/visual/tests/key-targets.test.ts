@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the keys lead in the motion library, against the table of pages in tools/motions/README.md.
+// The pages that keys lead to in the motion library, against the table in tools/motions/README.md.
 import { readFile } from 'node:fs/promises';
 import { beforeAll, expect, test } from 'vitest';
 import { targetsFromRest, targetsFrom } from '../model/key-targets.ts';
@@ -14,7 +14,7 @@ beforeAll(async () => {
     ({ pages } = await libraryDocument());
 });
 
-/** "U 3" as the code that is the sum of its keys. */
+/** "U 3" as a code: the sum of its keys. */
 const KEYS: Readonly<Record<string, number>> = { U: 1, D: 2, L: 4, R: 8, 1: 16, 2: 32, 3: 64, 4: 128 };
 const code = (keys: string): number =>
     keys

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Hands, feet, mirror and balance. What is reached is judged by placeLinks() (body.test.ts holds it to the drawings), the
-// bent knee by the law of cosines, the centre of mass by MuJoCo, which reads the body file itself.
+// Hands, feet, mirror and balance. Reached poses are checked with placeLinks() (body.test.ts checks that against the drawings), the bent
+// knee with the law of cosines, the centre of mass with MuJoCo, which reads the body file itself.
 import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import { ORIGIN, centreOfMass, hull, lowerFoot, marginInside, supportPolygon, trunkOn } from '../model/balance.ts';
@@ -50,7 +50,7 @@ test('a hand that is wanted too far away stretches towards it and says what is m
     const from = tipOf('right', STRAIGHT);
     const { angles, offM } = reach(STRAIGHT, handLimb(body, 'right'), { pos: [0.5, from[1], 0] });
     expect(staysWithin(angles)).toBe(true);
-    expect(offM).toBeGreaterThan(0.28); // the arm is 0.18 long
+    expect(offM).toBeGreaterThan(0.28); // the arm is 0.18 m long
     expect(offM).toBeLessThan(0.36);
     expect(tipOf('right', angles)[0]).toBeGreaterThan(0.14);
 });
@@ -88,7 +88,7 @@ test('a straight leg that shall be 20 mm shorter bends its knee as the law of co
     const { angles } = reach(STRAIGHT, footLimb(body, 'left'), { pos: add(foot.pos, [0, 0, 0.02]), quat: STILL });
     const bone = Math.hypot(75, 14.5);
     const inner = (between: number): number => Math.acos((2 * bone * bone - between * between) / (2 * bone * bone));
-    // At 0 the knee stands behind the line from hip to ankle; bending takes it through the line to the front.
+    // At 0 the knee is behind the line from hip to ankle. Bending moves it through the line to the front.
     expect(-(angles.get(14) ?? 0)).toBeCloseTo(Math.PI - inner(150) + (Math.PI - inner(130)), 3);
 });
 
@@ -143,7 +143,7 @@ test('straight on two feet: the soles cover 100 x 137 mm and the centre of mass 
     const places = placeLinks(body, trunk, angleIn(STRAIGHT));
     const polygon = supportPolygon(body, places);
     const wide = (axis: 0 | 1): number => Math.max(...polygon.map(p => p[axis])) - Math.min(...polygon.map(p => p[axis]));
-    expect(wide(0)).toBeCloseTo(0.1, 6); // sole 100 x 60, feet 77 apart: humanoid.xml
+    expect(wide(0)).toBeCloseTo(0.1, 6); // soles 100 x 60 mm, feet 77 mm apart: humanoid.xml
     expect(wide(1)).toBeCloseTo(0.077 + 0.06, 6);
     const [x, y] = centreOfMass(body, places);
     expect(marginInside(polygon, [x, y])).toBeGreaterThan(0.02);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each language says everything, in its own words, with the same parts in it; and which one a page has.
+// Every language has every text, in its own words and with the same arguments. Also the choice of the page's language.
 import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import type { Body } from '../model/body.ts';
@@ -13,21 +13,21 @@ import PSEUDO from '../view/texts/pseudo.ts';
 import type { Texts } from '../view/texts/texts.ts';
 
 const OTHERS: Readonly<Record<string, Texts>> = { de: DE, es: ES, ja: JA, ko: KO };
-/** Texts that are the same in some languages: names of programs and formats, and words that have been taken over. */
+/** Texts that are the same in some languages: names of programs and formats, and borrowed words. */
 const SAME =
     /^\W*(OK|Link|Tour|Robot|Insert|Delete|Shift|Pose|Hand|Pause|Servos?|Terminal|Firmware|Name|Text|in|Error|No|Intel HEX|RoboPlus)?\W*$/i;
-/** Keys that are called the same everywhere. */
+/** Keys with the same name in every language. */
 const KEY = /^([^a-z]*|.*\b(Tab|Esc|F\d|Alt|Enter|Ctrl|W A S D|Shift|Insert|Delete|Page Up)\b.*|[A-Z])$/;
 
 type Leaf = string | ((...parts: never[]) => unknown);
 
-/** Every text of a language, by its place: "steps.play". */
+/** All texts of a language by path: "steps.play". */
 function leaves(value: unknown, place = ''): [string, Leaf][] {
     if (typeof value === 'string' || typeof value === 'function') return [[place, value as Leaf]];
     return Object.entries(value as Record<string, unknown>).flatMap(([name, one]) => leaves(one, place === '' ? name : `${place}.${name}`));
 }
 
-/** What a text is made of when its parts can be told: numbers 71, 72 ..., strings "<3>". */
+/** A text made with recognisable arguments: numbers 71, 72 ..., strings "<3>". */
 function made(leaf: Leaf, place: string): string {
     if (typeof leaf === 'string') return leaf;
     const text = leaf(...(partsFor(place) as never[]));
@@ -62,7 +62,7 @@ function partsFor(place: string): unknown[] {
     return special[place] ?? NUMBERS.get(place) ?? ['<1>', '<2>', '<3>'];
 }
 
-/** By what English makes of them: a part that is not a string there is a number. */
+/** The arguments that are numbers: those that are not strings in the English text. */
 const NUMBERS = new Map<string, unknown[]>(
     leaves(EN).flatMap(([place, leaf]) => {
         if (typeof leaf !== 'function') return [];
@@ -77,7 +77,7 @@ const NUMBERS = new Map<string, unknown[]>(
     }),
 );
 
-/** The parts that stand in a text, however often. */
+/** The arguments found in a text, each once. */
 function partsIn(text: string): string[] {
     return [...new Set(text.match(/<\d>|7[1-9]/g) ?? [])].sort();
 }

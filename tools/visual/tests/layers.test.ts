@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Imports point down only: model < robot < sim < servos; model < files; the view uses model and robot; app and main.ts join them all.
+// Imports point down only: model < robot < sim < servos; model < files; view uses model and robot; app and main.ts join them all.
 import { readFileSync, readdirSync } from 'node:fs';
 import { dirname, relative, resolve } from 'node:path';
 import { expect, test } from 'vitest';
@@ -14,7 +14,7 @@ const MAY: Readonly<Record<string, readonly string[]>> = {
     view: ['view', 'robot', 'model'],
     app: ['app', 'view', 'files', 'servos', 'sim', 'robot', 'model'],
 };
-/** Packages that a layer may use; everything else is one of ours. */
+/** Packages that a layer may use. All other imports are our own files. */
 const PACKAGES: Readonly<Record<string, RegExp>> = {
     model: /^$/,
     robot: /^$/,
@@ -25,7 +25,7 @@ const PACKAGES: Readonly<Record<string, RegExp>> = {
     app: /^$/,
 };
 
-/** Names within the folder, those in folders of its own too. */
+/** File names in the folder and its subfolders. */
 function sourcesIn(folder: string): string[] {
     return readdirSync(resolve(ROOT, folder), { recursive: true, encoding: 'utf8' }).filter(name => name.endsWith('.ts'));
 }
@@ -62,7 +62,7 @@ test('an import upwards is found', () => {
 });
 
 test('no listing of ours uses document, window or storage below the view', () => {
-    const browser = /\b(document\.(body|create|get|query|add|documentElement)|(window|localStorage|indexedDB)\b\.)/; // a motion document is another
+    const browser = /\b(document\.(body|create|get|query|add|documentElement)|(window|localStorage|indexedDB)\b\.)/; // not a motion document
     for (const folder of ['model', 'robot', 'sim', 'servos', 'files']) {
         for (const name of sourcesIn(folder)) {
             expect(browser.test(readFileSync(resolve(ROOT, folder, name), 'utf8')), `${folder}/${name}`).toBe(false);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bytes here are written down by hand, as PROTOCOL.md has them; the CRC was calculated elsewhere.
+// The bytes are written by hand as in PROTOCOL.md. The CRC was calculated elsewhere.
 import { expect, test } from 'vitest';
 import { framed, isAnswer, parseLine } from '../robot/line-parser.ts';
 import type { LineEvent, LineState } from '../robot/line-parser.ts';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Links: what C says of them, against m512 (links that follow), against the player (where a page leads), and by hand.
+// Links as reported by C, checked against m512 (links that follow), against the player (where a page leads), and by hand.
 import { execFileSync } from 'node:child_process';
 import { expect, test } from 'vitest';
 import { emptyDocument, imageOf, withChanges } from '../model/document.ts';
@@ -12,13 +12,13 @@ const ROOT = new URL('../../../', import.meta.url).pathname;
 const { format, edits } = await makeFormat();
 const SEED = 512_016;
 
-/** Thirty pages that lead anywhere, some of them damaged, some with a link to no page. */
+/** Thirty pages with random links. Some are damaged, some link to a page that does not exist. */
 function tangle(random: () => number): MotionDocument {
     const any = (page: number): number => (random() < 0.4 ? 0 : random() < 0.15 ? page : 1 + Math.floor(random() * 30));
     const pages = emptyDocument(format, '').pages.map((empty, page) => {
         if (page === 0 || page > 30 || random() < 0.1) return empty;
         const step = { positions: Array.from({ length: 31 }, (_, id) => (id === 3 ? 400 + page : null)), time: 8, pause: 0 };
-        const steps = [step, step]; // a link is decided when the last step begins: a code that comes before it counts
+        const steps = [step, step]; // a link is decided when the last step begins, so only a code that arrives earlier counts
         const links = Object.fromEntries([...LINK_FIELDS, ...PARTNER_FIELDS].map(field => [field, any(page)]));
         const bytes = must(
             writePage(format, empty, { ...links, steps, linked1Code: Math.floor(random() * 4), linked2Code: Math.floor(random() * 4) }),
@@ -67,7 +67,7 @@ test('copied, moved and exchanged pages, and the links that follow them: as m512
             replace: action === 'copy',
         });
         const answer = answers[i] ?? null;
-        if (!edit.ok || answer === null) continue; // each has its own rules of what it does at all
+        if (!edit.ok || answer === null) continue; // each has its own rules on what it accepts
         const after = imageOf(withChanges(document, edit.value.changes));
         expect(Buffer.from(after).equals(Buffer.from(answer, 'base64')), `seed ${SEED}, case ${i}: ${action} ${from} to ${to}`).toBe(true);
         compared++;
@@ -99,7 +99,8 @@ test('where a page leads is where the player goes, by every code and by a stop',
                 const lead =
                     leads.find(one => kinds.includes(one.kind) && (code === 255 || one.code === code)) ??
                     leads.find(one => one.kind === (code === 255 ? 'exit' : 'next'));
-                // A page that is damaged or empty ends the play; so does a linked page 0 with a code. One that leads to itself goes on or ends there.
+                // A damaged or empty page ends the play, as does a linked page 0 with a code. A page that leads to itself continues or ends
+                // there.
                 const { linked1, linked1Code, linked2, linked2Code } = readPage(format, bytes);
                 const ends = code !== 0 && (code === linked1Code ? linked1 : code === linked2Code ? linked2 : 1) === 0;
                 const to = lead && !ends && format.isPlayable(document.pages[lead.to] ?? format.empty) ? lead.to : page;
@@ -126,7 +127,7 @@ test('what is never followed is no lead: a linked page without a code, a second 
     const beyond = must(writePage(format, format.empty, { steps, exit: 9 }));
     beyond[25] = 200; // NEXT_PAGE
     expect(format.leads(format.sealed(beyond))).toEqual([{ kind: 'exit', to: 9, code: 0 }]);
-    expect(format.leads(beyond)).toEqual([]); // its checksum is wrong now
+    expect(format.leads(beyond)).toEqual([]); // its checksum is wrong
 });
 
 test('a play of a page comes to itself and to all that it leads to; the trim is no play; codes call', () => {
@@ -139,7 +140,7 @@ test('a play of a page comes to itself and to all that it leads to; the trim is 
     put(6, { exit: 5 });
     put(7, { blendLeft: 9 });
     put(8, {});
-    put(9, { next: 40 }); // which is empty
+    put(9, { next: 40 }); // page 40 is empty
     put(20, { code: 12, next: 21 });
     put(21, { next: 20 });
     expect(format.reach(document, 5)).toEqual([5, 6, 7, 9, 40]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a person feels of the line, in simulated time, against the real firmware: how soon the robot moves when a key goes down,
-// and how many poses a second the picture of your robot gets. The figures are those of the issue: 150 ms and 20.
+// Delays that a person notices, in simulated time with the real firmware: how soon the robot moves after a key press, and how many poses
+// per second the picture of your robot gets. The limits, 150 ms and 20, come from the issue.
 import { expect, test } from 'vitest';
 import { Connection } from '../robot/connection.ts';
 import { askWhere, command, play } from '../robot/protocol.ts';
@@ -10,7 +10,7 @@ import type { RemoteButton } from '../robot/remote.ts';
 import { RobotBench, randomNumbers, settle } from './robot-bench.ts';
 
 const SEED = 20261122;
-const STANDS = 1; // the page in which it stands and waits
+const STANDS = 1; // the standing pose
 
 async function ready(image: 'play' | 'edit', seed: number): Promise<{ bench: RobotBench; connection: Connection }> {
     const bench = await RobotBench.make(image, seed);

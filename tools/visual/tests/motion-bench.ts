@@ -24,13 +24,13 @@ export async function makeFormat() {
     return { format, edits: makeEdits(format) };
 }
 
-/** The value, or the refusal thrown. */
+/** Returns the value or throws the refusal. */
 export function must<T>(result: Result<T>): T {
     if (!result.ok) throw new Error(`refused: ${result.refusal.code} ${result.refusal.words}`);
     return result.value;
 }
 
-/** The code of the refusal; '' when nothing was refused. */
+/** The refusal's code; '' if nothing was refused. */
 export function refusalOf(result: Result<unknown>): string {
     return result.ok ? '' : result.refusal.code;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// motion.wasm against what others know of motions: the firmware in the simulated board, which sends the goals to servos.
+// motion.wasm against the firmware on the simulated board, which sends the goals to its servos.
 import { expect, test } from 'vitest';
 import { Motion, PAGE_BYTES } from '../model/motion.ts';
 import type { MotionExports } from '../model/motion.ts';
@@ -36,7 +36,7 @@ test('a bow as it is drawn is the bow that the robot sends', async () => {
     const bench = await RobotBench.make('play', 31);
     await bench.run(2000);
     bench.board.send('pc', new TextEncoder().encode('@play 2\r'));
-    // The way to the first pose is Play's; from the moment page 2 plays, the goals are the law's.
+    // Play decides the movement to the first pose. From the moment page 2 plays, the goals follow the motion law.
     const sent: number[] = [];
     for (let tick = 0; tick < 1300; tick++) {
         bench.board.runTo(bench.board.nowCycles + CYCLES_PER_TICK);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The browser's Worker for tests in Node, as far as sim/robot-client.ts and sim/worker.ts use it: a thread of its own. What is posted in
-// one go is taken in one go, so that nothing the worker waits for has come between.
+// The browser's Worker for tests in Node, as far as sim/robot-client.ts and sim/worker.ts need it: a thread. Messages posted together are
+// received together, so that nothing the worker waits for can come between them.
 import { Worker as Thread } from 'node:worker_threads';
 
 const BOOT = (url: string): string => `
@@ -12,7 +12,7 @@ const BOOT = (url: string): string => `
 `;
 
 export class NodeWorker {
-    /** Those that nobody has ended. */
+    /** Workers that were not terminated. */
     static readonly alive = new Set<NodeWorker>();
     onmessage: ((event: { data: unknown }) => void) | null = null;
     onerror: ((event: { message: string }) => void) | null = null;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an opened file does to the document: its motions go into free pages with what they lead to, unless somebody wants it otherwise.
+// What an opened file does to the document: its motions and the pages they lead to go into free pages, unless the person chooses otherwise.
 import { expect, test } from 'vitest';
 import { DocumentEditor } from '../app/editor.ts';
 import { DocumentFiles } from '../app/files.ts';
@@ -15,7 +15,7 @@ const { format } = await makeFormat();
 const library = await libraryDocument();
 const [WALK, WALK_R] = [20, 21];
 
-/** A document with the library, and a file of these pages that has been read. */
+/** A document with the library, and a file with these pages that has been read. */
 async function opened(pages: ReadonlyMap<number, Uint8Array>) {
     const body = { joints: [] } as unknown as Body;
     const editor = new DocumentEditor(
@@ -67,7 +67,7 @@ test('what is there already is not doubled, unless it leads to something that ca
     );
     torn.files.addOpened();
     const { document, page } = torn.editor.state.get();
-    expect(pageOf(document, WALK)).toEqual(pageOf(library, WALK)); // nothing of mine leads elsewhere now
+    expect(pageOf(document, WALK)).toEqual(pageOf(library, WALK)); // my pages still lead to the same pages
     expect(torn.editor.page(page).steps.length).toBeGreaterThan(0);
 });
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much of the robot's time is due, for a wall clock that the test turns. 16,000 cycles are a millisecond of the board.
+// How much robot time is due, for a wall clock set by the test. A millisecond of the board is 16,000 cycles.
 import { expect, test } from 'vitest';
 import { Pacer } from '../sim/pacer.ts';
 
@@ -29,6 +29,6 @@ test('a tab that slept does not catch up: no more than a quarter of a second is 
     const pacer = new Pacer();
     pacer.setSpeed(1, 0, 0);
     expect(pacer.dueCycle(250, 0)).toBe(250 * MS);
-    expect(pacer.dueCycle(3000, 0)).toBe(0); // let go
+    expect(pacer.dueCycle(3000, 0)).toBe(0); // the delay is skipped
     expect(pacer.dueCycle(3010, 0)).toBe(10 * MS);
 });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pages read and written, against motion/PAGE_FORMAT.md: its hex dump was made by hand, its table says in words what it is.
+// Reading and writing pages, against motion/PAGE_FORMAT.md: its hex dump was made by hand, and its table describes the content.
 import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import { readPage, stepSeconds, writePage } from '../model/page.ts';
@@ -8,7 +8,7 @@ import { libraryDocument, makeFormat, makeMotion, must, refusalOf } from './moti
 
 const { format } = await makeFormat();
 
-/** "000  62 6F 77 ..", a `*` stands for rows like the one before it. */
+/** "000  62 6F 77 ..". A `*` stands for rows equal to the one before. */
 function dumpOfBow(): Uint8Array {
     const text = readFileSync(new URL('../../../motion/PAGE_FORMAT.md', import.meta.url), 'utf8');
     const block = /```\n(000 {2}[\s\S]*?)```/.exec(text)?.[1] ?? '';
@@ -95,10 +95,10 @@ test('what a page cannot hold is refused', () => {
 
 test('what a flag hides stays when a page is written, and unknown bytes do', () => {
     const bytes = dumpOfBow();
-    bytes[64 + 2 * 19] = 0x21; // under the flag of joint 19
-    bytes[23] = 9; // unknown, kept as found
+    bytes[64 + 2 * 19] = 0x21; // hidden by the flag of joint 19
+    bytes[23] = 9; // unknown value, must be kept
     bytes[63] = 0x55;
-    bytes[64 + 64 * 5] = 0x12; // a step that is not counted
+    bytes[64 + 64 * 5] = 0x12; // a step beyond the step count
     const before = format.sealed(bytes);
     const after = must(writePage(format, before, { steps: readPage(format, before).steps, name: 'bow' }));
     expect(after).toEqual(before);

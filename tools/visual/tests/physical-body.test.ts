@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The robot with its body of mass in MuJoCo, driven by the real firmware: what a hand does to it and what it does when the hand
-// lets go. Expected values are what a person sees: a stiff limb goes back, nothing pulls any more, a robot that lies gets up.
+// The robot's body in MuJoCo, driven by the real firmware: what a hand does to it and what happens when the hand lets go. Expected is what
+// a person sees: a stiff limb returns, no force remains, a lying robot gets up.
 import { readFile } from 'node:fs/promises';
 import { expect, test } from 'vitest';
 import type { Body } from '../model/body.ts';
@@ -27,7 +27,7 @@ class StandingRobot {
         this.body = body;
     }
 
-    /** Stands on its own feet, in the pose of page 1. */
+    /** A robot that stands by itself in the pose of page 1. */
     static async make(seed: number): Promise<StandingRobot> {
         const body = JSON.parse(await readFile(new URL('wasm/body.json', BUILD), 'utf8')) as Body;
         const robot = new StandingRobot(
@@ -80,7 +80,7 @@ class StandingRobot {
         return this.simulation.state(0).servos.find(({ id }) => id === servo)?.position ?? NaN;
     }
 
-    /** Where a point of a link is in the room. */
+    /** The place of a link's point in the room. */
     placeOf(link: string, point: Vector): Vector {
         const place = placeLinks(this.body, this.trunk, joint => jointAngle(joint, this.position(joint.servo))).get(link);
         if (!place) throw new Error(`no link ${link}`);
@@ -101,7 +101,7 @@ test('a stiff arm follows the hand a little, and goes back when the hand lets go
     for (const [i, position] of arm().entries()) expect(position).toBeCloseTo(rest[i] ?? 0, -1);
     const there = robot.trunk.pos;
     robot.run(2 * SECOND);
-    for (const [i, at] of robot.trunk.pos.entries()) expect(at).toBeCloseTo(there[i] ?? 0, 3); // to half a millimetre in 2 s
+    for (const [i, at] of robot.trunk.pos.entries()) expect(at).toBeCloseTo(there[i] ?? 0, 3); // within half a millimetre in 2 s
     expect(robot.simulation.hasFallen).toBe(false);
 });
 

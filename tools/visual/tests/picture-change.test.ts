@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture that stands still is not drawn again; one that changed by anything that is seen is.
+// A picture without visible changes is not drawn again; one with any visible change is.
 import { BoxGeometry, Color, Group, Mesh, MeshStandardMaterial, PerspectiveCamera } from 'three';
 import { expect, test } from 'vitest';
 import { PictureChange } from '../view/picture-change.ts';

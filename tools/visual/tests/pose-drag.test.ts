@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Drags in the picture, judged by where placeLinks() then has the parts.
+// Drags in the picture, checked by the resulting places of placeLinks().
 import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import { ORIGIN, trunkOn } from '../model/balance.ts';

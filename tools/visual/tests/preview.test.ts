@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A motion in the picture before any robot plays it, and when the figure is the step, the motion, the robot.
+// Shows a motion in the picture before a robot plays it, and switches the figure between step, motion and robot.
 import { readFile } from 'node:fs/promises';
 import { expect, test } from 'vitest';
 import { DocumentEditor } from '../app/editor.ts';
@@ -108,7 +108,7 @@ test('who opens another area when the robot has ended looks at the step', async 
     const { preview, where, state } = await shown();
     where({ state: 'playing', page: 20, step: 1 });
     state.set({ tab: 'curves' });
-    expect(preview.state.get().figure).toBe('robot'); // it moves still
+    expect(preview.state.get().figure).toBe('robot'); // it is still moving
     where({});
     state.set({ tab: 'steps' });
     expect(preview.state.get().figure).toBe('step');

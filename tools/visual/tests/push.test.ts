@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A push ahead is ahead of the robot, wherever it has turned to.
+// A forward push follows the robot's heading.
 import { expect, test } from 'vitest';
 import { pushRobot } from '../view/push.ts';
 import type { RobotState } from '../robot/robot-state.ts';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A file that is too large, that cannot be read, or whose reading somebody has had enough of.
+// A file that is too large, is unreadable, or whose reading is cancelled.
 import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
@@ -15,7 +15,7 @@ import { settle } from './robot-bench.ts';
 const ROOT = new URL('../../../', import.meta.url).pathname;
 const body = JSON.parse(readFileSync(`${ROOT}build/wasm/body.json`, 'utf8')) as Body;
 
-/** A worker that hears nothing while it works, as Python does; a test says when it answers. */
+/** A worker that receives no messages while it works, like Python. The test decides when it answers. */
 class BusyWorker {
     static readonly all: BusyWorker[] = [];
     onmessage: ((event: { data: FromFiles }) => void) | null = null;
@@ -104,7 +104,7 @@ test('a file that cannot be read (a folder, or gone) is told', async () => {
 test('a file that is only looked at: cancelled, refused, unreadable and without Python it ends with a word, and the next one is read', async () => {
     const { files } = await openPage();
     const never = { name: 'slow.m512', size: 9, arrayBuffer: () => new Promise<ArrayBuffer>(() => undefined) };
-    const slow = files.look(never); // from a network drive that has gone
+    const slow = files.look(never); // as from a network drive that is gone
     files.cancel();
     expect(await slow).toEqual({ kind: 'cancelled' });
     const long = files.look(new File(['motion512 1'], 'long.m512'));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Requests against the real firmware on the simulated board, bytes split at random, in simulated time.
+// Requests to the real firmware on the simulated board, in simulated time. The bytes are split at random.
 import { afterEach, expect, test } from 'vitest';
 import { Connection } from '../robot/connection.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
@@ -62,7 +62,7 @@ test.each([
 ] as const)('%s: the questions of the protocol', async (image, seed) => {
     const { bench, connection } = await ready(image, seed);
     const requests = connection.requests;
-    await bench.run(2000); // the voltage is asked after the start
+    await bench.run(2000); // the firmware reads the voltage after the start
     expect(connection.version).toMatchObject({ image, board: 'cm5', protocol: 1 });
     expect(connection.version?.can.has('save')).toBe(image === 'edit');
     expect(await bench.until(askWhere(requests))).toMatchObject({ state: 'idle', batteryVolts: 9.6, faulty: 0 });
@@ -220,7 +220,7 @@ test('driven by a stick: @drive is in force, and ends with the play when the sti
     await bench.run(4000);
     await bench.until(drive(connection.requests, -30, 100, 80));
     expect((await bench.until(askWhere(connection.requests))).fields.get('blend')).toBe('-30');
-    await bench.run(6000); // nobody says @drive again: the watchdog of the firmware stops the walk
+    await bench.run(6000); // no further @drive: the firmware's watchdog stops the walk
     expect((await bench.until(askWhere(connection.requests))).state).toBe('idle');
 });
 
@@ -251,7 +251,7 @@ test.each([
     expect(await limp()).toEqual([1, 3, 5]);
     await bench.until(setTorque(requests, true, [1, 3, 5]));
     expect(await limp()).toEqual([]);
-    await bench.until(movePose(requests, 90, new Array<null>(31).fill(null))); // no joint: nothing is asked
+    await bench.until(movePose(requests, 90, new Array<null>(31).fill(null))); // no joint: nothing is sent
 });
 
 test('a play is shaped, and shaped back', async () => {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The robot in the page, started anew in every way that goes wrong: pressed twice, before it was there, after a crash, without a network.
-// Worker, board and firmware are the real ones; files and the browser's memory are made up.
+// Restarts of the robot in the page: pressed twice, before it was there, after a crash, without a network. Worker, board and firmware are
+// real; files and the browser's storage are fakes.
 import { readFile } from 'node:fs/promises';
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { SimulatedSource } from '../app/simulated-source.ts';
@@ -67,7 +67,7 @@ function page() {
     return { source, seen };
 }
 
-/** Until this image answers. */
+/** Waits until this image answers. */
 async function runs(source: SimulatedSource, image: string): Promise<void> {
     await vi.waitFor(() => expect(source.connection?.version?.image).toBe(image), { timeout: 240_000, interval: 20 });
 }

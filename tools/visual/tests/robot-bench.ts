@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A robot on the bench for the tests of robot/: the real firmware on the board of board.wasm, behind a port, in simulated
-// time. What the board sends arrives in pieces of a length that chance chooses.
+// A robot on the bench for the tests of robot/: the real firmware on the board of board.wasm behind a port, in simulated time. The board's
+// bytes arrive in pieces of random length.
 
 import { readFile } from 'node:fs/promises';
 import { CYCLES_PER_MS } from '../sim/board.ts';
@@ -11,7 +11,7 @@ import type { Clock } from '../robot/clock.ts';
 
 const BUILD = new URL('../../../build/', import.meta.url);
 
-/** Small, and the same everywhere: mulberry32. */
+/** mulberry32: small, and the same on every computer. */
 export function randomNumbers(seed: number): () => number {
     let state = seed >>> 0;
     return () => {
@@ -57,7 +57,7 @@ export async function robotImages(image: 'play' | 'edit') {
     return { boot: await hex('boot'), application: await hex(image), motions };
 }
 
-/** Lets everything that only waits for its turn happen. */
+/** Lets all pending tasks run. */
 export async function settle(): Promise<void> {
     for (let i = 0; i < 3; i++) await new Promise(resolve => setImmediate(resolve));
 }
@@ -81,7 +81,7 @@ export class RobotBench {
         return new RobotBench(board, seed);
     }
 
-    /** Lets simulated time pass. */
+    /** Runs simulated time. */
     async run(ms: number): Promise<void> {
         for (let i = 0; i < ms; i++) {
             if (!this.board.runTo(this.board.nowCycles + CYCLES_PER_MS)) throw new Error(this.board.violation?.text);
@@ -93,7 +93,7 @@ export class RobotBench {
         }
     }
 
-    /** Runs until the promise is done, at most so long; its result, or its error thrown. */
+    /** Runs until the promise settles, at most limitMs. Returns its result or throws its error. */
     async until<T>(promise: Promise<T>, limitMs = 10_000): Promise<T> {
         let isDone = false;
         promise.then(

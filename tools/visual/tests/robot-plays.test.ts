@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Play on your robot: what moves is what the document has, or nothing. Asked of the real firmware, in simulated time.
+// Play on your robot: it plays what the document has, or nothing. With the real firmware, in simulated time.
 import { expect, test } from 'vitest';
 import { RobotPlays } from '../app/robot-plays.ts';
 import { RobotTransfer } from '../app/transfer.ts';
@@ -16,7 +16,7 @@ const { format } = await makeFormat();
 const library = await libraryDocument();
 const WAVE = 60;
 
-/** Your robot with the motion library, and the page with this document; nothing of the robot has been read. */
+/** Your robot with the motion library, and the page with this document. Nothing has been read from the robot. */
 async function yours(image: 'play' | 'edit', document: MotionDocument, seed: number) {
     const bench = await RobotBench.make(image, seed);
     const { connection } = connected(bench);

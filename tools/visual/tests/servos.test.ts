@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// My servos: Play and Edit as WebAssembly, over the machine of servos/machine.ts, in a time that is told. What goes to the servos is
-// compared with what the board in the page sends them.
+// My servos: Play and Edit as WebAssembly on servos/machine.ts, in simulated time. The bytes sent to the servos are compared with those
+// that the simulated board sends.
 import { readFile } from 'node:fs/promises';
 import { expect, test } from 'vitest';
 import { SERVO_IDS } from '../sim/machine.ts';
@@ -18,7 +18,7 @@ async function library(): Promise<Uint8Array> {
     return pages;
 }
 
-/** The program with these servos, until the action is done. */
+/** Runs the program with these servos until the action is done. */
 async function withProgram(
     image: 'play' | 'edit',
     options: Partial<FakeOptions>,
@@ -99,7 +99,7 @@ test('a page that stands still for longer than 0.1 s breaks the play off, softly
 test('a browser that is held up while it looks for servos misses none', async () => {
     await withProgram('play', {}, async servos => {
         await servos.until(() => servos.rate === 1_000_000 && servos.packets.at(-1)?.id === 5);
-        servos.latencyMs = 50; // answers came fast until now, and two tries of 20 ms are over by then
+        servos.latencyMs = 50; // answers came fast until now, and two tries of 20 ms end before that
         await servos.until(() => /\d+ servos: /.test(servos.text));
         expect(servos.text).toContain('18 servos: 1-18');
     });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A hand stands the robot in the page up, and always lets go of it: in real physics, with the real firmware, in a worker of its own.
+// A hand stands the robot in the page up and always lets go: in real physics, with the real firmware, in its own worker.
 import { readFile } from 'node:fs/promises';
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { SimulatedSource } from '../app/simulated-source.ts';
@@ -36,7 +36,7 @@ vi.mock('../view/robot-store.ts', () => ({
 }));
 
 const BODY = JSON.parse(await readFile(new URL('body.json', BUILD), 'utf8')) as Body;
-/** The pages that the start of a walk goes on to by itself: tools/motions/README.md. */
+/** The pages that a started walk continues with by itself: tools/motions/README.md. */
 const WALK = [20, 21, 22];
 const SOON = { timeout: 240_000, interval: 20 };
 
@@ -49,7 +49,7 @@ afterEach(() => {
     vi.unstubAllGlobals();
 });
 
-/** Play runs and a hand holds the robot, as behind every start. */
+/** Play runs and a hand holds the robot, as after every start. */
 async function held() {
     let frame: RobotState | null = null;
     const source = new SimulatedSource(BODY, {

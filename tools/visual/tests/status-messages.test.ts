@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A trouble in the status bar goes when its cause has gone, and not before somebody could read it.
+// A trouble in the status bar is removed when its cause is gone, but not before it could be read.
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { watchCauses } from '../app/causes.ts';
 import { StatusMessages } from '../app/status-messages.ts';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Steps as text: the line of FORMAT.md's "A page by hand", and m512 itself reads what is written.
+// Steps as text: the line in "A page by hand" of FORMAT.md; m512 itself reads the written text.
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';

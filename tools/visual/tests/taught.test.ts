@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which servos are still being taught when some of a robot's servos hold again.
+// Which servos are still being taught when some servos hold again.
 import { expect, test } from 'vitest';
 import { stillTaught } from '../view/editor/editing.ts';
 

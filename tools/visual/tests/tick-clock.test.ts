@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The clock of the robot in the page: it goes with the robot's ticks, and a page that was busy is no silence of the robot.
+// The clock of the robot in the page: it follows the robot's ticks, and a busy page does not count as silence of the robot.
 import { expect, test } from 'vitest';
 import { TickClock } from '../app/tick-clock.ts';
 

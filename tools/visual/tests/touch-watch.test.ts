@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A drag asks physics for one pose at a time and always for the newest; what is no longer shown is not told.
+// A drag asks physics for one pose at a time, always the newest. Results for a pose that is no longer shown are dropped.
 import { expect, test } from 'vitest';
 import type { Touch } from '../model/trial.ts';
 import { TouchWatch } from '../view/editor/touch-watch.ts';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pages read from and written into the real Edit on the simulated board, in simulated time, bytes split at random. What the
-// robot has is read from its flash memory directly. CUTS=all tries every request of the write (5 minutes).
+// Reads and writes pages with the real Edit on the simulated board, in simulated time. The bytes are split at random. The robot's content
+// is read directly from its flash. CUTS=all cuts every request of the write (5 minutes).
 import { afterEach, expect, test } from 'vitest';
 import { pageOf } from '../model/document.ts';
 import { writePage, readPage } from '../model/page.ts';
@@ -43,7 +43,7 @@ function flashPage(bench: RobotBench, page: number): Uint8Array {
     return bench.board.readFlash().slice(MOTIONS_ADDRESS + 512 * page, MOTIONS_ADDRESS + 512 * page + 512);
 }
 
-/** A page with other contents that is good. */
+/** A valid page with other contents. */
 function another(bytes: Uint8Array, random: () => number): Uint8Array {
     const page = readPage(format, bytes);
     const steps = page.steps.length > 0 ? page.steps : [{ positions: new Array<number | null>(31).fill(null), time: 20, pause: 0 }];
@@ -107,7 +107,7 @@ test('an image that does not know the dense form is read all the same', async ()
     expect(asked.filter(text => text.startsWith('@page'))).toHaveLength(4);
 });
 
-/** Twenty pages: of the library, empty, erased and damaged ones. */
+/** Twenty pages: library, empty, erased and damaged ones. */
 function twenty(bench: RobotBench): PageToWrite[] {
     return Array.from({ length: 20 }, (_, i) => i * 6 + 1).map(page => {
         const before = flashPage(bench, page);
@@ -125,7 +125,7 @@ function spoil(bench: RobotBench): void {
 
 const KINDS = ['@crcs', '@open', '@data', '@crc', '@save'] as const;
 
-/** Pulls the cable in the n-th request of a kind (1..): within its bytes, or up to 80 ms after them. Counts them all. */
+/** Pulls the cable in the n-th request of a kind (1..): during its bytes, or up to 80 ms after them. Counts all requests. */
 function pullAt(bench: RobotBench, kind: string, nth: number): { restore(): void; counts: Map<string, number>; isPulled(): boolean } {
     const send = bench.board.send.bind(bench.board);
     const counts = new Map<string, number>();
@@ -194,7 +194,7 @@ test('stopped between two pages: those before are new, those after old, and the 
     expect(write.isDone).toBe(true);
 });
 
-/** Looks whether the account says what is in flash. */
+/** Checks that the account matches the flash. */
 function checkAccount(bench: RobotBench, write: PageWrite, pages: readonly PageToWrite[], where: string): void {
     for (const { page, before, after } of pages) {
         const now = flashPage(bench, page);
@@ -239,19 +239,19 @@ test('the cable pulled at requests of a write of twenty pages: old or new, the a
             60_000,
         );
         pull.restore();
-        await bench.run(200); // what the board was about to do it does, cable or not
+        await bench.run(200); // the board finishes what it began, with or without the cable
         checkAccount(bench, write, pages, `${where}, ${outcome}`);
         await untilReady(bench, connection);
         if (outcome !== 'done') await bench.until(write.run(connection.requests), 60_000);
         expect(write.isDone, where).toBe(true);
         for (const { page, after } of pages) expect(flashPage(bench, page), `${where}, page ${page}`).toEqual(after);
-        // These pages differ in fewer pieces than the first ones did: the last of their requests is cut instead.
+        // These pages differ in fewer pieces than the first ones, so the last of their requests is cut instead.
         if (!pull.isPulled()) waiting.unshift([kind, pull.counts.get(kind) ?? 1]);
     }
     console.log(`${cuts.length} of ${every.length} requests cut`);
 }, 3_600_000);
 
-/** What the page puts behind a RobotTransfer, on the bench. */
+/** A RobotTransfer of the page, connected to the bench. */
 function transferOn(bench: RobotBench, connection: Connection, pages: readonly PageToWrite[], edit = Promise.resolve()) {
     const document = { name: 'mine', pages: library.pages.map((bytes, page) => pages.find(one => one.page === page)?.after ?? bytes) };
     const kept: Uint8Array[][] = [];
@@ -286,7 +286,7 @@ test('the page: a backup before the first write, a cable pulled in mid-write, "t
     const done = transfer.state.get().done;
     expect([6, 7]).toContain(done);
     expect(robot().filter((bytes, page) => !Buffer.from(bytes ?? []).equals(Buffer.from(before[page] ?? [])))).toHaveLength(done);
-    expect(await transfer.tryAgain()).toMatchObject({ isDone: false }); // the cable is still out
+    expect(await transfer.tryAgain()).toMatchObject({ isDone: false }); // the cable is still unplugged
     await untilReady(bench, connection);
     expect(await bench.until(transfer.tryAgain(), 60_000)).toEqual({ isDone: true });
     expect(transfer.state.get()).toMatchObject({ phase: 'written', done: 20, total: 20, trouble: null });
@@ -303,7 +303,7 @@ test('the page: Play cannot save, and a robot that cannot be kept is not written
     expect(flashPage(bench, 1)).toEqual(pageOf(library, 1));
 });
 
-/** Lets what goes down the line be changed: a byte lost in noise, a request that never arrives. */
+/** Lets a test change the bytes on the line: a byte lost in noise, a request that never arrives. */
 function onTheLine(bench: RobotBench, change: (line: string) => string): string[] {
     const send = bench.board.send.bind(bench.board);
     const sent: string[] = [];
@@ -350,7 +350,7 @@ test('a digit of "@save" lost in noise: the board refuses the request, and it is
 test('a page that came damaged from a robot is not passed on: not a byte of it goes down the line', async () => {
     const { bench, connection } = await ready('edit', 55, spoil);
     const { transfer, robot } = transferOn(bench, connection, [{ page: 19, before: flashPage(bench, 19), after: flashPage(bench, 19) }]);
-    bench.board.writeFlash(MOTIONS_ADDRESS + 512 * 19, pageOf(library, 19)); // repaired there meanwhile
+    bench.board.writeFlash(MOTIONS_ADDRESS + 512 * 19, pageOf(library, 19)); // the page is repaired there meanwhile
     const sent = onTheLine(bench, line => line);
     expect(await bench.until(transfer.write([19]), 60_000)).toEqual({ isDone: true });
     expect(sent.filter(line => /^@(open|data|save)/.test(line))).toEqual([]);
@@ -379,7 +379,7 @@ test('one transfer at a time: what is asked beside it is refused by name, and no
 test('a framing error in the middle of an answer does not end the talk', async () => {
     const { bench, connection } = await ready('edit', 57);
     const asked = askList(connection.requests);
-    await bench.run(60); // at 57,600 baud the list takes longer than that
+    await bench.run(60); // the list takes longer than that at 57,600 baud
     bench.port.garble();
     expect(await bench.until(asked)).toContainEqual({ page: 2, name: 'bow', steps: expect.any(Number), fault: '' });
     expect(connection.state).toBe('ready');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A place for trials in Node: trial.wasm on a body in MuJoCo.
+// Runs trials in Node: trial.wasm with a body in MuJoCo.
 
 import { readFile } from 'node:fs/promises';
 import type { Body } from '../model/body.ts';

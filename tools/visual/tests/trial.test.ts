@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Trials in physics. Expected are plain facts of mechanics and figures worked out by hand from the body's and the servos' pages;
-// that falls and their moments are those of the PC's physics is tests/test_same_physics.py.
+// Trials in physics. Expected values are plain mechanics and figures calculated by hand from the data of body and servos.
+// tests/test_same_physics.py checks that falls and their times are those of the PC's physics.
 import { expect, test } from 'vitest';
 import { emptyDocument, imageOf, withChanges } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
@@ -41,7 +41,7 @@ test('who stands still stands; who leans far over the toes falls there, and stay
     expect(verdictOf(still)).toMatchObject({ kind: 'stands', at: null });
     expect(still.pages).toEqual([5]);
     expect(still.ended).toBe(true);
-    // Both ankles by 46 degrees: the centre of mass, 0.2 m up, goes 0.14 m ahead of soles that reach 0.05 m.
+    // Both ankles by 46 degrees: the centre of mass at 0.2 m height moves 0.14 m ahead of soles that reach 0.05 m.
     const lean = { [servoOf('right_ankle_pitch')]: 512 + 160, [servoOf('left_ankle_pitch')]: 512 - 160 };
     const { kind, at } = verdictOf(played(stand, request(pageOf([step({}), step({}), step(lean, 60), step(lean, 200)]))));
     expect(kind).toBe('falls');
@@ -63,7 +63,7 @@ test('a servo lags behind a steady ramp by slope x speed / top speed (servo_moti
         const tick = Math.round(150 / (asked.shape.rate / 100)); // the middle of the ramp
         return Math.abs((curve.goals[tick * JOINTS + elbow] ?? 0) - (positions[tick * JOINTS + elbow] ?? 0));
     };
-    // 2 units a tick of the 7.5 that an AX-12 makes at 9.6 V, slope 32: 8.5, and what the forearm's weight and friction take.
+    // 32 (slope) x 2 / 7.5 units per tick (an AX-12 at 9.6 V) = 8.5, plus the effect of the forearm's weight and friction.
     const lag = lagAt({});
     expect(lag).toBeGreaterThan(6);
     expect(lag).toBeLessThan(14);
@@ -110,7 +110,7 @@ test('the verdict: what stood, fell, rose, ended low or could not begin', () => 
     const record = { stood: true, ticks: 256, positions: new Float32Array(), pages: [5], fell: null, ended: true, onFeet: true };
     const kindOf = (change: Partial<typeof record> | { fell: typeof at }): string => verdictOf({ ...record, ...change }).kind;
     expect(kindOf({})).toBe('stands');
-    expect(kindOf({ ended: false, onFeet: false })).toBe('stands'); // goes on and on, and did not fall
+    expect(kindOf({ ended: false, onFeet: false })).toBe('stands'); // does not end and has not fallen
     expect(kindOf({ onFeet: false })).toBe('low');
     expect(kindOf({ fell: at })).toBe('rises');
     expect(verdictOf({ ...record, fell: at, onFeet: false })).toEqual({ kind: 'falls', at, seconds: 2 });

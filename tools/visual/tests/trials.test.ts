@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the page knows of trials: what holds, what a change makes old, what is left out, and a physics that is not there.
+// The page's results of trials: what is valid, what a change invalidates, what is skipped, and what happens without physics.
 import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import { DocumentEditor } from '../app/editor.ts';
@@ -24,7 +24,7 @@ async function bench(made: () => Promise<Partial<TrialClient>>) {
     return { editor, trials };
 }
 
-/** A physics in which everything stands; what it was asked. */
+/** Physics in which everything stands. Records what it was asked. */
 function standing(asked: number[]): () => Promise<Partial<TrialClient>> {
     return () =>
         Promise.resolve({
@@ -40,7 +40,7 @@ function standing(asked: number[]): () => Promise<Partial<TrialClient>> {
 test('a trial holds until a page that the play reaches is changed, or the law is; undo makes it hold again', async () => {
     const asked: number[] = [];
     const { editor, trials } = await bench(standing(asked));
-    await trials.run([2, 8, 100]); // 8 goes on in 9 and 10; 100 has no action
+    await trials.run([2, 8, 100]); // 8 continues in 9 and 10; 100 has no action
     expect(asked).toEqual([2, 8]);
     expect(trials.state.get()).toMatchObject({ phase: 'idle', done: 2 });
     const change = (page: number): boolean => editor.dispatch(editor.edits.setTime(editor.state.get().document, page, [0], 99));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether a restart of Edit would lose somebody's edits: asked of the real firmware, in simulated time.
+// Whether a restart of Edit would lose edits: asked of the real firmware, in simulated time.
 import { expect, test } from 'vitest';
 import { hasUnsavedEdits } from '../robot/page-requests.ts';
 import { connectedEdit } from './connected.ts';
@@ -12,11 +12,11 @@ test('Edit has edits to lose while a page is changed; not as it starts, in an em
     const { format } = await makeFormat();
     const typed = async (line: string): Promise<boolean> => {
         await connection.write(new TextEncoder().encode(`${line}\r`));
-        await bench.run(50); // it has gone down the line
+        await bench.run(50); // time for the line to be sent
         return bench.until(hasUnsavedEdits(connection.requests, format));
     };
     expect(await bench.until(hasUnsavedEdits(connection.requests, format))).toBe(false);
-    expect(await typed('page 100')).toBe(false); // nothing is there
+    expect(await typed('page 100')).toBe(false); // page 100 is empty
     expect(await typed('name salute')).toBe(true);
     expect(await typed('save')).toBe(false);
     expect(await typed('name other')).toBe(true);
