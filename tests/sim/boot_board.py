@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What the tests of the boot loader share: a board that waits at the prompt, typed lines, downloads of the original's
-kind, and a client of the block protocol written from firmware/boot/BLOCK_PROTOCOL.md."""
+"""Shared by the boot loader tests: a board that waits at the prompt, typed lines, downloads in the original's format, and a client of the
+block protocol written from firmware/boot/BLOCK_PROTOCOL.md."""
 
 import binascii
 import collections
@@ -16,7 +16,7 @@ from cm5sim import Board, library
 from m512.crc16 import crc16
 
 PROMPT = "\r\n - "
-PLAIN_APP = b"\xff\xcf" + bytes(0x8E)  # `rjmp .`, and no record where ours have one (app_record.h)
+PLAIN_APP = b"\xff\xcf" + bytes(0x8E)  # `rjmp .`, without a record (app_record.h)
 MEMORY_MAP = pathlib.Path(__file__).parents[2] / "linker" / "memory_map.h"
 MAP = {name: int(value, 0) for name, value in re.findall(r"#define (MEM_\w+) (\w+)", MEMORY_MAP.read_text())}
 APP_END, JOURNAL_START = MAP["MEM_APP_END"], MAP["MEM_JOURNAL_START"]
@@ -31,7 +31,7 @@ def new_board(*images, kind="cm5", **options):
 
 
 def prompt_board(*images, **options):
-    """A board in the loader at its first prompt (an erased EEPROM says "system")."""
+    """A board with the loader at its first prompt (an erased EEPROM means "system")."""
     board = new_board(*images, **options)
     board.expect(PROMPT, ms=400)
     return board
@@ -42,14 +42,14 @@ def noise(count, seed=1):
 
 
 def say(board, line, ms=3000):
-    """Types a line; all that comes up to the next prompt, echo and prompt cut off."""
+    """Types a line. Returns the output up to the next prompt, without echo and prompt."""
     board.send(line + "\r")
     text = board.expect(PROMPT, ms=ms)
     return text[len(line) : -len(PROMPT)]
 
 
 def load(board, address, data, sum_byte=None, ms=30000):
-    """A download as the original's tools do it: the answer's fields."""
+    """Downloads data as the original's tools do. Returns the fields of the answer."""
     begin_load(board, address)
     board.send(bytes(data) + bytes([sum(data) & 0xFF if sum_byte is None else sum_byte]))
     return end_load(board, ms)
@@ -72,7 +72,7 @@ def end_load(board, ms=30000):
 
 
 def pending_record(board, page, data):
-    """A journal slot whose save was cut right after its record (firmware/common/journal.h)."""
+    """Writes a journal slot as a power cut right after its record leaves it (firmware/common/journal.h)."""
     record = struct.pack("<2sHBBH", b"MJ", 5, page, 1, crc16(data))
     record += crc16(record).to_bytes(2, "little") + b"\xff\xff"
     board.flash[JOURNAL_START : JOURNAL_START + 512] = data
@@ -83,8 +83,8 @@ FACTORY_USED, FACTORY_SUM, FACTORY_CRC = 0x1B90, 0x000B2F60, 0x7406
 
 
 def factory_section():
-    """8 KiB with the imitated routine and, in the places that are free, bytes that give the sum and the CRC by which the
-    factory loader is recognised. For Board(images=[application], bootrst=True).flash[0x1E000:0x20000]."""
+    """8 KiB with the imitated routine. The free bytes are filled so that sum and CRC identify the factory loader. For
+    Board(images=[application], bootrst=True).flash[0x1E000:0x20000]."""
     code = IntelHex(str(library.build_folder() / "firmware" / "tests" / "factory.hex"))
     section = bytearray(code.tobinarray(start=BOOT_START, size=0x2000))
     free = [i for i in range(FACTORY_USED) if BOOT_START + i not in set(code.addresses())]
@@ -154,8 +154,8 @@ class Blocks:
         return [struct.unpack_from("<HH", data, 4 * i) for i in range(count)]
 
     def update(self, first, data, window=2, pages_a_sum=4):
-        """Makes flash from page `first` on hold `data`, sending only pages that differ. Requests for the sums of the
-        next pages go between the WRITEs, so that the line never rests. The number of pages written."""
+        """Writes `data` to flash from page `first` on, but only pages that differ. Requests the sums of the next pages between the WRITEs,
+        so that the line is never idle. Returns the number of pages written."""
         pages = [data[i : i + 256] for i in range(0, len(data), 256)]
         chunks = collections.deque(range(0, len(pages), pages_a_sum))
 

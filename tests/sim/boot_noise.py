@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Noise for the boot loader: at the prompt, in STK500 sessions and in block sessions. No hang, no violation, nothing written
-without a valid command.
+"""Noise for the boot loader at the prompt, in STK500 sessions and in block sessions. It must not hang, violate a rule of the board, or
+write without a valid command.
 
     figures = fuzz(make, seed, count)     make: one of MAKERS; raises AssertionError or Violation
 """
@@ -11,8 +11,8 @@ from typing import NamedTuple
 from tests.sim.boot_board import PROMPT, WRITE, frame, page_body, prompt_board, say
 
 CHUNK = 8192
-# What the loader says before it writes: without one of these, in this chunk or the one before, nothing may change.
-# (Three bytes of noise are enough for a valid command: CR l CR.)
+# The loader prints one of these before it writes. Without one in this chunk or the one before, nothing may change. (Three bytes of noise
+# are enough for a valid command: CR l CR.)
 LICENCES = (b"Write Address", b" Mode", b"Boot to", b"Clearing", b"Sure?")
 
 
@@ -24,7 +24,7 @@ WORDS = (b"help f flash e eep r ram verify v check id up eep_up clear_eeprom x #
 
 
 def shell_words(rng, count):
-    """Typed text of words that write nothing unless asked twice, torn by noise."""
+    """Typed words that write nothing without a confirmation, with noise between them."""
     text = bytearray()
     while len(text) < count:
         kind = rng.random()
@@ -40,7 +40,7 @@ def shell_words(rng, count):
 
 
 def stk_noise(rng, count):
-    """Broken STK500 sessions: right commands with wrong ends and lengths, no ENTER."""
+    """Broken STK500 sessions: valid commands with wrong ends and lengths, no ENTER."""
     data = bytearray()
     while len(data) < count:
         data += b"\r0 " if rng.random() < 0.3 else b""
@@ -50,7 +50,7 @@ def stk_noise(rng, count):
 
 
 def block_noise(rng, count):
-    """Frames, each damaged in one to three bits at least one of which the CRC must catch."""
+    """Frames, each damaged in one to three bits so that the CRC detects it; some are followed by a valid HELLO."""
     data = bytearray()
     while len(data) < count:
         body = page_body(rng.randrange(0x1E0), rng.randbytes(256)) if rng.random() < 0.3 else rng.randbytes(2 * rng.randrange(8))
@@ -65,7 +65,7 @@ def block_noise(rng, count):
 
 
 def bring_back(board):
-    """Silence ends every session and transfer; then the prompt must answer."""
+    """Silence ends every session and transfer; after it the prompt must answer."""
     board.run(ms=17000)
     board.send(b"\x1b")
     board.run(ms=400)
@@ -84,7 +84,7 @@ MAKERS = (shell_noise, shell_words, stk_noise, block_noise)
 
 class Figures(NamedTuple):
     sent: int
-    licensed: int  # chunks with a valid writing command by chance
+    licensed: int  # chunks that happen to contain a valid writing command
     resets: int
     seconds: float  # simulated
     headroom: int
@@ -93,7 +93,7 @@ class Figures(NamedTuple):
 def fuzz(make, seed, count):
     rng = random.Random(f"{make.__name__} {seed}" if seed else make.__name__)
     board = prompt_board()
-    board.allow("pullup")  # RAM shows the registers as well, PINE among them
+    board.allow("pullup")  # the noise can dump RAM, which includes the registers and so PINE
     before = b""
     flash, eeprom, licensed, sent = bytes(board.flash), bytes(board.eeprom), 0, 0
     resets = board.resets

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The programs' channel as PROTOCOL.md describes it, for the tests: requests, and what comes back taken apart."""
+"""The programs' channel as in PROTOCOL.md, for the tests: builds requests and separates answers from terminal output."""
 
 from m512.crc16 import crc16
 
@@ -14,13 +14,13 @@ def request(words):
 
 
 class Ear:
-    """Takes what a board says apart: `answers` without their frame, and what is for a person's terminal."""
+    """Splits the output of a board into `answers`, without their frame, and text for the terminal."""
 
     def __init__(self):
         self.answers, self._open = [], None
 
     def hear(self, data):
-        """Returns the terminal's part of these bytes."""
+        """Returns the terminal's part of `data`."""
         shown = bytearray()
         for byte in data.translate(None, FLOW):
             if self._open is None and byte == BEGIN[0]:

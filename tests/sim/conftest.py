@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The robot of the tests of Edit, for files that ask for it. In its flash are the pages of edit_base.py, or the file's own PAGES."""
+"""The robot of the tests of Edit. Its flash holds the pages of edit_base.py, or PAGES of the test file."""
 
 import pytest
 
@@ -16,7 +16,7 @@ def shared(request):
 
 @pytest.fixture
 def r(shared):
-    """The file's robot with page 1 as it is in flash, at X1 Y0."""
+    """The file's robot with page 1 as in flash, at X1 Y0."""
     from tests.sim.edit_base import opened
 
     return opened(shared)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Three pages for tests of Edit's commands that leave the flash as it was, and the way back to page 1. The robot itself: conftest.py."""
+"""Three pages for tests of Edit's commands that leave the flash unchanged, and the return to page 1. The robot is in conftest.py."""
 
 from tests.sim.edit_robot import page
 
@@ -10,7 +10,7 @@ PAGES = {1: BASE, 2: OTHER, 3: FULL}
 
 
 def opened(shared):
-    """The robot with page 1 from flash at X1 Y0; what was not saved is dropped."""
+    """The robot with page 1 from flash at X1 Y0; unsaved edits are discarded."""
     shared.line("page 1")
     if "[y/N]" in shared.command:
         shared.keys("y")
@@ -19,7 +19,7 @@ def opened(shared):
 
 
 def bytes_of(r):
-    """The page in RAM, as a program reads it: saved to page 127 and read from flash, sealed by SAVE."""
+    """The page in RAM as a program reads it: saved to page 127 (SAVE seals it) and read from flash."""
     r.line("save 127")
     if "[y/N]" in r.command:
         r.keys("y")

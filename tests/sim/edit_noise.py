@@ -1,19 +1,18 @@
 # SPDX-License-Identifier: MIT
-"""Noise at Edit's console: words of its grammar, answers, keys, programs' lines, broken
-pieces of all of them, and bytes without sense.
+"""Noise for Edit's console: words of its grammar, answers, keys, program requests, broken pieces of all of these, and random bytes.
 
-    figures = fuzz(seed, count)     raises AssertionError or Violation when Edit does not stand it
+    figures = fuzz(seed, count)     raises AssertionError or Violation if Edit fails
 
-What is looked at, after every piece of 2 to 4 KB:
-  * Edit is brought back to its table by the keys that lead there from anywhere, and answers: it does not hang
-  * nothing but EXIT, @reset and SAVE by mailbox (board_restart) restarts the controller; the watchdog never bites by itself
+Checks after every piece of 2 to 4 KB:
+  * Edit returns to its table by keys that work from anywhere, and answers: it does not hang
+  * only EXIT, @reset and SAVE by mailbox (board_restart) restart the controller; there is no other watchdog reset
   * no violation of the strict board (it raises by itself)
-  * flash is what the saves say: whenever cmd_page_save is entered, the 512 bytes it was given are noted, and the motion area
-    must equal the notes; program and loader are untouched, the journal area is only touched by saves
-  * seeds divisible by 3 never save: there the flash must not change at all; seeds 2 modulo 3 run on the factory loader
+  * flash holds what was saved: at each entry of cmd_page_save the 512 bytes are recorded, and the motion area must equal the
+    records; program and loader stay unchanged, and only saves change the journal area
+  * seeds divisible by 3 never save: the flash must not change at all; seeds 2 modulo 3 run on the factory loader
 
-Who types obeys XOFF, so that every command is carried out: some hundred bytes a second. loud=True: who types does not, and
-most of it is lost: thirty times as much in the same time, in other mixtures, and never on the factory loader.
+The typist obeys XOFF, so every command is executed: some hundred bytes a second. With loud=True it does not, and most input is lost: thirty
+times as much in the same time, in other mixtures, never on the factory loader.
 """
 
 import random
@@ -29,16 +28,16 @@ from tests.sim.made_page import page
 
 MOTION, MOTION_END, JOURNAL = 0xE000, 0x1E000, 0xC000
 XON, XOFF = 0x11, 0x13
-BYTES_A_BOARD = 60000  # then another robot: settings, servo IDs and rates are fresh again
-LINE_BUFFER = 24  # bytes that still come behind an XOFF: a USB adapter's
+BYTES_A_BOARD = 60000  # then a new robot, with fresh settings, servo IDs and rates
+LINE_BUFFER = 24  # bytes that still arrive after an XOFF, as from a USB adapter
 HOME_TRIES = 10
-RESTARTS = ("system_restart", "board_restart")  # the linker may make one function of both
+RESTARTS = ("system_restart", "board_restart")  # the linker may merge these two functions
 
 WORDS = (
     "page next before copy new name step go write insert delete move mirror set goto on off play time speed re hex dec undo "
     "redo list find take paste int scale swap pairs help mon monitor rows p n b s g w i d m u ?"
 ).split()
-SELDOM = ["check", "search", "scan"]  # seconds each
+SELDOM = ["check", "search", "scan"]  # they take seconds each
 NUMBERS = (
     "0 1 2 3 4 5 6 7 9 10 30 31 32 36 49 50 64 100 127 128 254 255 256 512 1000 1023 1024 65535 65536 0x1f 0X3FF 1f -1 x "
     "yes no base 99999999 0x page1"
@@ -144,7 +143,7 @@ class Grammar:
         )
 
     def edits(self):
-        """Steps that make a page worth saving."""
+        """Steps that result in a page worth saving."""
         rng = self.rng
         lines = (
             f"page {rng.randrange(8)}",
@@ -160,7 +159,7 @@ class Grammar:
         return "".join(rng.choice(lines) + "\r" + rng.choice(("", "y")) for _ in range(rng.randrange(1, 5))).encode()
 
     def request(self):
-        """By hand, or through the programs' channel."""
+        """A request, typed or through the programs' channel."""
         line = self.request_by_hand()
         return line if self.rng.random() < 0.5 else b"".join(framed(part.decode()) for part in line.split(b"\r")[:-1])
 
@@ -170,7 +169,7 @@ class Grammar:
         if kind == 0:
             offset, count = rng.randrange(0, 530), rng.randrange(0, 40)
             return f"@data {offset} {rng.randbytes(count).hex()}\r".encode()
-        if kind == 1 and self.saves:  # the sum as Edit last told it
+        if kind == 1 and self.saves:  # the sum that Edit last reported
             return f"@crc\r@save {rng.randrange(130)} 0x{self.crc:04X}\r".encode()
         return rng.choice(REQUESTS).encode() + b"\r"
 
@@ -178,7 +177,7 @@ class Grammar:
         return b"".join(self.rng.choice(KEYS) for _ in range(self.rng.randrange(1, 12)))
 
     def broken(self):
-        """Something sensible with a byte lost, doubled or changed."""
+        """A valid phrase with a byte lost, doubled or changed."""
         text = bytearray(self.rng.choice((self.command, self.request, self.edits))())
         for _ in range(self.rng.randrange(1, 4)):
             at = self.rng.randrange(len(text))
@@ -211,7 +210,7 @@ class Grammar:
 
 
 class Noise:
-    """One robot being shouted at."""
+    """One robot that receives noise."""
 
     def __init__(self, seed, number, loud=False):
         self.seed, self.rng = seed, random.Random(f"{seed} {number}")
@@ -238,7 +237,7 @@ class Noise:
             board.flash[0x1E000:0x20000] = factory_section()
         board.eeprom[0xFFF] = 0x11
         board.forbid("unexpected-reset")
-        if self.factory:  # its routine hears nothing for 9 ms, and a USB adapter obeys an XOFF later than that
+        if self.factory:  # its routine receives nothing for 9 ms, and a USB adapter reacts to XOFF later than that
             board.allow("uart-overrun")
         self.save_entry, self.pending = board.function("cmd_page_save"), None
         self.watch()
@@ -247,7 +246,7 @@ class Noise:
         self.page_at = 0x100 + bytes(board.ram[0x100:0x1100]).find(image[1].data[:31])  # page 1 is open after the start
         assert self.page_at >= 0x100
 
-    # ---- time, with an eye on saves and restarts ----
+    # ---- time; watches saves and restarts ----
 
     def watch(self):
         self.board._lib.board_stop_at(self.board._pointer, self.save_entry)
@@ -264,7 +263,7 @@ class Noise:
             except Violation as bite:
                 if bite.kind not in ("unexpected-reset", "uart-overrun") or bite.function.split(".")[0] not in RESTARTS:
                     raise
-                board.clear_violation()  # an overrun: nobody reads what is typed into a restart
+                board.clear_violation()  # an overrun: input during a restart is not read
                 board.flush()
                 if bite.kind == "unexpected-reset":
                     self.restarts += 1
@@ -277,7 +276,7 @@ class Noise:
         self.heard += new
 
     def save_begins(self):
-        """cmd_page_save(page), typed or @save: the number is in r24, the bytes are those being edited."""
+        """cmd_page_save(page), typed or by @save: r24 has the page number, RAM the edited bytes."""
         page_number = self.board.ram[24]
         data = bytearray(self.board.ram[self.page_at : self.page_at + 512])
         data[31] = 0
@@ -297,7 +296,8 @@ class Noise:
     # ---- typing ----
 
     def type(self, data):
-        """At line rate, as a terminal with flow control does; without a loader that catches bytes meanwhile it must obey."""
+        """Types at line rate with flow control, as a terminal does. Only our loader buffers input during a flash write, so others need flow
+        control."""
         sent = 0
         if self.loud:
             self.board.send(data)
@@ -309,14 +309,14 @@ class Noise:
             self.run(20 if self.loud else 2)
 
     def come_home(self):
-        """To the table, from wherever the noise has led, and an answer from there."""
+        """Returns to the table from wherever the noise has led, and waits for an answer there."""
         for attempt in range(HOME_TRIES):
             self.type(b"\x1b\x1b\x1b")
             self.run(80)
             self.type(b"\x03\x03")
             self.run(20)
             self.heard.clear()
-            self.type(b"\x15zz%d\r" % attempt)  # an answer to nothing that was typed before
+            self.type(b"\x15zz%d\r" % attempt)  # the attempt number identifies its answer
             for _ in range(100):
                 self.run(15)
                 answer = re.search(rb"zz%d(\r\n)? Bad Command" % attempt, self.heard)
@@ -328,7 +328,7 @@ class Noise:
         raise AssertionError(f"Edit does not answer any more; the console says {bytes(self.heard[-300:])!r}")
 
     def piece(self, limit):
-        """Shouts up to `limit` bytes, comes home and looks at the flash. The bytes sent."""
+        """Types up to `limit` bytes of noise, returns to the table and checks the flash. Returns the bytes sent."""
         text, phrases = bytearray(), []
         while len(text) < limit:
             phrases.append(self.grammar.phrase())

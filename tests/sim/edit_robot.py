@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""A robot with Edit on the simulated board and a real terminal emulator (pyte) before it, for test_edit*.py.
+"""A robot with Edit on the simulated board and a terminal emulator (pyte), for test_edit*.py.
 
 with robot(pages={5: page(...)}) as r:
     r.line("page 5")            types a line and waits until the terminal is quiet
-    r.text(2, 76, 4)            what stands in row 2 from column 76 on
+    r.text(2, 76, 4)            the text in row 2 from column 76 on
     r.cell(1, 3)                the cell X1 Y3;  r.cells(5, steps=...)
     r.flash_page(5)             512 bytes
 """
@@ -53,7 +53,7 @@ def word(data, step, joint):
 
 
 class Terminal:
-    """A pyte screen whose answers (cursor reports) go back to the board."""
+    """A pyte screen whose answers (cursor reports) go to the board."""
 
     def __init__(self, rows=36, columns=80):
         self.screen = pyte.Screen(columns, rows)
@@ -65,7 +65,7 @@ class Terminal:
         self.stream.feed(bytes(byte for byte in data if byte not in (0x11, 0x13)))
 
     def row(self, row):
-        """As screen.display has it; that would render all rows."""
+        """Same as screen.display, which would render all rows."""
         line = self.screen.buffer[row - 1]
         return "".join(line[column].data for column in range(self.screen.columns))
 
@@ -83,13 +83,13 @@ class Robot:
         self.board.eeprom[0xFFF] = 0x11  # the loader starts the application
         self.terminal = Terminal(rows)
         self.page_at = None
-        self.settle(ms=700)  # its screen stands at 1030
+        self.settle(ms=700)  # its screen is complete after 1030 ms
 
     def __enter__(self):
         return self
 
     def __exit__(self, kind, *_):
-        if kind is None:  # a failed test's report still looks at the board
+        if kind is None:  # the report of a failed test still reads the board
             self.board.close()
 
     # ---- typing ----
@@ -120,14 +120,14 @@ class Robot:
         self.settle(ms)
 
     def line(self, text, answer=None, ms=0):
-        """Types a line; then, when `answer` is given, one key for the question."""
+        """Types a line. If `answer` is given, presses this key at the question."""
         self.keys(text + "\r", ms)
         if answer is not None:
             assert "[y/N]" in self.command, self.command
             self.keys(answer, ms)
         return self.message
 
-    # ---- looking ----
+    # ---- reading the screen ----
 
     @property
     def rows(self):
@@ -179,7 +179,7 @@ class Robot:
         return bytes(self.board.flash[at : at + 512])
 
     def page_address(self):
-        """Where the page being edited lies in RAM: found by its bytes, right after a page was opened."""
+        """Address of the edited page in RAM, found by its bytes right after a page was opened."""
         if self.page_at is None:
             number = int(self.text(2, 76, 4))
             assert not self.unsaved
@@ -188,7 +188,7 @@ class Robot:
         return self.page_at
 
     def ram_page(self):
-        """The page being edited, sealed as SAVE would."""
+        """The edited page, sealed as by SAVE."""
         at = self.page_address()
         return seal(self.board.ram[at : at + 512])
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""A robot with Edit and pages to play, for the tests of what Edit does to servos: 5 a pose, open at the beginning; 6 a loop that leaves by
-7; 8 a long one; 9 and 10 leave by each other."""
+"""A robot with Edit and pages to play, for tests of Edit's effects on servos: 5 a pose, open at the start; 6 a loop with exit page 7; 8 a
+long page; 9 and 10 are each other's exit page."""
 
 from tests.sim.edit_robot import page, robot
 

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The programs of hal/ on the simulated board, for test_hal*.py: hal_walker.c (31 joints for ever) and hal_words.c (does what a
-byte says)."""
+"""The programs of hal/ on the simulated board, for test_hal*.py: hal_walker.c (31 joints forever) and hal_words.c (one-byte commands)."""
 
 import struct
 
@@ -10,7 +9,7 @@ LINE_BYTES_PER_S = 2_000_000 / 35 / 10
 
 
 def pattern(count, seed=1):
-    """Bytes of every value, the same each time."""
+    """Bytes of all values, the same each time."""
     out = bytearray()
     for _ in range(count):
         seed = (seed * 1103515245 + 12345) & 0x7FFFFFFF

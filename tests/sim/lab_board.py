@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A board with the program lab/lab.c, which does single things to the chip on demand."""
+"""A board with the program lab/lab.c, which performs single operations on the chip on request."""
 
 import struct
 
@@ -16,7 +16,7 @@ class Lab(Board):
         self.run(ms=1)  # until its UART is on
 
     def do(self, letter, address=0, value=0, ms=3000):
-        """One command of lab.c; the two numbers of its answer."""
+        """Runs one command of lab.c. Returns the two numbers of its answer."""
         self.take()
         self.send(letter.encode() + struct.pack("<I", address)[:3] + struct.pack("<H", value))
         return self.answer(ms)
@@ -30,7 +30,7 @@ class Lab(Board):
         return struct.unpack("<HH", data)
 
     def write_page(self, address, data):
-        """Fills and writes the words of data at the start of a page (no erase)."""
+        """Fills and writes the words of `data` at the start of a page, without an erase."""
         for offset in range(0, len(data), 2):
             self.do("f", address + offset, data[offset] | data[offset + 1] << 8)
         return self.do("w", address)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Motion pages for tests, made from a few words."""
+"""Builds motion pages for tests."""
 
 from m512.files.page import Page
 
@@ -7,7 +7,7 @@ JOINTS = range(1, 19)
 
 
 def page(name="", steps=(), joints=JOINTS, **fields):
-    """steps: (time, {joint: position}) or (time, {...}, pause); a joint not named keeps 512."""
+    """steps: (time, {joint: position}) or (time, {...}, pause). Joints that are not named get 512."""
     made = Page()
     made.name = name.encode()
     made.steps = len(steps)

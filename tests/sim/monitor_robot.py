@@ -11,7 +11,7 @@ def robot(servos=range(1, 19)):
 
 
 def say(board, *lines):
-    """What the monitor says to the lines, as one text."""
+    """The monitor's output for these lines, as one text."""
     board.take()
     heard = b""
     for line in lines:

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
 """A robot with Play on the simulated board, for test_play*.py: its motion pages, its prompt, recorded sessions.
 
-A session (tests/models/golden/sessions/*.txt) is what a terminal shows, with directives for what happens beside it:
+A session (tests/models/golden/sessions/*.txt) is the text of a terminal, with directives for other events:
 
-    ] play 1                what is typed: everything behind the prompt
-     OK                     what must appear
-    # wait 500              ms go by          # rc 16            a packet of the remote
-    # fault 3 silent        a servo fails     # clear 3          ... and is well again
-    # press START, # release START            # note ...         a remark
+    ] play 1                typed: everything after the prompt
+     OK                     expected output
+    # wait 500              waits in ms         # rc 16            a packet of the remote
+    # fault 3 silent        a servo fails       # clear 3          ... and recovers
+    # press START, # release START              # note ...         a remark
 """
 
 import os
@@ -29,14 +29,14 @@ XON, XOFF = 0x11, 0x13
 
 
 def walk_steps(turn=0):
-    """Two steps of half a second in which the legs swing to either side."""
+    """Two steps of half a second that swing the legs to both sides."""
     left = {11: 560 + turn, 12: 464 + turn, 13: 540, 14: 484}
     right = {11: 464 - turn, 12: 560 - turn, 13: 484, 14: 540}
     return [(64, left), (64, right)]
 
 
 def motions():
-    """The pages of the robot in these tests."""
+    """The pages of the robot of these tests."""
     image = Image.empty()
     image[1] = page("ready", [(40, {1: 480, 2: 544})])
     image[2] = page("bow", [(60, {11: 600, 12: 424}), (60, {11: 600, 12: 424}, 64), (60, {})], code=16)
@@ -70,8 +70,7 @@ def motions():
 
 
 def robot(servos=JOINTS, pages=None, image=IMAGE, kind="cm5", **options):
-    """A board that has come to its first prompt, has asked each servo how it is and has heard no remote for so long that none
-    is held."""
+    """A board at its first prompt. It has polled each servo, and no remote packet has come for so long that no button counts as held."""
     board = Board(kind=kind, images=[image], motions=motions() if pages is None else pages, servos=servos, **options)
     board.expect("] ", ms=2000)
     board.run(ms=510)
@@ -79,7 +78,7 @@ def robot(servos=JOINTS, pages=None, image=IMAGE, kind="cm5", **options):
 
 
 def press_start(board):
-    """Start on the panel, as a finger does."""
+    """Presses Start on the panel for 50 ms."""
     board.press("START")
     board.run(ms=50)
     board.release("START")
@@ -95,8 +94,8 @@ def ask(board, line, ms=3000):
 
 
 def paste(board, text, behind_xoff=16):
-    """Types at line rate as a terminal with software flow control does: `behind_xoff` bytes still leave behind an XOFF.
-    Returns what the board said meanwhile, without these two."""
+    """Types at line rate as a terminal with software flow control does: `behind_xoff` bytes still leave after an XOFF. Returns the board's
+    output without XON and XOFF."""
     data, sent, may_send, heard = text.encode("latin-1"), 0, True, bytearray()
     while sent < len(data) or board.waiting:
         if may_send and board.waiting < behind_xoff and sent < len(data):
@@ -112,14 +111,14 @@ def paste(board, text, behind_xoff=16):
 
 
 def tick_of(board):
-    """A function that tells a cycle's tick, counted from now; frames go out within their own tick."""
+    """Returns a function from cycles to ticks, counted from now. A frame goes out within its own tick."""
     board.run_to("__vector_12")
     phase = board.now_cycles
     return lambda cycle: (cycle - phase) // 125_000
 
 
 def shown(raw):
-    """What a terminal shows: CR goes to the column 0, BS one back, what follows is written over."""
+    """The text on a terminal: CR goes to column 0, BS goes back by one, later text overwrites."""
     lines = []
     for line in raw.decode("latin-1").split("\n"):
         cells, column = [], 0
@@ -145,7 +144,7 @@ def _until(board, text, start, most_ms=8000):
 
 
 def _direct(board, words, start):
-    """One directive of a session; start: where the console stood when the line before was typed."""
+    """Executes one directive of a session. start: console position when the line before was typed."""
     name, arguments = words[0], words[1:]
     if name == "wait":
         board.run(ms=int(arguments[0]))
@@ -166,11 +165,11 @@ def _direct(board, words, start):
 
 
 def run_session(board, text):
-    """Does what a session says and returns the session as it really went. Counts of the bus are written as n."""
+    """Executes a session and returns it as it really happened, with "n" for the numbers of bus counts."""
     done, told, pending = [], len(board.console), b"] "
 
     def settle():
-        """Whole lines go to the session; what stands behind the last line end waits."""
+        """Appends complete lines to the session; text after the last line end waits."""
         nonlocal pending, told
         raw = board.console[told:]
         told += len(raw)
@@ -195,7 +194,7 @@ def run_session(board, text):
 
 
 def _until_quiet(board, quiet_ms=15, most_ms=6000):
-    """Runs until the prompt is back and nothing more is printed."""
+    """Runs until the prompt is back and no more output comes."""
     for _ in range(most_ms // quiet_ms):
         before = len(board.console)
         board.run(ms=quiet_ms)

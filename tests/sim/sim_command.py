@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Starts the command cm5sim for tests, and talks to it."""
+"""Starts the command cm5sim for tests and communicates with it."""
 
 import os
 import pathlib
@@ -16,19 +16,19 @@ ROBOT = BUILD / "firmware" / "tests" / "robot.hex"  # tests/sim/robot/robot.c
 
 
 def run(*arguments, stdin=b"", timeout=300):
-    """One run to its end: CompletedProcess with bytes."""
+    """Runs to the end. Returns CompletedProcess with bytes."""
     return subprocess.run([CM5SIM, *map(str, arguments)], input=stdin, capture_output=True, timeout=timeout, check=False)
 
 
 class Running:
-    """A run that goes on until it is stopped; its messages say where its ports are."""
+    """A run that continues until it is stopped; its messages name its ports."""
 
     def __init__(self, *arguments):
         self.process = subprocess.Popen([CM5SIM, *map(str, arguments)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.messages = b""
 
     def message(self, pattern, seconds=300):
-        """Waits for a message; returns its first group."""
+        """Waits for a message. Returns its first group."""
         end = time.monotonic() + seconds
         while not (match := re.search(pattern, self.messages.decode())):
             left = end - time.monotonic()

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""A state of a simulated robot, tried many times: each try runs in a copy of the process (fork), the original stays as it is.
+"""Runs many attempts from one state of a simulated robot: each runs in a copy of the process (fork), so the original does not change.
 
-So a thousand experiments begin in exactly the same cycle of the same play, and any one of them can be repeated alone.
+A thousand attempts start in exactly the same cycle of the same play, and each can be repeated alone.
 """
 
 import os
@@ -10,11 +10,11 @@ import traceback
 
 
 class Failed(Exception):
-    """The try itself broke down: the text is its traceback."""
+    """The attempt itself raised an exception; the text is its traceback."""
 
 
 def attempt(work, *arguments):
-    """work(*arguments) in a copy of this process; its result, which must be picklable."""
+    """Runs work(*arguments) in a copy of this process. Returns its result, which must be picklable."""
     read, write = os.pipe()
     child = os.fork()
     if child == 0:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A robot with Play that walks without end and says nothing of it, for what is laid over a walk (test_play_shape, _layers, _aim)."""
+"""A robot with Play that walks without end and without output, for tests of changes to a walk (test_play_shape, _layers, _aim)."""
 
 from m512.files.image import from_bytes
 from tests.sim.play_robot import ask, motions, page, robot, tick_of, walk_steps
@@ -8,7 +8,7 @@ LOOP, CURVE_R, CURVE_L, EXIT, WAVE = 30, 31, 32, 33, 34
 
 
 def pages():
-    """The pages of the other tests, a walk with partners (30), its curves and its exit, and a wave for joints 3 and 5."""
+    """The pages of the other tests, a walk with partners (30), its turns and its exit, and a wave for joints 3 and 5."""
     image = from_bytes(motions())
     image[LOOP] = page("loop", walk_steps(), next=LOOP, exit=EXIT)
     image[LOOP].data[17], image[LOOP].data[18] = CURVE_R, CURVE_L
@@ -36,7 +36,7 @@ def where(board):
 
 
 def run_of_a_walk(words, ms=6000):
-    """{tick: goals} of a walk in which words are typed at given times: [(ms, word)]."""
+    """{tick: goals} of a walk during which words are typed at given times: [(ms, word)]."""
     board = looping()
     tick = tick_of(board)
     board.clear_trace()

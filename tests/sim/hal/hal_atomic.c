@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * hal_atomic.c - does one thing that main loop and interrupts share, each time the test asks, for test_hal_atomic.py.
- * The test writes a number into atomic_job and reads the atomic_ variables when atomic_done() is reached. What is to be
- * interrupted stands in a function of its own (try_...), which the board model sweeps (board_debug.h). */
+ * hal_atomic.c - on each request of test_hal_atomic.py, does one thing that main loop and interrupts share. The test
+ * writes a number into atomic_job and reads the atomic_ variables at atomic_done(). The code to interrupt is in a
+ * separate function (try_...), in which the board model raises an interrupt at each instruction (board_debug.h). */
 #include "board.h"
 #include "bus_call.h"
 #include "bus_core.h"
@@ -23,7 +23,7 @@ enum { JOB_NONE, JOB_TICK, JOB_CLOCK, JOB_COUNTS, JOB_TAP, JOB_EEPROM, JOB_IDLE,
        JOB_FLOW_ON, JOB_HOLD, JOB_RESUME, JOB_SUBMIT, JOB_STARS, JOB_DRAIN,
        JOB_PACKET };
 
-/* For the test. */
+/* Read and written by the test. */
 volatile uint8_t atomic_job;
 volatile uint16_t atomic_strays_at;
 volatile uint32_t atomic_tick;
@@ -117,7 +117,7 @@ TRY try_bus_send(uint8_t size)
     (void)bus_submit(size, BUS_NO_ANSWER, 1);
 }
 
-/* A PING of nobody whose last character is just leaving: transmit complete can come at any moment. */
+/* PINGs a missing servo and returns while the last character leaves: transmit complete can come at any moment. */
 static void begin_last_character(void)
 {
     (void)bus_wait(0);
@@ -146,7 +146,7 @@ static void change_tap(void)
     bus_set_tap(0);
 }
 
-/* Right behind a tick, so that the next one is far. */
+/* Starts just after a tick, so that the next one is far away. */
 static void idle(void)
 {
     while (!tick_take()) {
@@ -156,7 +156,7 @@ static void idle(void)
     try_board_idle();
 }
 
-/* Servo 1 answers badly once: the poll that finds the line quiet sends the packet again. */
+/* Servo 1 sends one bad answer: the poll that finds the line quiet sends the packet again. */
 static void retry(void)
 {
     bus_answer_t answer;
@@ -177,7 +177,7 @@ static void submit(void)
     bus_counts(&atomic_counts);
 }
 
-/* A packet of atomic_byte bytes for everybody, of an instruction that no servo knows. */
+/* Sends a broadcast packet of atomic_byte bytes with an instruction that no servo knows. */
 static void packet(void)
 {
     uint8_t *params = bus_packet() + DXL_PARAMS_AT, count = (uint8_t)(atomic_byte - DXL_PACKET_OVERHEAD);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * hal_walker.c - a robot that waves all its joints for ever and swallows whatever comes on the serial line, for
- * test_hal*.py. What it counts stands in variables that the test reads. */
+ * hal_walker.c - a robot that swings all its joints forever and discards console input, for test_hal*.py. The test
+ * reads the counters in its variables. */
 #include "board.h"
 #include "bus.h"
 #include "console.h"
@@ -11,9 +11,9 @@
 
 #include <string.h>
 
-/* For the test. */
-volatile uint32_t walker_bytes;                 /* console bytes taken */
-volatile uint16_t walker_crc;                   /* of them */
+/* Read by the test. */
+volatile uint32_t walker_bytes;                 /* console bytes received */
+volatile uint16_t walker_crc;                   /* CRC of these bytes */
 volatile uint16_t walker_missed, walker_late;
 volatile uint16_t walker_ticks;
 volatile uint8_t walker_fault_id, walker_fault_kind, walker_faults;

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT
- * hal_words.c - does what one byte on the serial line says, on the real hal, for test_hal*.py:
+ * hal_words.c - executes one-byte commands from the serial line on the real hal, for test_hal*.py:
  *
  *   l  loads the settings: "load STATUS LAW APPROACH"     s / S  saves law 1, approach 77 / law 0, approach 33: "saved"
  *   p  checks all pages: "pages GOOD"
  *   f  CRC of flash 0xFF20..0x1011F, from the end in blocks of 64: "flash CRC"
- *   x  flow control on, takes all there is, slower than the line: "took COUNT CRC"
- *   h  holds the line, waits 100 ms, goes on: "held"       a  a failed ASSERT            w  hangs (watchdog)
+ *   x  flow control on, reads all input, slower than the line: "took COUNT CRC"
+ *   h  holds the line, waits 100 ms, resumes: "held"       a  a failed ASSERT            w  hangs (watchdog)
  *   r  restarts through the watchdog                       v  ADC channel 0: "adc VALUE"
- *   e  one more into EEPROM byte 7A5, read again at once, and byte 0A5: "eeprom BYTE BYTE"
- *   i  pings servo 1 at the rate that the bus begins with: "ping STATUS"
- *   b  says "slow", changes to 117,647 baud, says "fast"
- * Begins with "start CAUSE", and "assert LINE ADDRESS" when there was one. Numbers are hexadecimal. */
+ *   e  adds 1 to EEPROM byte 7A5, reads it back at once, and byte 0A5: "eeprom BYTE BYTE"
+ *   i  pings servo 1 at the initial rate of the bus: "ping STATUS"
+ *   b  prints "slow", changes to 117,647 baud, prints "fast"
+ * Starts with "start CAUSE", and "assert LINE ADDRESS" after a failed ASSERT. Numbers are hexadecimal. */
 #include "board.h"
 #include "bus_call.h"
 #include "clock.h"
@@ -126,7 +126,7 @@ static void write_and_read(void)
 {
     uint8_t byte = (uint8_t)(eeprom_byte(0x7A5) + 1u);
     (void)eeprom_start(0x7A5, byte);
-    byte = eeprom_byte(0x7A5);   /* has to wait for the write */
+    byte = eeprom_byte(0x7A5);   /* must wait for the write */
     say(PSTR("eeprom "), byte, eeprom_byte(0x0A5));
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * lab.c - lets a test do single things to the chip, from the boot section, over UART1 at 57,600. A command is a letter,
- * a 3-byte address and a 2-byte value (both low byte first); the answer is always 4 bytes: two 16-bit numbers.
+ * lab.c - lets a test perform single operations on the chip, from the boot section, over UART1 at 57,600. A command is
+ * a letter, a 3-byte address and a 2-byte value (both low byte first). The answer is always 4 bytes: two 16-bit
+ * numbers.
  *   e A    erase a page      time in 8 cycles, turns of the waiting loop meanwhile
  *   f A V  fill a word       0, 0
  *   w A    write a page      as e
@@ -13,9 +14,9 @@
  *   m A V  write EEPROM      as e
  *   n A    read EEPROM       byte, 0
  *   u   V  send V bytes on UART0: cycles from the first write to TXC, TXC interrupts
- *   i      receive: two bytes of UCSR1A and UDR1, twice, as they come
+ *   i      receive twice: UCSR1A and UDR1 of each byte as it arrives
  *   x   V  watchdog on with prescaler V, then hang
- *   c      reset cause (MCUCSR at the start), times started since power-on */
+ *   c      reset cause (MCUCSR at the start), number of starts since power-on */
 #include <avr/boot.h>
 #include <avr/eeprom.h>
 #include <avr/interrupt.h>
@@ -82,7 +83,7 @@ static answer_t send(uint16_t count)
     DDRE |= _BV(PE2) | _BV(PE3);
     PORTE = _BV(PE2);
     UBRR0L = 1;
-    UCSR0A = _BV(U2X0); /* after the rate, which simavr alone would ignore */
+    UCSR0A = _BV(U2X0); /* set after the rate: plain simavr would ignore it */
     UCSR0B = _BV(TXEN0) | _BV(TXCIE0);
     transmitted = 0;
     MCUCR = _BV(IVCE);
@@ -99,7 +100,7 @@ static answer_t send(uint16_t count)
     uint16_t time = TCNT3;
     cli();
     UCSR0B = 0;
-    UCSR0B = _BV(TXEN0); /* toggled: the transmitter must work the next time */
+    UCSR0B = _BV(TXEN0); /* toggled: the transmitter must work again next time */
     PORTE = 0;
     return (answer_t){ time, transmitted };
 }

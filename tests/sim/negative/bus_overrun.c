@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "negative.h"
 
-/* A status packet of six characters comes at 1 Mbit/s and nobody reads it in time. The test forbids this kind. */
+/* A status packet of six characters arrives at 1 Mbit/s and is not read in time. The test forbids this violation. */
 static void NOINLINE ping(void)
 {
     static const uint8_t packet[] = { 0xFF, 0xFF, 1, 2, 1, 0xFB };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "negative.h"
 
-/* The line let go on "data register empty", with the last two characters still in the transmitter. */
+/* Releases the line at "data register empty", with the last two characters still in the transmitter. */
 static void NOINLINE send_packet(void)
 {
     PORTE |= _BV(PE2);

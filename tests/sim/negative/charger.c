@@ -5,9 +5,9 @@ static void NOINLINE set_charger(void)
 {
     DDRB |= _BV(PB5);
     if (!WRONG) {
-        PORTB |= _BV(PB5); /* a moment of zero is allowed */
+        PORTB |= _BV(PB5); /* a short pulse of 0 is allowed */
     }
-    for (uint32_t i = 0; i < 40000; i++) { /* above 10 ms */
+    for (uint32_t i = 0; i < 40000; i++) { /* more than 10 ms */
         __asm__ volatile("");
     }
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "negative.h"
 
-/* The other way round: an EEPROM write begun while the flash is being erased. */
+/* The reverse of spm_eeprom: starts an EEPROM write while the flash is being erased. */
 static void NOINLINE write_while_flash_erases(void)
 {
     boot_page_erase(PAGE);

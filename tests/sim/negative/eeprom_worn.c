@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "negative.h"
 
-/* The test sets the wear of byte 0x123 to its end before. */
+/* The test first sets the wear of byte 0x123 to the limit. */
 static void NOINLINE write_once_more(void)
 {
     eeprom_write_byte((uint8_t *)(WRONG ? 0x123 : 0x124), 0x45);

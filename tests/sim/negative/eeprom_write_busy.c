@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "negative.h"
 
-/* The address changed while a byte is being written. */
+/* Changes the address while a byte is being written. */
 static void NOINLINE write_two(void)
 {
     eeprom_write_byte((uint8_t *)0x123, 0x45);

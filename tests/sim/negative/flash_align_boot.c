@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "negative.h"
 
-/* The word bits of Z must be zero for a page write. (For an erase they are ignored.) */
+/* The word bits of Z must be zero for a page write. (An erase ignores them.) */
 static void NOINLINE write_unaligned(void)
 {
     boot_page_erase(PAGE + 0x22);

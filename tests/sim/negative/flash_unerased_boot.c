@@ -8,7 +8,7 @@ static void NOINLINE write_word(uint16_t word)
     boot_spm_busy_wait();
 }
 
-/* Ones where the flash has zeros: only an erase can do that. */
+/* Writes ones where the flash has zeros: only an erase can do that. */
 static void NOINLINE overwrite(void)
 {
     write_word(0x1234);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "negative.h"
 
-/* The test sets the wear of this page to its end before (wrong), or one short of it (right). */
+/* The test first sets the wear of this page to the limit (wrong) or one below it (right). */
 static void NOINLINE erase_once_more(void)
 {
     boot_page_erase(WRONG ? PAGE : PAGE + 0x100u);

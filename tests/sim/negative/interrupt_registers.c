@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "negative.h"
 
-/* An interrupt routine without prologue that changes a register and does not put back what it found. */
+/* An interrupt routine without prologue that changes a register and does not restore it. */
 ISR(TIMER0_OVF_vect, ISR_NAKED)
 {
 #if WRONG

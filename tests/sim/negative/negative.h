@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * negative.h - what the negative programs share. WRONG is 1 or 0: do the thing wrong, or right. */
+ * negative.h - shared by the negative programs. WRONG selects the wrong (1) or the right (0) variant. */
 #ifndef NEGATIVE_H
 #define NEGATIVE_H
 
@@ -40,7 +40,7 @@ static inline void say(const char *text)
     }
 }
 
-/* Everything was right. */
+/* Reports that no violation occurred. */
 static inline void finish(void)
 {
     say("right\n");

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "negative.h"
 
-/* A call into the application section that was erased somewhere and not enabled again. A RET stands at 0x100: the
- * test puts it there. */
+/* Calls the application section after an erase in it, without enabling it again. The test puts a RET at 0x100. */
 static void NOINLINE call_application(void)
 {
     boot_page_erase(PAGE);

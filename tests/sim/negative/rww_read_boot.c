@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "negative.h"
 
-/* A read of the busy half. */
+/* Reads the busy half. */
 static uint8_t NOINLINE read_application(void)
 {
     boot_page_erase(PAGE);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "negative.h"
 
-/* Interrupts on during an erase, with the vectors where they are after reset: in the busy half. Right: IVSEL moves
+/* Interrupts are on during an erase, with the vectors in the busy half, where they are after reset. Right: IVSEL moves
  * them into the boot section first. */
 static volatile uint8_t ticks;
 

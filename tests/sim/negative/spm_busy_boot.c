@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "negative.h"
 
-/* A second operation while the first goes on. */
+/* Starts a second operation during the first. */
 static void NOINLINE fill_while_busy(void)
 {
     boot_page_erase(PAGE);

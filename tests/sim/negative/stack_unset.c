@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "negative.h"
 
-/* A push before the start-up code has set the stack pointer. */
+/* Pushes before the start-up code has set the stack pointer. */
 __attribute__((naked, used, section(".init0"))) void too_early(void);
 void too_early(void)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "negative.h"
 
-/* Two stop bits: not what the other end speaks. */
+/* Two stop bits, which the far end does not use. */
 static void NOINLINE set_format(void)
 {
     UCSR1C = WRONG ? _BV(USBS1) | _BV(UCSZ11) | _BV(UCSZ10) : _BV(UCSZ11) | _BV(UCSZ10);

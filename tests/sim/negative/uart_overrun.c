@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "negative.h"
 
-/* Four characters have come and none was read: the receiver holds three. The test sends the characters. */
+/* Four characters arrive and none is read: the receiver holds three. The test sends the characters. */
 static void NOINLINE wait_for(uint8_t characters)
 {
     while (characters--) {

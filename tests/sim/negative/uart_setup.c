@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "negative.h"
 
-/* Another rate before the last character has left at the old one. */
+/* Changes the rate before the last character has left. */
 static void NOINLINE change_rate(void)
 {
     put('.');

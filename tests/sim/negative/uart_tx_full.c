@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "negative.h"
 
-/* A third character, when one is being shifted out and one waits. */
+/* Writes a third character while one is shifted out and one waits. */
 static void NOINLINE send_three(void)
 {
     for (uint8_t i = 0; i < 3; i++) {

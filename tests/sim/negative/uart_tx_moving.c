@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "negative.h"
 
-/* A second character right behind the first: the empty shift register takes the first one up to a bit later. */
+/* Writes a second character right after the first, which reaches the empty shift register only up to a bit later. */
 static void NOINLINE send_two(void)
 {
     UDR1 = '.';

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "negative.h"
 
-/* 14 ms without WDR. The test asks that a bite be a violation. */
+/* 14 ms without WDR. The test makes a watchdog reset a violation. */
 static void NOINLINE work(void)
 {
     wdt_enable(WDTO_15MS);

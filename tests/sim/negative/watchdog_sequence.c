@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "negative.h"
 
-/* The watchdog stopped by a plain write: the chip goes on counting. */
+/* Stops the watchdog with a plain write: the chip keeps counting. */
 static void NOINLINE stop_watchdog(void)
 {
     wdt_enable(WDTO_500MS);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * asleep.c - a robot that sleeps and wakes for a tick 128 times a second, as the real firmware does when idle. */
+ * asleep.c - a robot that sleeps and wakes for a tick 128 times a second, like the idle firmware. */
 #include <avr/interrupt.h>
 #include <avr/io.h>
 #include <avr/sleep.h>

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
- * robot.c - a robot that does what one byte on the serial line tells it. For the tests of the simulator only: it
- * polls (but for what it hears on the serial line), it waits, it uses no code of the real firmware.
+ * robot.c - a robot that executes one-byte commands from the serial line. Only for the tests of the simulator: it polls
+ * (except for serial input), it waits, and it uses no code of the real firmware.
  *
  *   p  pings servo 3: "servo 3: 00" (error byte), or "servo 3: silent" / "garbled"
  *   m  one sync write: servos 1..3 to 600
- *   l  Play LED on / off            e  adds 1 to EEPROM byte 0 and tells it
+ *   l  Play LED on / off            e  adds 1 to EEPROM byte 0 and prints it
  *   s  sends on the bus without driving it: a violation
- *   w  tells flash byte 0xE000      other bytes come back as they are
- * START says "START"; a remote packet FF 55 L ~L H ~H says "rc HHLL". Begins with "ready". */
+ *   w  prints flash byte 0xE000     other bytes are echoed
+ * The START button prints "START"; a remote packet FF 55 L ~L H ~H prints "rc HHLL". Starts with "ready". */
 #include <avr/eeprom.h>
 #include <avr/interrupt.h>
 #include <avr/io.h>
@@ -90,7 +90,7 @@ static void ping(void)
     static const uint8_t packet[] = {0xFF, 0xFF, 0x03, 0x02, 0x01, 0xF9};
     uint8_t answer[6], sum = 0, count = 0;
     while (UCSR0A & 1 << RXC0) {
-        (void)UDR0; /* what came too late for the last question */
+        (void)UDR0; /* bytes that came too late for the last packet */
     }
     bus_send(packet, sizeof packet);
     for (int16_t byte; count < 6 && (byte = bus_take()) >= 0; count++) {
@@ -129,7 +129,7 @@ static void break_a_rule(void)
     UDR0 = 0x55;
 }
 
-/* Collects a remote packet. true: the byte belongs to one. */
+/* Collects a remote packet. Returns true if the byte belongs to one. */
 static bool remote(uint8_t byte)
 {
     static uint8_t packet[6], count;
@@ -174,7 +174,7 @@ int main(void)
     PORTB |= 1 << PB5; /* charger off */
     DDRB |= 1 << PB5;
     DDRC = 0x7F;
-    PORTC = 0x7E; /* Power lit */
+    PORTC = 0x7E; /* Power LED on */
     DDRE |= DRIVE | LISTEN;
     PORTE |= LISTEN;
     PORTD |= START | GATES;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
- * factory.c - imitates the factory loader's page-write routine for test_boot_service.py: starts the application at once,
- * and offers at 0x1F238 a routine with the calling convention of boot/ORIGINAL.md, section 7b. It is as rude as the
- * convention allows: every register that need not be kept is spoiled, and eight bytes below Y are used. */
+ * factory.c - imitates the factory loader's page-write routine for test_boot_service.py. It starts the application at
+ * once and has a routine at 0x1F238 with the calling convention of boot/ORIGINAL.md, section 7b. It does the worst that
+ * the convention allows: it overwrites every register that need not be kept and uses eight bytes below Y. */
 #include <avr/io.h>
 
 static void __attribute__((naked, used, section(".vectors"))) start(void)
 {
     asm volatile("clr r1\n\t"
-                 "ldi r28, 0x48\n\tout 0x3D, r28\n\t" /* the stack as the original leaves it: 0x0E48 */
+                 "ldi r28, 0x48\n\tout 0x3D, r28\n\t" /* the stack pointer as the original leaves it: 0x0E48 */
                  "ldi r28, 0x0E\n\tout 0x3E, r28\n\t"
                  "jmp 0");
 }

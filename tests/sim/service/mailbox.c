@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * mailbox.c - a boot section that does at a start what the factory loader does there (boot/ORIGINAL.md, sections 1,
- * 5 and 7a), and nothing else: UART 1 on, FF out, the EEPROM mailbox into flash, 60 ms, application. */
+ * mailbox.c - a boot section that only does what the factory loader does at a start (boot/ORIGINAL.md, sections 1, 5
+ * and 7a): UART 1 on, FF out, the EEPROM mailbox into flash, 60 ms, application. */
 #include <avr/boot.h>
 #include <avr/eeprom.h>
 #include <avr/io.h>

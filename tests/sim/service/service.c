@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * service.c - an application for test_boot_service.py. After its start it says 'R', what it found in the boot section
- * and what journal_recover did; then it obeys binary requests and answers each with one status byte.
+ * service.c - an application for test_boot_service.py. After its start it sends 'R', the kind of boot section it found
+ * and the result of journal_recover. Then it executes binary requests and answers each with one status byte.
  *
  *   W page16 256 bytes   flash_write          P page16 n, n bytes   flash_program
- *   V page16 256 bytes   the same, right behind the begin of an EEPROM write: 0x5A to 0x321
+ *   V page16 256 bytes   the same, right after the start of an EEPROM write: 0x5A to 0x321
  *   J page8 512 bytes    journal_save         B page16 256 bytes    boot_call_write, then 2 bytes: stack used, RAM intact
- *   E                    no status: echoes what is in the ring, until it is empty for 50 ms
+ *   E                    no status: echoes the ring until it is empty for 50 ms
  *   M page8 512 bytes    page_service_post, then a watchdog reset */
 #include "firmware/common/app_record.h"
 #include "firmware/common/journal.h"
@@ -28,7 +28,7 @@ const app_record_t app_record __attribute__((used, section(".app_record"))) = AP
 static uint8_t storage[128], data[512], lost;
 static ring_t ring;
 static boot_rx_t rx;
-static uint8_t witness[1200]; /* RAM that nobody may touch */
+static uint8_t witness[1200]; /* RAM that the calls must not change */
 
 ISR(USART1_RX_vect)
 {
@@ -66,7 +66,7 @@ static uint16_t take16(void)
     return (uint16_t)(low | (uint16_t)take() << 8);
 }
 
-/* Paints the RAM below the stack, calls the service, and counts what it has used; the call itself included. */
+/* Paints the RAM below the stack, calls the service, and counts the stack bytes used, including the call itself. */
 static __attribute__((noinline)) void measured_write(uint16_t page)
 {
     uint8_t *top = (uint8_t *)SP - 16;

@@ -15,7 +15,7 @@
 
 #define CLOCK_HZ 16000000u
 #define UBRR0L 0x29u
-#define UBRR_1_MBPS 1u            /* the rate at which the servos listen */
+#define UBRR_1_MBPS 1u            /* rate of the servos */
 #define BUS_BYTE_CYCLES 160u      /* at 1 Mbps */
 #define CONSOLE_BYTE_CYCLES 2800u /* at 57,143 */
 #define TICK_VECTOR 12u           /* timer 1, compare match A */
@@ -23,7 +23,7 @@
 #define REGISTERS 50u
 #define BOOT_MODE_APPLICATION 0x11u
 
-/* Bytes in the order in which they came. */
+/* Bytes in order of arrival. */
 typedef struct {
     uint8_t *bytes;
     size_t count, taken;
@@ -53,7 +53,7 @@ static void append(queue_t *queue, uint8_t byte)
 
 /* ---- servos ---- */
 
-/* Addresses of an AX-12. A position is reached at once. */
+/* Register addresses of an AX-12. The model reaches a position at once. */
 enum { DELAY = 5, LEVEL = 16, TORQUE = 24, GOAL = 30, PRESENT = 36, MOVING = 46 };
 enum { PING = 1, READ = 2, WRITE = 3, SYNC_WRITE = 0x83 };
 
@@ -86,7 +86,7 @@ static avr_cycle_count_t send_answer(avr_t *avr, avr_cycle_count_t when, void *p
     return robot->answers.taken < robot->answers.count ? when + BUS_BYTE_CYCLES : 0;
 }
 
-/* After the last byte, which simavr passes on when it is written, and the return delay. */
+/* Answers after the return delay, counted from the last byte, which simavr passes on as soon as it is written. */
 static void answer(stock_t *robot, uint8_t id, const uint8_t *params, uint8_t count)
 {
     uint8_t sum = (uint8_t)(id + count + 2);
@@ -187,7 +187,7 @@ static void on_tick(avr_irq_t *irq, uint32_t value, void *param)
 
 /* ---- the chip ---- */
 
-/* Simulated time needs no real time to pass. */
+/* Lets simulated time pass without real time. */
 static void sleep_no_time(avr_t *avr, avr_cycle_count_t cycles)
 {
     (void)avr;
@@ -215,8 +215,8 @@ static avr_irq_t *uart(avr_t *avr, uint32_t name, int irq)
     return avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ(name), irq);
 }
 
-/* The loader starts the application by itself. Its prompt would hear nothing: simavr takes the interrupt's vector from the
- * application. */
+/* Makes the loader start the application by itself. At its prompt it would receive nothing, because simavr takes the
+ * interrupt vector from the application. */
 static void set_boot_mode(avr_t *avr)
 {
     uint8_t start = BOOT_MODE_APPLICATION;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A robot on the packaged simavr (stock.h), for test_stock.py. Nothing of tools/sim is in it."""
+"""A robot on the packaged simavr (stock.h), for test_stock.py. Uses nothing of tools/sim."""
 
 import ctypes
 import os
@@ -53,14 +53,14 @@ class StockRobot:
             raise AssertionError(f"the processor stopped; it said {self.console[-300:]!r}")
 
     def _all(self, name, kind):
-        """What the library has counted and points to."""
+        """The entries of the library's array and its length, as a list."""
         where = ctypes.POINTER(kind)()
         count = getattr(self._c, f"stock_{name}")(self._robot, ctypes.byref(where))
         return where[:count]
 
     @property
     def console(self):
-        """All that the robot has said."""
+        """All output of the robot."""
         return bytes(self._all("console", ctypes.c_uint8))
 
     @property
@@ -76,7 +76,7 @@ class StockRobot:
         return bytes(self._c.stock_flash(self._robot)[start:end])
 
     def expect(self, text, ms):
-        """Runs until the robot has said this, behind what was expected before."""
+        """Runs until the robot prints this text after the previous match."""
         for _ in range(ms // 10):
             at = self.console.find(text, self._seen)
             if at >= 0:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The shipped images on simavr as it is packaged, with its own UARTs: users who have only that must get further than the prompt.
-What it gets wrong is listed in tools/sim/board/README.md."""
+"""The shipped images on the packaged simavr with its own UARTs: users who have only that must get further than the prompt.
+tools/sim/board/README.md lists what it gets wrong."""
 
 import csv
 
@@ -37,7 +37,7 @@ def test_play_equals_the_golden_set(name):
         robot.expect(b"Ended after", ms=60_000)
         frames = [(tick, goals) for tick, goals in robot.frames[before:] if len(goals) > 1]
         assert [(tick - frames[0][0], goals) for tick, goals in frames] == wanted_trace(name)
-        assert robot.console.count(b"\xff") == 1  # the loader's first byte: the robot started once
+        assert robot.console.count(b"\xff") == 1  # one first byte of the loader: the robot started once
 
 
 def test_edit_changes_a_page_saves_it_and_plays_it():
