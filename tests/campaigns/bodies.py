@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""What campaigns of bodies found so far: a line of JSON for each body, added as soon as it was tried.
+"""Results of body campaigns: one line of JSON for each body, written as soon as it was tried.
 
-A campaign that is interrupted goes on where it was, and one of 1,000 bodies can be done in parts. A line counts only for what it was
-tried with: its key is made of the pages that the motion can come to, of how it is led, of the body file and of the version of MuJoCo. So a
-change of the motion begins anew by itself. What the key does not see is a change of player or servos: then delete the file.
+An interrupted campaign resumes, and one of 1,000 bodies can be done in parts. A line counts only for the conditions in its key: the pages
+that the motion can reach, how it is driven, the body file and the version of MuJoCo. A changed motion therefore starts again by itself. The
+key does not cover the player or the servos: after changing those, delete the file.
 """
 
 import hashlib
@@ -16,7 +16,7 @@ PAGE_BYTES = 512
 
 
 def reachable(library, number):
-    """Numbers of the pages that a play of this one can come to."""
+    """Returns the numbers of the pages that a play of this page can reach."""
     playable = {other: page for other, page in library.items() if other and page.is_playable}
     found, waiting = set(), {number}
     while waiting:
@@ -28,7 +28,7 @@ def reachable(library, number):
 
 
 def key_of(library, number, promise, robot, where):
-    """What a result belongs to, as text. where: who led the motion, "player" or "board"."""
+    """Returns the key of a result. where: what drove the motion, "player" or "board"."""
     image = library.to_bytes()
     pages = b"".join(image[PAGE_BYTES * page : PAGE_BYTES * (page + 1)] for page in sorted(reachable(library, number)))
     how = (promise.page, promise.seconds, promise.keys, promise.lie, promise.floor, where)
@@ -36,7 +36,7 @@ def key_of(library, number, promise, robot, where):
 
 
 class Tried:
-    """The file. Only the process that runs the campaign writes to it."""
+    """The file of results. Only the process that runs the campaign writes to it."""
 
     def __init__(self, path):
         self.path, self._found = pathlib.Path(path), {}
@@ -44,15 +44,15 @@ class Tried:
             try:
                 one = json.loads(line)
                 self._found.setdefault(one["key"], {})[one["seed"]] = (one["kept"], one["said"])
-            except (ValueError, KeyError):  # torn: the campaign was ended while it wrote
+            except (ValueError, KeyError):  # incomplete: the campaign ended during the write
                 continue
 
     def of(self, key):
-        """{seed: (kept, said)}"""
+        """Returns {seed: (kept, message)}."""
         return dict(self._found.get(key, {}))
 
     def add(self, key, seed, result, **about):
-        """about: what a reader of the file wants to know besides."""
+        """about: additional facts for readers of the file."""
         kept, said = result
         self._found.setdefault(key, {})[seed] = (kept, said)
         self.path.parent.mkdir(parents=True, exist_ok=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Judges the traffic on the servo bus: every tick has a frame, no goal leaps, and no joint is driven that must not be."""
+"""Checks the traffic on the servo bus: every tick has a frame, no goal leaps, and only permitted joints are driven."""
 
 from cm5sim.board import CYCLES_PER_TICK, sync_goals
 
@@ -14,20 +14,20 @@ def phase_of(board):
 
 
 def frames_of(packets):
-    """[(cycle, {joint: goal})] of the SYNC WRITEs that carry goals."""
+    """Returns [(cycle, {joint: goal})] of the SYNC WRITEs that carry goals."""
     return [(cycle, goals) for cycle, packet in packets if (goals := sync_goals(packet))]
 
 
 def missing_ticks(frames, phase):
-    """How many ticks between the first and the last frame got none. A frame may come late by less than a tick, when the board
-    waits for a servo that has fallen silent: then the next one comes in the same tick, on time, and none is lost."""
+    """Returns the number of ticks without a frame, between the first and the last frame. A frame may be late by less than a tick while
+    the board waits for a servo that has just become silent. The next frame is then on time in the same tick, and none is missing."""
     ticks = [(cycle - phase) // CYCLES_PER_TICK for cycle, _ in frames]
     lost = ticks[-1] - ticks[0] + 1 - len(ticks) if ticks else 0
     return abs(lost) + sum(b - a > 2 for a, b in zip(ticks, ticks[1:]))
 
 
 def largest_steps(frames):
-    """(largest step of a goal from tick to tick, largest change of that step), over all joints."""
+    """Returns (largest step of a goal between two ticks, largest change of that step), over all joints."""
     step_max = change_max = 0
     goal, step, last = {}, {}, 0
     for cycle, goals in frames:
@@ -45,7 +45,7 @@ def largest_steps(frames):
 
 
 def last_step(frames, failed):
-    """The largest step of a goal into the last frame, of joints that did not fail: 0 or 1 when they slowed down to a stand."""
+    """Returns the largest step of a goal into the last frame, over joints without fault. It is 0 or 1 if they slowed to a stop."""
     if len(frames) < 2:
         return 0
     (_, before), (_, last) = frames[-2:]
@@ -53,7 +53,7 @@ def last_step(frames, failed):
 
 
 def written(packets, address, value=None):
-    """Returns the IDs of the servos that a WRITE or REG WRITE to this address reached (with this value, if one is given)."""
+    """Returns the IDs of the servos for which a WRITE or REG WRITE covered this address (with this value, if given)."""
     return {
         packet[2]
         for _, packet in packets

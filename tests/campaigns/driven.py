@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""A walk that is driven: the shipped image on the simulated board, a body, and a hand at the stick that sends `@drive` lines.
+"""A driven walk: the shipped image on the simulated board, a body, and a hand on the stick that sends `@drive` lines.
 
     outcome = drive(image, page=20, ready=1, seconds=60, hand=hand)
 
-hand(look) is asked twenty times a second for (blend, rate, amplitude) in percent, for a line to type, or for None: it is silent, as
-when the cable is pulled. It sees what a person sees: where the robot is and where it looks.
+hand(look) is called twenty times a second. It returns (blend, rate, amplitude) in percent, or a line to type, or None to stay silent as if
+the cable were pulled. It sees what a person sees: the robot's position and heading.
 """
 
 import math
@@ -17,18 +17,18 @@ from body.trial import FALLEN, look, stands
 from tests.campaigns.onboard import OnBoard
 
 TICKS_A_LINE = 6  # 47 ms: a joystick's twenty lines a second
-AFTER_TICKS = 96  # it stands for 0.75 s before its feet are looked at
+AFTER_TICKS = 96  # standing time before the feet are checked: 0.75 s
 
 
 @dataclass
 class Driven:
-    """What came of it."""
+    """The result of a drive."""
 
-    fell_s: float = None  # when; None: it did not
-    ended: bool = False  # the play came to its end
+    fell_s: float = None  # time of the fall; None: no fall
+    ended: bool = False  # the play ended
     on_feet: bool = False
-    track: list = field(default_factory=list)  # a trial.Look for each time that the hand was asked
-    goals: list = field(default_factory=list)  # {servo: goal} of each frame on the bus, if asked for
+    track: list = field(default_factory=list)  # one trial.Look for each call of the hand
+    goals: list = field(default_factory=list)  # {servo: goal} of each frame on the bus, if requested
 
     def said(self):
         how = f"fell after {self.fell_s:.1f} s" if self.fell_s is not None else "on its feet" if self.on_feet else "not on its feet"
@@ -37,8 +37,8 @@ class Driven:
 
 
 def drive(image, page, ready, seconds, hand, robot="humanoid", variation=NOMINAL, keep_goals=False):
-    """Plays `page` for at most `seconds`; ready: the page that brings the robot to its feet first. With keep_goals Driven.goals holds
-    what was sent since the play began."""
+    """Plays `page` for at most `seconds`. ready: the page that brings the robot to its feet first. With keep_goals, Driven.goals holds
+    the frames sent since the play began."""
     robot = robot if isinstance(robot, Description) else load(str(robot))
     physics = Physics(robot, variation)
     player = OnBoard(image, physics)
@@ -70,7 +70,7 @@ def drive(image, page, ready, seconds, hand, robot="humanoid", variation=NOMINAL
 
 
 class Stick:
-    """A stick that a hand moves: it goes 50 % in a second, from where it is towards what is wished."""
+    """A stick moved by hand. It moves 50 % per second towards the wanted position."""
 
     A_LINE = 2.5  # percent
 
@@ -78,27 +78,27 @@ class Stick:
         self.at = (blend, rate, amplitude)
 
     def towards(self, *wish):
-        """Where it is one line later: (blend, rate, amplitude)."""
+        """Returns the position one line later: (blend, rate, amplitude)."""
         self.at = tuple(at + max(-self.A_LINE, min(self.A_LINE, to - at)) for at, to in zip(self.at, wish))
         return self.at
 
 
 class Eight:
-    """A hand that steers a figure of eight by what it sees: a circle to the left, one to the right, `length_mm` across both.
+    """A hand that steers a figure of eight by sight: a circle to the left, then one to the right, `length_mm` across both.
 
-    It knows that the robot is late (a line acts two steps later, and the sway of the trunk is seen only over a whole cycle), so it
-    steers for where the robot will be. Where it is off the path or looks beside it, it steers back. In the end it lets go of the stick:
-    the board's watchdog stops the walk.
+    The robot responds late: a line acts two steps later, and the trunk's sway averages out only over a whole cycle. So the hand steers for
+    the robot's future position. It corrects errors of position and of heading. At the end it releases the stick, and the board's watchdog
+    stops the walk.
     """
 
-    FULL = 1 / 240  # curve (1 / radius in mm) at blend 100, as the library's curves are on the nominal body
-    CYCLE_LINES = 9  # of the walk: 56 ticks
+    FULL = 1 / 240  # curvature (1 / radius in mm) at blend 100, as measured with the library on the nominal body
+    CYCLE_LINES = 9  # lines per walk cycle of 56 ticks
     LATE_S = 0.5
-    BACK_MM = 130.0  # within about this way it is back on the path
+    BACK_MM = 130.0  # distance within which it returns to the path
 
     def __init__(self, length_mm=1000.0):
         self.radius = length_mm / 4
-        self.turns = 0.0  # of two, along the path: the first to the left, the second to the right
+        self.turns = 0.0  # position along the path, 0..2: the first turn to the left, the second to the right
         self.farthest_mm, self._seen = 0.0, []
 
     @property
@@ -106,7 +106,7 @@ class Eight:
         return self.turns >= 1.99
 
     def path(self, turns):
-        """Point, direction (radians) and curve of the path there."""
+        """Returns the point, the direction (radians) and the curvature of the path at this position."""
         side = 1 if turns < 1 else -1
         around = 2 * math.pi * min(turns, 2) * side
         return self.radius * math.sin(around) * side, side * self.radius * (1 - math.cos(around)), around, side / self.radius
@@ -118,14 +118,14 @@ class Eight:
         x, y, looks = self._soon()
         self.turns = self._nearest(x, y)
         px, py, along, curve = self.path(self.turns)
-        beside = (y - py) * math.cos(along) - (x - px) * math.sin(along)  # to the left of the path
+        beside = (y - py) * math.cos(along) - (x - px) * math.sin(along)  # offset to the left of the path
         turned = (looks - along + math.pi) % (2 * math.pi) - math.pi
         wish = curve - 2 * turned / self.BACK_MM - beside / self.BACK_MM**2
         self.farthest_mm = max(self.farthest_mm, abs(beside))
         return max(-100, min(100, -100 * wish / self.FULL)), 100, 100
 
     def _soon(self):
-        """Where it will be, and look: the mean over a cycle, half a cycle and LATE_S later."""
+        """Predicts position and heading: the mean over a cycle, projected half a cycle and LATE_S ahead."""
         count, first, last = len(self._seen), self._seen[0], self._seen[-1]
         mean = [sum(getattr(place, name) for place in self._seen) / count for name in ("x_mm", "y_mm", "heading")]
         seconds = max(last.time_s - first.time_s, 1e-3)
@@ -136,11 +136,11 @@ class Eight:
         return mean[0] + speed * later * math.cos(middle), mean[1] + speed * later * math.sin(middle), looks + turn * later
 
     def _nearest(self, x, y):
-        """How far it is along the path: the nearest point from where it was to an eighth of a turn on."""
+        """Returns the position along the path: the nearest point, from the last position to an eighth of a turn further."""
         return min((self.turns + k / 400 for k in range(51)), key=lambda turns: math.dist(self.path(turns)[:2], (x, y)))
 
 
 def rounds(track, middle):
-    """How often a way goes round a point, to the left."""
+    """Returns how often a track circles a point; positive to the left."""
     angles = [math.atan2(seen.y_mm - middle[1], seen.x_mm - middle[0]) for seen in track]
     return sum((b - a + math.pi) % (2 * math.pi) - math.pi for a, b in zip(angles, angles[1:])) / (2 * math.pi)

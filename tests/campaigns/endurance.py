@@ -22,16 +22,16 @@ TITLE = "Endurance"
 PROMISE = "Hours of walking and thousands of saves lose no tick, no character and no page."
 
 TICK_CYCLES, CYCLES_PER_US = 125_000, 16
-ENTRY_CYCLES = 200  # between a tick and its interrupt's first instruction, other interrupts included
-MEASURE_MINUTES = 10  # the yardstick is laid on so often
-FLASH_CYCLES, EEPROM_CYCLES = 10_000, 100_000  # what the data sheet promises
+ENTRY_CYCLES = 200  # between a tick and its interrupt's first instruction, including other interrupts
+MEASURE_MINUTES = 10  # the interval between two plays of the reference page
+FLASH_CYCLES, EEPROM_CYCLES = 10_000, 100_000  # guaranteed by the data sheet
 PLAY_HEADROOM, EDIT_HEADROOM = 512, 384
 FLASH_PAGE = MAP["MEM_FLASH_PAGE_BYTES"]
 SLOT_PAGES = SLOT_BYTES // FLASH_PAGE
-JOURNAL = MAP["MEM_JOURNAL_START"], MAP["MEM_JOURNAL_START"] + SLOTS * SLOT_BYTES  # two flash pages behind it are no slot
+JOURNAL = MAP["MEM_JOURNAL_START"], MAP["MEM_JOURNAL_START"] + SLOTS * SLOT_BYTES  # the two flash pages after it are not a slot
 ALL_JOINTS = range(31)
 BOW = 2
-WAVE_OVER, CROWDED_LAYER = 60, 9  # pages that are laid over a driven walk
+WAVE_OVER, CROWDED_LAYER = 60, 9  # pages layered over a driven walk
 
 
 def add_arguments(group):
@@ -47,7 +47,7 @@ def library():
 
 
 def crowded(seed):
-    """Pages of 31 joints that all move in every step: a yardstick, and walks under four codes with links between them."""
+    """Returns pages in which all 31 joints move in every step: a reference page, and walks under four codes with links between them."""
     chance = random.Random(seed)
 
     def steps(count, ticks):
@@ -70,7 +70,7 @@ def crowded(seed):
         )
     image[8] = page("stop", steps(1, 96), joints=ALL_JOINTS)
     image[CROWDED_LAYER] = page("layer", [(48, {joint: 600 for joint in range(15)}), (48, {})], joints=range(15), next=CROWDED_LAYER)
-    image[4].data[17], image[4].data[18] = 7, 6  # partners for blending, of as many steps
+    image[4].data[17], image[4].data[18] = 7, 6  # blend partners with the same number of steps
     image[4].seal()
     return image.to_bytes()
 
@@ -134,7 +134,8 @@ def edit(seed, saves):
 
 
 def wears_evenly(journal):
-    """A slot's record (SLOT_PAGES - 1 pages behind its beginning) is written anew in each save, by turns; its data unless they are there already."""
+    """Returns whether the wear is even. Saves rewrite the slots' records in turn (a record is SLOT_PAGES - 1 pages after its slot's
+    start). A slot's data is rewritten unless it is already there."""
     records = journal[SLOT_PAGES - 1 :: SLOT_PAGES]
     return max(records) - min(records) <= 1 and all(wear <= records[number // SLOT_PAGES] for number, wear in enumerate(journal))
 
@@ -143,7 +144,7 @@ def wears_evenly(journal):
 
 
 def work(item):
-    """Runs one robot to the end of its time. A violation or a missing answer ends the run."""
+    """Runs one robot to its end. A violation or a missing answer ends the run."""
     what, seed, amount = item
     try:
         if what == "edit":

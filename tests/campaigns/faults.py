@@ -20,15 +20,15 @@ from tests.sim import snapshot
 TITLE = "Servo faults"
 PROMISE = "Every fault of a servo is named within a second, and the rest of the robot does not leap."
 
-NAMED_MS = 1000  # the promise
-PUSHED_MS = 2600  # a jammed servo notices after a second of pushing
-RULE_MS = {"hold": 1000, "exit": 3500, "limp": 1500}  # until the rule has done its work; exit: the page is played to its end
-STEP_MAX, CHANGE_MAX = 9, 4  # pos a tick: 200 pos in 64 ticks with ramps of 32, braked in 8 at least
-TALKS_INTO_FRAMES = {"late", "late-2"}  # such an answer may spoil a frame on the wire: that tick's goals are lost
-LAST_STEP_MAX = 2  # before it stands
+NAMED_MS = 1000  # the promised time
+PUSHED_MS = 2600  # a jammed servo reports overload only after a second of pushing
+RULE_MS = {"hold": 1000, "exit": 3500, "limp": 1500}  # time until the rule has acted; exit: the page plays to its end
+STEP_MAX, CHANGE_MAX = 9, 4  # pos per tick: 200 pos in 64 ticks with ramps of 32, braked in at least 8
+TALKS_INTO_FRAMES = {"late", "late-2"}  # such an answer may spoil a frame on the bus: that tick's goals are lost
+LAST_STEP_MAX = 2  # before it stops
 POSE_ERROR_MAX = 4
-OUT_MS = 50  # between the sentence and the last goal that may still have been on its way
-SAMPLE = 12  # states, when only a sample is asked for
+OUT_MS = 50  # from the message to the last goal that may still have been in transit
+SAMPLE = 12  # number of states in a sample
 PASSING = {"blink", "late", "late-2"}  # a servo with one of these may answer again by itself
 SITUATIONS = {
     f"{image}.{state}": (robot, words)
@@ -60,7 +60,7 @@ def parse(name):
 
 
 def all_states(seed):
-    """Returns the names of all states. Chance picks the joints of a pair of faults."""
+    """Yields the names of all states. The seed picks the joints of a pair of faults."""
     chance = random.Random(seed)
     for situation in SITUATIONS:
         for fault, joint in itertools.product(FAULTS, ALONE_ON):
@@ -79,7 +79,7 @@ def all_states(seed):
 
 
 class Trial:
-    """Plays one state: the fault, what the robot does, the repair, and the next play."""
+    """Plays one state: the fault, the robot's reaction, the repair, and the next play."""
 
     def __init__(self, robot, faults):
         self.robot, self.board = robot, robot.board
@@ -89,7 +89,7 @@ class Trial:
         for fault, joint in faults:
             self.by_joint[joint].add(fault)
         self.expected = model.expected(self.by_joint, THERE, robot.driven, robot.holding, robot.cut)
-        if isinstance(robot, EditRobot):  # an alarm says why the torque is off; the table shows it, when nothing moves
+        if isinstance(robot, EditRobot):  # an alarm explains why torque is off; Edit shows torque in its table when nothing moves
             alarmed = {joint for joint, kind in self.expected.must if kind in model.ALARMS.values()}
             self.expected.must -= {(joint, TORQUE) for joint in alarmed}
         self.other_goals = {joint: self.board.servos[joint].goal for joint in UNUSED + (MARKED_OFF, RELEASED)}
@@ -100,7 +100,7 @@ class Trial:
         self.found.append(text)
 
     def befall(self):
-        """Begins the faults and runs until all of them are named, or until the time allowed is over."""
+        """Starts the faults. Runs until all of them are named or the time is over."""
         robot = self.robot
         robot.remember_screen()
         for fault, joint in self.faults:
@@ -121,18 +121,18 @@ class Trial:
                 self.named_ms = max(self.named_ms, ms)
 
     def is_pushing_still(self, joint, kind):
-        """Whether the servo is jammed and has not noticed yet."""
+        """Returns whether the servo is jammed and has not noticed yet."""
         return kind in (OVERLOAD, TORQUE) and "blocked" in self.by_joint[joint] and OVERLOAD not in self.servos[joint].alarms
 
     def rule_acts(self):
         return self.robot.playing and any(kind in GRAVE and joint != RELEASED for joint, kind in self.robot.told)
 
     def obey_rule(self):
-        """Checks that the rest of the robot does what the rule for faults says."""
+        """Checks that the rest of the robot follows the rule for faults."""
         robot = self.robot
         robot.run(max(0, NAMED_MS - robot.since_ms))
         if not self.rule_acts() or robot.rule == "limp":
-            robot.run(500)  # meanwhile a late talker may still fall silent
+            robot.run(500)  # meanwhile a late servo may still become silent
         acts = self.rule_acts()
         over = acts and robot.rule != "limp"
         if over:
@@ -170,7 +170,7 @@ class Trial:
         gaps = bus_watch.missing_ticks(frames, robot.phase)
         if gaps and not any(faults & TALKS_INTO_FRAMES for faults in self.by_joint.values()):
             self.complain(f"{gaps} ticks without a frame")
-        lost = {}  # joints that the rule takes out, and since when
+        lost = {}  # {joint that the rule takes out: since when}
         for (joint, kind), ms in robot.told.items() if acts else ():
             if kind in GRAVE:
                 lost[joint] = min(ms, lost.get(joint, ms))
@@ -186,7 +186,7 @@ class Trial:
             self.complain(f"healthy joints went limp: {limp}")
 
     def recover(self):
-        """Ends the faults; the servos must answer, switch on, and play."""
+        """Ends the faults. The servos must answer, switch on, and play."""
         robot = self.robot
         silent = {joint for joint, kind in robot.told if kind == SILENT and (joint, BACK) not in robot.told}
         robot.told = {told: ms for told, ms in robot.told.items() if told[1] != BACK}
@@ -207,7 +207,7 @@ class Trial:
         off = [joint for joint in joints if not self.board.servos[joint].torque]
         if off:
             self.complain(f"`on` left them limp: {off}")
-        released = RELEASED in self.by_joint  # what was switched off by hand counts as well when it holds again
+        released = RELEASED in self.by_joint  # a servo that was switched off by hand stays faulty until it holds again
         if isinstance(robot, PlayRobot) and not released and robot.where().get("faulty") != "00000000":
             self.complain("still called faulty, though all is well")
         if not robot.play(POSE):
@@ -243,7 +243,7 @@ def _list(told):
 
 
 def try_state(robot, faults):
-    """(complaints, ms until the last was named, stack headroom)."""
+    """Returns (complaints, ms until the last fault was named, stack headroom)."""
     trial = Trial(robot, faults)
     try:
         for part in (trial.befall, trial.obey_rule, trial.recover, trial.finish):
@@ -255,7 +255,7 @@ def try_state(robot, faults):
     return trial.found, trial.named_ms, robot.board.stack_headroom
 
 
-robots = {}  # of this process: a situation, ready to be copied
+robots = {}  # per process: one situation, ready to be copied
 
 
 def work(name):

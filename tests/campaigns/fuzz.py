@@ -13,13 +13,13 @@ from tests.campaigns.proof import Figure
 
 TITLE = "Fuzzing"
 PROMISE = "Whatever bytes arrive on a line or in a file, nothing hangs, restarts or writes what nobody asked for."
-BYTES = 1_000_000  # a whole run ends within half an hour of one core; tools/prove sessions tries far more in simulated time
+BYTES = 1_000_000  # a whole run takes at most half an hour of one core; tools/prove sessions tries far more in simulated time
 SAMPLE_BYTES = {"loader": 24_000}
 SAMPLE_BYTES_ELSE = 12_000
-SECONDS = 30  # of libFuzzer a harness
-SAMPLE_RUNS = 200  # of each harness, beside its corpus; by their number, so that CI runs the same inputs every time
+SECONDS = 30  # of libFuzzer per harness
+SAMPLE_RUNS = 200  # per harness, in addition to its corpus; a count, not a time, so that CI always runs the same inputs
 SHRINK_TRIALS = 12
-SHRINKS = 3  # findings of one input that are made smaller
+SHRINKS = 3  # how many failing sessions of an input are shrunk
 
 
 def add_arguments(group):
@@ -48,7 +48,7 @@ class Result:
 
 
 def describe(fault):
-    """Describes a fault in one line."""
+    """Returns the fault in one line."""
     return f"{type(fault).__name__}: {' '.join(str(fault).split())[:300]}"
 
 
@@ -58,7 +58,7 @@ def session(task):
     kind = fuzz_board.INPUTS[name](seed, size)
     try:
         return Result(*kind.run())
-    except Exception as fault:  # pylint: disable=broad-except  (whatever it is, it is a finding)
+    except Exception as fault:  # pylint: disable=broad-except  (any exception is a finding)
         return Result(sent=getattr(kind, "sent", 0), fault=describe(fault))
 
 
@@ -68,7 +68,7 @@ def session_row(task):
 
 
 def fails(name, seed, size, chosen):
-    """Plays these pieces alone. Returns the fault, or ""."""
+    """Plays only these pieces. Returns the fault, or ""."""
     kind = fuzz_board.INPUTS[name](seed, size)
     pieces = kind.pieces()
     try:
@@ -79,7 +79,8 @@ def fails(name, seed, size, chosen):
 
 
 def shrink(name, seed, size):
-    """Finds fewer pieces of a session that still fail: leaves out halves, quarters, and so on, for as many trials as are given."""
+    """Returns fewer pieces that still fail, as ":0-2,5"; "" if the input has no pieces. Leaves out halves, quarters, and so on, in at
+    most SHRINK_TRIALS trials."""
     kind = fuzz_board.INPUTS[name](seed, size)
     if not hasattr(kind, "pieces"):
         return ""
@@ -99,7 +100,7 @@ def shrink(name, seed, size):
 
 
 def ranges(numbers):
-    """0,1,2,5 as 0-2,5."""
+    """Returns 0,1,2,5 as "0-2,5"."""
     out = []
     for number in numbers:
         if out and out[-1][1] == number - 1:
@@ -110,7 +111,7 @@ def ranges(numbers):
 
 
 def again(options):
-    """Plays the one session that --only names. If it fails, prints what it did."""
+    """Repeats the session that --only names, and prints the chosen pieces."""
     name, seed, *chosen = options.only.split(":")
     kind = fuzz_board.INPUTS[name](int(seed), size_of(name, options))
     began = time.monotonic()
@@ -129,14 +130,14 @@ def again(options):
 
 
 def size_of(name, options):
-    """Bytes of one session."""
+    """Returns the number of bytes of one session."""
     if options.sample:
         return SAMPLE_BYTES.get(name, SAMPLE_BYTES_ELSE)
     return fuzz_board.INPUTS[name].size
 
 
 def images(options, names):
-    """All inputs, their sessions mixed, so that the long ones do not come last."""
+    """Yields a figure for each input. Tasks are sorted so that long sessions do not come last."""
     tasks = []
     for name in names:
         size = size_of(name, options)
@@ -172,7 +173,7 @@ def image_figure(name, done, options):
 
 
 def modules(options, names):
-    """The harnesses. A sample does without libFuzzer, whose programs take longer to build than it has."""
+    """Returns the figure of the harnesses. A sample does not use libFuzzer, because building its programs takes too long."""
     if options.sample or not fuzz_host.build():
         runs = proof.each(fuzz_host.replay, [(name, SAMPLE_RUNS, options.seed) for name in names], "harnesses", options.jobs)
         how = f"the corpora of tests/campaigns/fuzz under ASan and UBSan, and {SAMPLE_RUNS} inputs a harness that chance made from them" + (

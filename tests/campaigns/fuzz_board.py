@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Noise for whole shipped images on the strict board. Used by fuzz.py.
 
-An input is a class: one session = one board and one seed; pieces() are what happens, a list of (verb, data) that depends on
-the seed alone, so that any subset of it can be played again; a fault is an AssertionError or a Violation.
+An input is a class. One session is one board and one seed. pieces() is the list of events (verb, data). It depends on the seed alone, so
+any subset can be repeated. A fault is an AssertionError or a Violation.
 
-What is looked at in every session of an application, besides what the input itself looks at:
-  * no violation of the board, no reset, and the stack keeps its distance
-  * `@where` is answered: how long that took in the worst case is measured
-  * goals go to servos that are there and lie within 0..1023
-  * flash is untouched; EEPROM is untouched outside of the settings
+Every session of an application checks, in addition to what its input checks:
+  * no violation of the board, no reset, and the stack keeps its headroom
+  * `@where` is answered; the longest time is measured
+  * goals go to existing servos and are within 0..1023
+  * flash is unchanged; EEPROM is unchanged outside of the settings
 """
 
 import random
@@ -31,7 +31,7 @@ EEPROM_REGISTERS = 24
 
 
 def pages():
-    """The pages of Play's tests, and the turns as the walk's partners for blending."""
+    """Returns the pages of Play's tests, with the turns as the walk's blend partners."""
     image = from_bytes(motions())
     image[WALK].data[17], image[WALK].data[18] = TURN_RIGHT, TURN_LEFT
     image[WALK].seal()
@@ -39,11 +39,11 @@ def pages():
 
 
 class Session:
-    """One robot that hears noise; the base of the inputs below."""
+    """One robot that receives noise; the base class of the inputs below."""
 
     name = promise = how = ""
     image = "play-cm5.hex"
-    size = 160_000  # bytes of one session: start and end take 3 s
+    size = 160_000  # bytes of one session; its start and end take 3 s
     obeys_flow = 0.5  # share of sessions whose sender obeys XOFF
 
     def __init__(self, seed, size=None):
@@ -54,12 +54,12 @@ class Session:
         self.sent = 0
         self.slowest_ms = 0.0
         self.board = None
-        self.who = {}  # the servos by the ID they started with
+        self.who = {}  # the servos by their original ID
 
-    # what an input is made of
+    # contents of an input
 
     def pieces(self):
-        """[(verb, data)] of about self.size bytes; verb names a method."""
+        """Returns [(verb, data)] of about self.size bytes in total; a verb is the name of a method."""
         made, count = [], 0
         while count < self.size:
             made.append(("type", self.noise(self.rng.randrange(200, 1500))))
@@ -70,12 +70,12 @@ class Session:
         raise NotImplementedError
 
     def look(self):
-        """What this input checks at the end, besides what all inputs check."""
+        """Makes the input's own checks at the end."""
 
     # verbs
 
     def type(self, data):
-        """At line rate; a sender that obeys XOFF sends 16 more bytes behind it, as a USB adapter does."""
+        """Sends at line rate. A sender that obeys XOFF sends 16 more bytes after it, as a USB adapter does."""
         board, at, may_send = self.board, 0, True
         if not self.flow:
             board.send(data)
@@ -110,7 +110,7 @@ class Session:
         self.board.clear_trace()
 
     def answer(self):
-        """Asks `@where` once the lines typed before have been answered."""
+        """Sends `@where` until it is answered; earlier lines may still be in the queue. Returns the answer."""
         self.board.run(ms=50)
         self.board.take()
         began = self.board.now_ms
@@ -126,7 +126,7 @@ class Session:
         raise AssertionError(f"no answer to @where; the console says {self.board.console[-200:]!r}")
 
     def look_at_packets(self):
-        ids = set(self.servos) | set(self.board.servos.ids)  # noise may have given a servo another ID
+        ids = set(self.servos) | set(self.board.servos.ids)  # noise may have changed a servo's ID
         for _, packet in self.board.packets:
             instruction, address = packet[4], packet[5] if len(packet) > 6 else 255
             if instruction == SYNC_WRITE:
@@ -156,7 +156,7 @@ class Session:
         assert self.board.stack_headroom >= HEADROOM_MIN, f"{self.board.stack_headroom} bytes of stack left"
 
     def run(self):
-        """The whole session; (bytes, simulated seconds, slowest answer in ms, stack headroom)."""
+        """Plays the whole session. Returns (bytes, simulated seconds, slowest answer in ms, stack headroom)."""
         self.play(self.pieces())
         figures = self.sent, self.board.now_ms / 1000, self.slowest_ms, self.board.stack_headroom
         self.board.close()
@@ -249,7 +249,7 @@ class Remote(Session):
         return bytes(made)
 
     def look(self):
-        """Two stops within a second are a break, so the robot must stand now."""
+        """Two stops within a second are a break, so the robot must be idle now."""
         for _ in range(2):
             self.board.remote(packet_of(512))
             self.board.run(ms=200)
@@ -283,11 +283,10 @@ FAULTS = (
 
 
 class Bus(Session):
-    """Bytes on the wire while the board listens, from 50 us to 2 ms behind its tick, where the answers belong; the servos
-    themselves fail and recover meanwhile."""
+    """Bytes on the bus while the board listens for answers, from 50 us to 2 ms after its tick. Meanwhile the servos fail and recover."""
 
     size = 150_000
-    waking = b""  # typed again and again, so that it rests, plays and teaches
+    waking = b""  # lines typed repeatedly, so that the robot rests, plays and teaches
 
     def __init__(self, seed, size=None):
         super().__init__(seed, size)
@@ -295,7 +294,7 @@ class Bus(Session):
         self.phase = self.next_look_ms = 0
 
     def status(self):
-        """A status packet that could be an answer, or nearly."""
+        """Returns a status packet that could be an answer, or almost."""
         rng = self.rng
         params = rng.choice((0, 0, 2, 2, 4, 8, 20, 20, 20, 24, rng.randrange(60)))
         body = [rng.choice(self.servos + [0, 30, 31, 253, 254]), params + 2, rng.choice((0, 0, 0, 1, 4, 32, 36, 127, 255))]
@@ -343,19 +342,19 @@ class Bus(Session):
         self.phase = self.board.now_cycles % CYCLES_PER_TICK
 
     def look_at_packets(self):
-        """Twice a second is enough: reading a trace costs more than the noise."""
+        """Checks only twice a second: reading a trace costs more time than the noise."""
         if self.board.now_ms >= self.next_look_ms:
             self.next_look_ms = self.board.now_ms + 500
             super().look_at_packets()
 
     def look(self):
-        """Silence: whoever is well is found again. Noise may have told a servo to be another one: it gets its ID, rate,
-        delay and answers back."""
+        """Ends all noise. Every healthy servo must be found again. Noise may have changed a servo's ID, rate, delay and answers: they
+        are restored."""
         for servo_id, servo in self.who.items():
             servo.write(3, [servo_id, 1, 250])
             servo.write(16, [2])
             servo.clear()
-        for twin in list(self.board.servos)[len(self.who) :]:  # of duplicate IDs, which may be other ones by now
+        for twin in list(self.board.servos)[len(self.who) :]:  # of duplicate IDs; their IDs may have changed
             twin.fault("dead")
         self.board.run(ms=3000)
         self.next_look_ms = 0
@@ -437,7 +436,7 @@ class EditBus(Bus):
         self.phase = self.board.now_cycles % CYCLES_PER_TICK
 
     def answer(self):
-        """Leaves whatever mode Edit is in, as its manual says, and sends a program's line."""
+        """Leaves any mode of Edit, as its manual says, and sends a program's line."""
         began = self.board.now_ms
         for _ in range(6):
             for keys, ms in ((b"\x03", 1500), (b"\x1b", 300), (b"\x15\r", 500), (b"\x03", 100)):
@@ -454,11 +453,12 @@ class EditBus(Bus):
         raise AssertionError(f"no answer to @where; the console says {self.board.console[-200:]!r}")
 
 
-# ---- those that have noise of their own ----
+# ---- inputs with their own noise ----
 
 
 class EditConsole:
-    """tests/sim/edit_noise.py. Three sessions in four do not obey XOFF: the others hear every byte, and take as long."""
+    """tests/sim/edit_noise.py. Three of four sessions ignore XOFF. In the fourth, Edit receives every byte; that takes as long with
+    fewer bytes."""
 
     name = "edit-console"
     promise = "Edit stands whatever is typed, and flash is what SAVE wrote"
@@ -498,6 +498,6 @@ INPUTS = {kind.name: kind for kind in (PlayConsole, Remote, PlayBus, EditConsole
 
 
 def mean_size(name):
-    """The mean size of a session of this input, in bytes."""
+    """Returns the mean size of a session of this input, in bytes."""
     kind = INPUTS[name]
     return kind.size if kind is not EditConsole else (3 * kind.size + kind.slow_size) // 4

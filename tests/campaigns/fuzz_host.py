@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The harnesses of tests/campaigns/fuzz: libFuzzer, or inputs that are made blindly. Used by fuzz.py."""
+"""The harnesses of tests/campaigns/fuzz, with libFuzzer or with random inputs. Used by fuzz.py."""
 
 import dataclasses
 import pathlib
@@ -13,8 +13,8 @@ from tests.campaigns import proof
 HERE = proof.TOP / "tests" / "campaigns" / "fuzz"
 FUZZERS = proof.BUILD / "fuzz"
 REPLAYS = proof.BUILD / "host" / "tests" / "campaigns" / "fuzz"
-CORPUS = REPLAYS / "corpus"  # unpacked by the build from the archives in fuzz/corpus
-NAMES = sorted(path.stem[5:] for path in HERE.glob("fuzz_*.c") if path.stem not in ("fuzz_image", "fuzz_pages"))  # no harnesses
+CORPUS = REPLAYS / "corpus"  # the build unpacks it from the archives in fuzz/corpus
+NAMES = sorted(path.stem[5:] for path in HERE.glob("fuzz_*.c") if path.stem not in ("fuzz_image", "fuzz_pages"))  # helpers, not harnesses
 LONGEST = {
     "page": 513,
     "bus": 400,
@@ -27,7 +27,7 @@ LONGEST = {
     "play": 1000,
     "edit": 1000,
 }
-# libFuzzer goes by the clock of the wall: on a busy machine 10 s for one input, its limit for a slow one, mean nothing.
+# libFuzzer uses wall-clock time. On a busy machine its limit of 10 s for a slow input is meaningless.
 PATIENCE = ["-timeout=1200", "-report_slow_units=1200"]
 ENVIRONMENT = {"ASAN_OPTIONS": "detect_leaks=0:handle_abort=1", "UBSAN_OPTIONS": "print_stacktrace=1"}
 
@@ -40,11 +40,11 @@ class Run:
     executions: int
     edges: int
     corpus: int
-    finding: str  # "" or how to see it again
+    finding: str  # "", or the fault and how to repeat it
 
 
 def build():
-    """Builds the libFuzzer programs; false: there is no clang, or it has no libFuzzer."""
+    """Builds the libFuzzer programs. Returns false if there is no clang or it has no libFuzzer."""
     host = proof.BUILD / "host"
     targets = subprocess.run(
         ["cmake", "--build", str(host), "--target", "fuzzers", *(f"fuzz_{name}" for name in NAMES)], capture_output=True, text=True, check=False
@@ -55,7 +55,7 @@ def build():
 
 
 def replay(task):
-    """(name, runs, seed): the plain program over the corpus, and over so many inputs more that are made from it by chance."""
+    """Runs the plain program on the corpus and on random variations of it. task: (name, number of variations, seed)."""
     name, runs, seed = task
     work = proof.RESULTS / "fuzz" / name
     shutil.rmtree(work, ignore_errors=True)
@@ -77,13 +77,14 @@ def replay(task):
 
 
 def what_was_said(output):
-    """The line that says what a harness found."""
+    """Returns the line of the output that names the finding."""
     said = re.search(r"ASSERT\(.*|runtime error: .*|ERROR: (?:AddressSanitizer|libFuzzer): .*", output)
     return said.group(0) if said else output.strip()[-200:]
 
 
 def search(task):
-    """(name, limit, seed, keep): libFuzzer from the corpus on, up to limit, an option of its. keep: what it found goes to the corpus."""
+    """Runs libFuzzer from the corpus. task: (name, limit, seed, keep). limit: an option of libFuzzer. keep: adds new inputs to the
+    corpus."""
     name, limit, seed, keep = task
     work = proof.RESULTS / "fuzz" / name
     shutil.rmtree(work, ignore_errors=True)
@@ -114,7 +115,7 @@ def search(task):
 
 
 def describe(name, artifacts, output):
-    """Makes a finding smaller and returns it with the command that repeats it."""
+    """Shrinks a finding. Returns it with the command that repeats it."""
     where = pathlib.Path(artifacts[0]) if artifacts else None
     if where:
         small = where.with_name("smallest")
@@ -129,7 +130,7 @@ def describe(name, artifacts, output):
 
 
 def merge(name, work):
-    """Keeps the fewest inputs, old and new, that reach the same code."""
+    """Replaces the corpus by the fewest inputs, old and new, that reach the same code."""
     small = work / "small"
     small.mkdir()
     subprocess.run(
@@ -147,7 +148,7 @@ def merge(name, work):
 
 
 def pack(name):
-    """Writes the inputs of a harness to its archive, the same bytes for the same inputs."""
+    """Writes the inputs of a harness to its archive. The same inputs give the same bytes."""
     with tarfile.open(HERE / "corpus" / f"{name}.tar.xz", "w:xz") as archive:
         for path in sorted((CORPUS / name).iterdir()):
             about = tarfile.TarInfo(path.name)

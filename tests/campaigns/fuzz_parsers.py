@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Damaged files and answers for m512. Used by fuzz.py.
 
-A file is read or refused with a sentence of m512's own; what is read comes back from every format that keeps everything.
-Answers of a board are the noise of noise.py, at scale."""
+A file is either read or refused with an m512 error. A file that is read survives conversion through every lossless format. Answers of a
+board are the noise of noise.py, in large numbers."""
 
 import binascii
 import dataclasses
@@ -18,9 +18,9 @@ from tests.campaigns.proof import Figure
 FILES = 10_000
 ANSWERS = 6_000
 COMMANDS = 600
-SAMPLE = 100  # the sample is so many times smaller
+SAMPLE = 100  # the sample is smaller by this factor
 TASK = 250
-LIMIT_S = 10.0  # of CPU, one file
+LIMIT_S = 10.0  # of CPU time per file
 KINDS = (".m512", ".mtn", ".hex", ".csv", ".bin")
 NUMBERS = (
     b"0",
@@ -100,7 +100,7 @@ WORDS = (
 
 @dataclasses.dataclass
 class Outcome:
-    """The result of many inputs."""
+    """The results of many inputs."""
 
     done: int = 0
     read: int = 0
@@ -108,7 +108,7 @@ class Outcome:
 
 
 def seeds():
-    """{suffix: files}: a small set of pages of every sort, in every format; and the project's own motion texts."""
+    """Returns {suffix: files}: a small set of pages of every kind in every format, and the project's own motion texts."""
     from m512.files import formats
     from m512.files.image import Image
     from m512.files.page import Page
@@ -125,7 +125,7 @@ def seeds():
             page.set_time(step, rng.randrange(256))
             page.set_pause(step, rng.choice((0, 30)))
         image[number] = page.seal()
-    out = {".mtn": [formats.encode(pathlib.Path("x.mtn"), image)[0]]}  # a .mtn cannot say a damaged page
+    out = {".mtn": [formats.encode(pathlib.Path("x.mtn"), image)[0]]}  # the .mtn format cannot hold a damaged page
     image[7].data[33] ^= 1
     out |= {suffix: [formats.encode(pathlib.Path("x" + suffix), image, 1)[0]] for suffix in KINDS if suffix != ".mtn"}
     out[".m512"] += [path.read_bytes() for path in sorted((proof.TOP / "tools" / "motions").glob("*.m512"))]
@@ -133,7 +133,7 @@ def seeds():
 
 
 def mutate(rng, data, others):
-    """A few changes of the sorts that break parsers."""
+    """Makes a few changes that tend to break parsers."""
     data = bytearray(data)
     for _ in range(rng.choice((1, 1, 1, 2, 3, 8))):
         at = rng.randrange(len(data) + 1)
@@ -185,7 +185,7 @@ def mend(suffix, data):
 
 
 def judge(data, suffix, folder):
-    """Returns whether the file was read. Raises an exception for what must not happen."""
+    """Returns whether the file was read. Raises an exception if a rule is broken."""
     from m512.errors import M512Error
     from m512.files import formats
 
@@ -220,13 +220,13 @@ def files(task):
             outcome.done += 1
             try:
                 outcome.read += judge(data, suffix, pathlib.Path(folder))
-            except Exception as fault:  # pylint: disable=broad-except  (whatever it is, it is a finding)
+            except Exception as fault:  # pylint: disable=broad-except  (any exception is a finding)
                 outcome.findings.append(keep(f"{seed}-{outcome.done}{suffix}", data, fault))
     return outcome
 
 
 def keep(name, data, fault):
-    """Writes the file down; says where and what."""
+    """Saves the file. Returns its path and the fault."""
     folder = proof.RESULTS / "fuzz" / "m512"
     folder.mkdir(parents=True, exist_ok=True)
     (folder / name).write_bytes(data)
@@ -234,7 +234,7 @@ def keep(name, data, fault):
 
 
 def answers(task):
-    """Lets m512 talk to something that is no board. task: (seed, number of conversations)."""
+    """Lets m512 talk to noise instead of a board. task: (seed, number of conversations)."""
     from hypothesis import HealthCheck, given, seed, settings
 
     number, count = task
@@ -252,7 +252,7 @@ def answers(task):
 
 
 def commands(task):
-    """(seed, count): damaged files given to the command line: an exit code of m512's, one sentence, no traceback."""
+    """Gives damaged files to the command line. task: (seed, count). It must end with an m512 exit code and no traceback."""
     from click.testing import CliRunner
 
     from m512.cli import main
@@ -286,7 +286,7 @@ def commands(task):
 
 
 def figures(options):
-    """The rows of m512."""
+    """Returns the figures of m512."""
     return [
         row(options, *what)
         for what in (
@@ -316,7 +316,7 @@ def figures(options):
 
 
 def row(options, work, count, promise, how, what):
-    """Many tasks of one sort as a figure."""
+    """Runs many tasks of one kind. Returns their figure."""
     count = max(30, count // SAMPLE) if options.sample else count
     size = min(TASK, count)
     tasks = [(options.seed * 100_000 + i, size) for i in range(-(-count // size))]

@@ -18,7 +18,7 @@ TITLE = "Bad lines to a boot loader"
 PROMISE = "No byte outside the pages that m512 names ever changes, whatever the line does."
 SCHEDULES = 4000
 SAMPLE = 50
-OUR_SCHEDULES, OUR_SAMPLE = 2000, 4  # our own loader runs instruction by instruction: 0.4 s each
+OUR_SCHEDULES, OUR_SAMPLE = 2000, 4  # our own loader runs on the simulated chip: 0.4 s each
 CHUNK = 25
 SHOWN = 12
 
@@ -45,7 +45,7 @@ def chunk(numbers):
 
 
 def our_chunk(numbers):
-    """The same with our own loader."""
+    """Plays some schedules with our own loader."""
     return [ours.play(number) for number in numbers]
 
 

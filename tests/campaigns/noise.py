@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Boards that are none of ours: what comes over the line by chance, and m512's talks with that. Each ends with a result or one of m512's errors."""
+"""Noise instead of a board's answers, and the conversations of m512 with it. Each ends with a result or an m512 error."""
 
 from hypothesis import strategies as st
 
@@ -12,7 +12,7 @@ from m512.files.page import EMPTY
 
 
 class NoisyLink(links.Link):
-    """A line on which something else talks: canned bytes, then silence, in which alone time passes."""
+    """A line with canned bytes, then silence. Time passes only during silence."""
 
     def __init__(self, data):
         self.data, self.held, self.trace, self.url = data, b"", None, "noise"
@@ -38,7 +38,7 @@ class NoisyLink(links.Link):
 
 
 def pieces():
-    """Noise with the words in it that the parsers look for."""
+    """Noise that includes the words the parsers look for."""
     words = [
         b"\r\n - ",
         b"\x1e@ver ",
@@ -68,7 +68,7 @@ def survives(action):
 
 
 def machine(data):
-    """An image of ours is asked for everything."""
+    """Sends every request to one of our images."""
 
     def talk():
         client = Client(NoisyLink(data), (0.002,))

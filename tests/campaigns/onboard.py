@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""One motion on one body, led by the shipped image on the simulated board: trial.py with the chip, the wire and the console.
+"""One motion on one body, driven by the shipped image on the simulated board: trial.py with the chip, the bus and the console.
 
     outcome = try_on_board(image, page=20, seconds=12, ready=1)
 
-The robot plays `ready` in a hand, is put on its soles, then plays. About eight times as fast as the robot.
+The robot plays `ready` while held, is put on its soles, then plays. Runs about eight times faster than real time.
 """
 
 from body.chance import NOMINAL
@@ -18,7 +18,7 @@ KEYS_EVERY_TICKS = 4  # a remote repeats its packet while keys are held
 
 
 class OnBoard:
-    """A board with Play, and a body on its servos. Plays as quick.Quick does, for trial.watch()."""
+    """A board with Play, and a body on its servos. Has the interface of quick.Quick, for trial.watch()."""
 
     def __init__(self, image, physics, models=None, firmware="play-cm5.hex", seed=1):
         self.physics, self._code, self._stopped = physics, None, False
@@ -31,7 +31,7 @@ class OnBoard:
         self.board.expect("] ", ms=BOOT_MS)
 
     def stand_up(self, page):
-        """Plays a page in the hand, then stands on its soles as that page ends."""
+        """Plays a page while held, then stands on its soles when that page ends."""
         self.board.send(f"play {page}\r")
         for _ in range(HAND_TICKS):
             self.board.run(ticks=1)
@@ -44,7 +44,7 @@ class OnBoard:
         self.board.run(ms=250)
 
     def start(self, page):
-        """Begins to play; comes back when the approach is over."""
+        """Starts the page; returns when the approach is over."""
         self.board.send(f"play {page}\r")
         self.board.expect("Playing page", ms=APPROACH_MS)
         self._playing = True
@@ -60,7 +60,7 @@ class OnBoard:
         for _ in range(0, ticks, KEYS_EVERY_TICKS):
             if self._code is not None:
                 self.board.rc(self._code)
-                self._code = self._code or None  # let go is said once
+                self._code = self._code or None  # a release is sent once
             self.board.run(ticks=min(ticks, KEYS_EVERY_TICKS))
         said = self.board.take()
         self._playing = self._playing and b"Ended after" not in said and b"Stopped after" not in said
@@ -71,7 +71,7 @@ class OnBoard:
 
 
 def try_on_board(image, page, seconds, ready, robot="humanoid", variation=NOMINAL, keys=(), models=None, falls=True):
-    """As trial.try_motion(), exact law. ready: the page that brings the robot to its feet first."""
+    """Like trial.try_motion(), with the exact law. ready: the page that brings the robot to its feet first."""
     robot = robot if isinstance(robot, Description) else load(str(robot))
     player = OnBoard(image, Physics(robot, variation), models)
     player.stand_up(ready)

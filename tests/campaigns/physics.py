@@ -28,13 +28,13 @@ GP = load("gp")
 INIT, FORWARD, BACK = 1, 3, 13  # pages of the maker's set
 AX18 = {servo: "ax18" for servo in range(9, 19)}
 MODELS = {"AX-18": AX18, "AX-12": {}}
-# mm/s, measured with another model of the same robot (README of tools/body); +-25 %
+# Expected speeds in mm/s within +-25 %, measured with another model of the same robot (README of tools/body).
 EXPECTED = {("AX-18", FORWARD): 210, ("AX-18", BACK): -204, ("AX-12", FORWARD): 139, ("AX-12", BACK): -83}
 TOLERANCE = 0.25
 SECONDS = 10
 TRIED = proof.RESULTS / "bodies.jsonl"
 WALKS_ON_BOARD = 50
-FIRST_SEED = 1000  # those below were looked at while the motions were made
+FIRST_SEED = 1000  # lower seeds were used while the motions were made
 
 
 def add_arguments(group):
@@ -65,7 +65,7 @@ def add_arguments(group):
 
 
 def spoiled(how):
-    """The maker's set with the same slope for all joints ("slope 4": 2^4), or ankles bent ("ankle 12": degrees, toes up)."""
+    """Returns the maker's set with one slope for all joints ("slope 4": 2^4) or with bent ankles ("ankle 12": degrees, toes up)."""
     library = load_motions(DATA)
     kind, _, amount = how.partition(" ")
     for number, page in library.items():
@@ -83,7 +83,7 @@ def spoiled(how):
 
 
 def gp_body(seed):
-    """The body of the table that the yardstick comes from: its friction, supply, and masses."""
+    """Returns a body within the ranges behind the expected speeds: friction, supply voltage and masses."""
     if seed is None:
         return NOMINAL
     chance = random_body(GP, seed)
@@ -96,7 +96,7 @@ def gp_body(seed):
 
 
 def yardstick(item):
-    """(how, servos, page, seed, on the board) -> Outcome."""
+    """Returns the Outcome of one trial. item: (change, servos, page, seed, on the board)."""
     how, servos, page, seed, on_board = item
     image = spoiled(how)
     if on_board:
@@ -160,7 +160,7 @@ def walk_on_board(image, number, ready, item):
 
 
 def share_figure(what, how, promise, results, of):
-    """results: {seed: (kept, said)}, of at least one body. of: how many bodies a whole campaign has; with fewer the figure says so."""
+    """results: {seed: (kept, message)}, at least one. of: the number of bodies in a whole campaign; the figure says if there are fewer."""
     bad = {seed: said for seed, (kept, said) in sorted(results.items()) if not kept}
     stood = len(results) - len(bad)
     part = f", {of} are promised" if len(results) < of else ""
@@ -171,7 +171,7 @@ def share_figure(what, how, promise, results, of):
 
 
 def as_on_page(what, promise):
-    """[the figure as it stands on the page], with the commit it is from, or []. For bodies that were tried in another clone only."""
+    """Returns [the figure on the page, with its commit], or []. Used when the bodies were tried only in another clone."""
     found = []
     for figure in proof.figures_on_page("physics"):
         if figure["promise"] == what:
@@ -181,14 +181,14 @@ def as_on_page(what, promise):
 
 
 class Campaign:
-    """The bodies of one run: those that were tried before, and those that it tries."""
+    """The bodies of one run: those tried earlier, and those that it tries."""
 
     def __init__(self, options, library):
         self.options, self.library, self.commit = options, library, proof.commit()
         self.tried = None if options.sample or options.seed_of else bodies.Tried(TRIED)
 
     def results(self, work, promise, count, where="player"):
-        """{seed: (kept, said)} of a motion's bodies. work((promise, seed)) tries one."""
+        """Returns {seed: (kept, message)} of a motion's bodies. work((promise, seed)) tries one."""
         if self.options.seed_of:
             seeds = [self.options.seed_of]
         else:
@@ -292,5 +292,5 @@ def run(options):
         if not options.only:
             figures += [nominal_figure(image, library), bears_figure(image, library)]
     if options.only or options.bodies is not None or options.seed_of:
-        options.keep = False  # a piece of the work
+        options.keep = False  # a partial run
     return figures

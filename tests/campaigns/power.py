@@ -25,9 +25,9 @@ SCENES = {scene.name: scene for scene in (*saves.SCENES, *loads.SCENES, *setting
 LIVES = {life.name: life for life in lives.LIVES}
 LIFE_COUNT = 5
 SAMPLED = ("save", "save-factory", "save-play", "mailbox", "repair", "app-blocks", "motions-load", "words", "taken", "settings", "pairs-save", "life")
-SAMPLE_STATES = 2  # of each of these
+SAMPLE_STATES = 2  # per scene
 DEEPEST = 3
-SHOWN = 12  # failures that are printed one by one
+SHOWN = 12  # failures that are printed individually
 
 
 def add_arguments(group):
@@ -36,7 +36,7 @@ def add_arguments(group):
 
 
 def chooser(scene, seed, sample, chunk):
-    """Which phases an operation is cut at: all, or one in so many, picked by the seed."""
+    """Returns a function that tells at which phases to cut an operation: at all of them, or at one in so many, picked by the seed."""
     every_phase = getattr(scene, "all_phases_until", 0)
     sampled = {(2 * i + 1) * scene.about // (2 * SAMPLE_STATES) + 1 for i in range(SAMPLE_STATES)}
 
@@ -50,14 +50,14 @@ def chooser(scene, seed, sample, chunk):
         if depth == DEEPEST or (depth == 0 and operation % scene.chunks != chunk):
             return []
         rate = 1 if depth == 0 and operation <= every_phase else 40 if sample else scene.rates[depth]
-        phases = PHASES if operation == 1 and depth == 0 else PHASES[1:]  # else "before" is "after" the last one
+        phases = PHASES if operation == 1 and depth == 0 else PHASES[1:]  # "before" equals the previous "after"
         return [phase for phase in phases if number(*path, operation, phase) % rate == 0]
 
     return wanted
 
 
 def play(work):
-    """Plays one piece of work in a process of its own. Returns (scene, [(state, outcome, fault)], operations, seconds of a core)."""
+    """Plays one piece of work in its own process. Returns (scene, [(state, outcome, fault)], operations, seconds of one core)."""
     spent = sum(os.times()[:4])
     return (*play_one(*work), sum(os.times()[:4]) - spent)
 
@@ -75,7 +75,7 @@ def play_one(name, part, seed, sample):
 
 
 def repeat(state, seed):
-    """Plays a single state again."""
+    """Repeats a single state."""
     name, _, rest = state.partition(":")
     life, _, number = name.rpartition("-")
     if not rest or (life not in LIVES and name not in SCENES):

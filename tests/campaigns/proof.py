@@ -1,18 +1,17 @@
 # SPDX-License-Identifier: MIT
-"""What every proof has in common: its figures, its work on all cores, its page.
+"""What all proofs share: figures, work on all cores, pages.
 
 A proof is a module of this folder with
 
     TITLE                       a heading
     PROMISE                     one sentence: what a user may rely on when every figure is kept
-    __doc__                     its first paragraph stands below the heading of its page
+    __doc__                     its first paragraph appears below the heading of its page
     add_arguments(group)        its own options (argparse), such as the one that repeats a single state
-    run(options) -> [Figure]    does the work; options.sample asks for a minute's worth (CI), options.jobs is how many
-                                processes may run, options.seed chooses what is left to chance
+    run(options) -> [Figure]    does the work; options.sample requests a minute's worth (CI), options.jobs is the number of
+                                processes, options.seed selects the random choices
 
-tools/prove runs them and writes two kinds of pages: tests/PROOFS.md, a row a part, and tests/proofs/<part>.md, a row a
-figure. A proof never stops at the first fault: it counts all, and says of each how
-to see it again.
+tools/prove runs the proofs and writes two kinds of pages: tests/PROOFS.md with a row for each part, and tests/proofs/<part>.md with a row
+for each figure. A proof does not stop at the first fault. It counts all faults and says how to repeat each.
 """
 
 import dataclasses
@@ -34,7 +33,7 @@ DETAILS = TOP / "tests" / "proofs"
 
 IMAGES = ("firmware", "hal", "linker", "motion")
 MOTIONS = ("tools/body/src", "tools/body/humanoid.xml", "tools/motions", "tools/sim/servo")
-JUDGED = {  # the code of which a part's figures speak
+JUDGED = {  # the code that each part's figures judge
     "power": IMAGES,
     "fuzz": (*IMAGES, "tools/m512/src"),
     "faults": IMAGES,
@@ -45,24 +44,24 @@ JUDGED = {  # the code of which a part's figures speak
     "shape": (*IMAGES, *MOTIONS),
     "sessions": IMAGES,
 }
-BY_GOALS = ("physics",)  # parts that judge the player by the goals that it makes (goals_of_motions), not by its source
+BY_GOALS = ("physics",)  # parts that judge the player by its goals (goals_of_motions), not by its source
 STOP, STOP_TICK, TICKS = 255, 1200, 4000
 CODE = (".c", ".h", ".in", ".py", ".m512", ".xml", ".json")
 
 
 @dataclasses.dataclass(frozen=True)
 class Figure:
-    """One promise and what this run measured of it."""
+    """One promise and this run's measurement of it."""
 
     promise: str  # one sentence, as a user would read it
     how: str  # how it is tested
-    measured: str  # what this run gave, with units
-    kept: bool  # the promise held everywhere
-    headline: bool = False  # `measured`, up to its first semicolon, stands on the short page
+    measured: str  # this run's result, with units
+    kept: bool  # the promise held in every case
+    headline: bool = False  # `measured`, up to its first semicolon, appears on the short page
 
 
 def commit():
-    """The commit of the tree, marked when the tree differs from it; the page itself does not count."""
+    """Returns the commit of the tree, marked if the tree has changes. Changes of the pages themselves do not count."""
 
     def git(*words):
         return subprocess.run(["git", "-C", str(TOP), *words], capture_output=True, text=True, check=False).stdout.strip()
@@ -74,15 +73,15 @@ def commit():
 
 
 def git_files(*places):
-    """The files below these places that git tracks and that are there."""
+    """Returns the existing files below these places that git tracks."""
     listed = subprocess.run(["git", "-C", str(TOP), "ls-files", "-z", *places], capture_output=True, text=True, check=False).stdout
     return [TOP / name for name in sorted(listed.split("\0")) if name and (TOP / name).exists()]
 
 
 def goals_of_motions():
-    """A digest of the goals of our motion library: each page, played once by the exact law from its first pose, with a stop on the way, so
-    that exit pages are played too. The C player must be built (host:played)."""
-    from m512.files.formats import load  # here, because no other part needs the C player
+    """Returns a digest of the goals of our motion library. The exact law plays each page once from its first pose, with a stop on the
+    way so that exit pages play too. Needs a built C player (host:played)."""
+    from m512.files.formats import load  # imported here: no other part needs the C player
     from tests.models.played import ENDED, EXACT, JOINTS, Played
 
     image, found = load(TOP / "tools" / "motions" / "motions.m512"), hashlib.sha256()
@@ -102,7 +101,8 @@ def goals_of_motions():
 
 
 def code(part):
-    """Ten digits that change when what this part judges changes: its code, but no comment or blank in C, or the goals of our motions."""
+    """Returns ten digits that change when the part's subject changes: its code (without comments and whitespace in C), or the goals of
+    our motions."""
     found = hashlib.sha256((goals_of_motions() if part in BY_GOALS else "").encode())
     for path in git_files(*JUDGED.get(part, ())):
         if path.suffix not in CODE or "tests" in path.relative_to(TOP).parts:
@@ -115,8 +115,8 @@ def code(part):
 
 
 class Kept:
-    """Results of a whole run, kept as they come: a line an item in build/prove/PART.jsonl. A run that was interrupted goes on where it
-    was, if the tree is still the same commit without changes; a run that ends forgets them."""
+    """Results of a whole run, saved as they arrive: one line per item in build/prove/PART.jsonl. An interrupted run resumes if the tree
+    is still at the same commit without changes. A completed run deletes them."""
 
     def __init__(self, part, is_whole=True):
         self.path, self.commit, self.found = RESULTS / f"{part}.jsonl", commit(), {}
@@ -126,7 +126,7 @@ class Kept:
             self.found = {line["item"]: line["result"] for line in lines if line["commit"] == self.commit}
 
     def keep(self, item, result):
-        """result: what JSON can say; tuples come back as lists."""
+        """result: a JSON value. Tuples come back as lists."""
         self.found[repr(item)] = result
         if self.is_on:
             self.path.parent.mkdir(parents=True, exist_ok=True)
@@ -134,19 +134,19 @@ class Kept:
                 file.write(json.dumps({"commit": self.commit, "item": repr(item), "result": result}) + "\n")
 
     def each(self, work, items, what, jobs):
-        """campaign.each() over what is not done yet; the results of all."""
+        """Runs campaign.each() over the items not done yet. Returns the results of all items."""
         items = list(items)
         each(work, [item for item in items if repr(item) not in self.found], what, jobs, done=self.keep)
         return [self.found[repr(item)] for item in items]
 
     def finish(self):
-        """Call at the end of the run: forgets the results kept for going on."""
+        """Deletes the saved results. Call it at the end of the run."""
         if self.is_on:
             self.path.unlink(missing_ok=True)
 
 
 def keep(name, module, figures, command):
-    """Writes the result of a whole part: build/prove/NAME.json, and its page."""
+    """Writes the result of a complete part: build/prove/NAME.json and its page."""
     RESULTS.mkdir(parents=True, exist_ok=True)
     about = " ".join((module.__doc__ or "").split("\n\n")[0].split())
     part = {
@@ -163,7 +163,7 @@ def keep(name, module, figures, command):
 
 
 def table(figures):
-    """The figures as rows of Markdown."""
+    """Returns the figures as rows of Markdown."""
     rows = ["| promise | how it is tested | measured | |", "| --- | --- | --- | --- |"]
     for figure in figures:
         cells = [figure["promise"], figure["how"], figure["measured"], "kept" if figure["kept"] else "**BROKEN**"]
@@ -172,7 +172,7 @@ def table(figures):
 
 
 def figures_on_page(name):
-    """The figures of tests/proofs/NAME.md, as write_details() got them but for their headlines; [] if there is no such page."""
+    """Returns the figures of tests/proofs/NAME.md as given to write_details(), but without their headlines; [] if there is no such page."""
     path = DETAILS / f"{name}.md"
     text = path.read_text(encoding="utf-8") if path.exists() else ""
     found = []
@@ -183,7 +183,7 @@ def figures_on_page(name):
 
 
 def headline(figures):
-    """What stands on the short page of a part's figures."""
+    """Returns the text on the short page for a part's figures."""
     broken = [figure for figure in figures if not figure["kept"]]
     if broken:
         return f"**{len(broken)} of {len(figures)} broken**"
@@ -196,12 +196,12 @@ AGAIN = "A sample again at commit {commit}: {found}."
 
 
 def pattern(line):
-    """The pattern that finds such a line."""
+    """Returns the pattern that matches lines made from this template."""
     return re.compile("^" + re.sub(r"\\{(\w+)\\}", r"(?P<\1>.*?)", re.escape(line)) + "$", re.M)
 
 
 def write_details(name, part):
-    """tests/proofs/NAME.md. The row of the short page is made from its head (row_of)."""
+    """Writes tests/proofs/NAME.md. row_of() makes the row of the short page from its head."""
     DETAILS.mkdir(exist_ok=True)
     found = FOUND.format(found=headline(part["figures"]), command=part["command"], commit=part["commit"], code=part["code"])
     lines = [f"# {part['title']}", "", part["promise"], "", found, "", part["about"], "", *table(part["figures"])]
@@ -209,7 +209,7 @@ def write_details(name, part):
 
 
 def note_sample(name, figures):
-    """What a sample found goes to the page of the last whole run, below what that found, in the place of the sample before."""
+    """Writes a sample's result on the page of the last whole run, below that run's result. It replaces the previous sample's."""
     path = DETAILS / f"{name}.md"
     text = path.read_text(encoding="utf-8")
     before = pattern(AGAIN).search(text)
@@ -221,17 +221,17 @@ def note_sample(name, figures):
 
 
 def is_current(name):
-    """Whether the last whole run judged the code that is here now."""
+    """Returns whether the last whole run judged the present code."""
     return pattern(FOUND).search((DETAILS / f"{name}.md").read_text(encoding="utf-8"))["code"] == code(name)
 
 
 def commit_on_page(name):
-    """The commit of the last whole run, from the part's page."""
+    """Returns the commit of the last whole run, from the part's page."""
     return pattern(FOUND).search((DETAILS / f"{name}.md").read_text(encoding="utf-8"))["commit"]
 
 
 def row_of(name):
-    """The row of a part, from its page."""
+    """Returns a part's row of the short page, made from the part's page."""
     text = (DETAILS / f"{name}.md").read_text(encoding="utf-8")
     title, promise = re.match(r"# (.*)\n\n(.*)\n", text).groups()
     found, again = pattern(FOUND).search(text), pattern(AGAIN).search(text)
@@ -241,7 +241,7 @@ def row_of(name):
 
 
 def write_page(names):
-    """tests/PROOFS.md: a row for each part that has a page in tests/proofs/, in the order of `names`."""
+    """Writes tests/PROOFS.md: one row for each part that has a page in tests/proofs/, in the order of `names`."""
     rows = [row_of(name) for name in names if (DETAILS / f"{name}.md").exists()]
     PAGE.write_text(
         "\n".join(

@@ -17,9 +17,9 @@ from tests.campaigns.simtime import board, chance, runs
 TITLE = "Sessions in simulated time"
 PROMISE = "Whatever a person, servos, lines, a computer and the power do at any tick: no leap, nothing moves unasked, text and pages stand."
 SESSIONS, SAMPLE, CHUNK, SHOWN = 8400, 60, 25, 6
-BOTH = 100  # sessions that the strict board plays as well: 4 s each
+BOTH = 100  # sessions that the strict board plays as well, 4 s each
 PLAYED = proof.RESULTS / "board_sessions.jsonl"
-MISSED_IN_SAMPLE = 12  # places that a sample need not reach
+MISSED_IN_SAMPLE = 12  # places that a sample may miss
 PLACES = (
     "approach",
     "move",
@@ -144,7 +144,7 @@ def chunk(seeds):
 
 
 def make_short(outcome, actions):
-    """Writes the short list of a session that failed, and says where."""
+    """Writes the shortened list of a failed session, and prints its path."""
     path = proof.RESULTS / f"session-{outcome.seed}.txt"
     path.parent.mkdir(parents=True, exist_ok=True)
     short = runs.shrunk(actions, runs.rule_of(outcome.fault))
@@ -177,15 +177,15 @@ def run(options):
 
 
 def board_sessions():
-    """Sessions that the strict board has played as well, by seed: (frames, ticks, what differs). They count for the code that is here now, and
-    are kept, so that an hour today and an hour tomorrow are two hours."""
+    """Returns the code digest and the sessions that the strict board has also played with it, by seed: (frames, ticks, difference). They
+    are kept, so that the hours of several runs add up."""
     code = proof.code("sessions")
     lines = map(json.loads, PLAYED.read_text(encoding="utf-8").splitlines()) if PLAYED.exists() else ()
     return code, {line["seed"]: line["found"] for line in lines if line["code"] == code}
 
 
 def both(options):
-    """The figure of what the strict board has played as well. (Of a sample the test prove.simtime has it.)"""
+    """Returns the figure of the sessions that the strict board also played. In a sample, the test prove.simtime covers this."""
     count = BOTH if options.both is None else options.both
     if options.sample or options.list or options.only is not None or (options.sessions is not None and options.both is None):
         return []
@@ -216,7 +216,7 @@ def both(options):
 
 
 def figures(options, outcomes):
-    """What the outcomes say."""
+    """Returns the figures of these outcomes."""
     broken = [outcome for outcome in outcomes if outcome.fault]
     for outcome in broken[:SHOWN]:
         print(f"   session {outcome.seed}: {outcome.fault}; again: tools/prove sessions --only {outcome.seed}")

@@ -23,12 +23,12 @@ TITLE = "Driven motions in physics"
 PROMISE = "A walk stays a walk while its speed, size and direction change, while a second page plays over it, and when the cable is pulled."
 
 HEAD = load("humanoid", head=True)
-CYCLE_S = 56 / 128  # of the walk at rate 100: walk_r and walk_l
-SEGMENT_S, SETTLES_S = 12, 5  # a value is held so long; its figures are those behind the first seconds
+CYCLE_S = 56 / 128  # of the walk at rate 100 (walk_r and walk_l)
+SEGMENT_S, SETTLES_S = 12, 5  # duration of each value; figures use only the time after SETTLES_S
 VALUES = {"rate": (50, 75, 100, 125, 150), "amplitude": (0, 30, 60, 90, 120), "blend": (-100, -50, 0, 50, 100)}
 STRAIGHT = {"blend": 0, "rate": 100, "amplitude": 100}
 BODIES = 10
-TOO_LONG_S = 20  # behind the last line: a second of the watchdog, the exit page, and more
+TOO_LONG_S = 20  # after the last line: one second until the watchdog acts, the exit page, and a margin
 
 
 def add_arguments(group):
@@ -40,12 +40,12 @@ def add_arguments(group):
 
 
 def body_of(seed, robot, hard=False):
-    """Seed 0: the body as its file says."""
+    """Returns the body for a seed. Seed 0 is the nominal body."""
     return (random_body if hard else body_of_the_bench)(robot, seed) if seed else NOMINAL
 
 
 class Walk:
-    """The library's walk, driven by `hand`. Pickled with each job."""
+    """The library's walk, driven by `hand`. Is pickled for each job."""
 
     def __init__(self, library, image, hard):
         self.hard, self.image, self.page, self.ready = hard, image, promises.number_of(library, "walk"), promises.number_of(library, "ready")
@@ -55,18 +55,18 @@ class Walk:
         return drive(self.image, self.page, self.ready, seconds, hand, robot, body_of(seed, robot, self.hard), **how)
 
 
-# --- a value after the other ---
+# --- one value after another ---
 
 
 def order_by_chance(kind, seed):
-    """The values, in the order in which this body gets them."""
+    """Returns the values in this body's random order."""
     values = list(VALUES[kind])
     random.Random(f"order {kind} {seed}").shuffle(values)
     return values
 
 
 def swept(walk, kind, seed):
-    """(said if it fell or stands no more, {value: (mm/s, mm a cycle, degrees a cycle)})"""
+    """Returns (message if the robot fell, {value: (mm/s, mm per cycle, degrees per cycle)})."""
     order = order_by_chance(kind, seed)
     stick = Stick(**STRAIGHT | {kind: order[0]})
 
@@ -113,15 +113,15 @@ def sweep_figures(walk, kind, seeds, options):
 
 
 def told(bad):
-    """The bodies that did not keep a promise, and how the first of them failed: ", seeds 3, 5; the first: ..."."""
+    """Returns the bodies that broke a promise, and how the first of them failed: ", seeds 3, 5; the first: ..."."""
     return f", seeds {', '.join(str(seed) for seed, _ in bad)}; the first: {bad[0][1]}" if bad else ""
 
 
-# --- all at once, and the cable ---
+# --- all values at once, and a pulled cable ---
 
 
 def joyridden(walk, seed):
-    """All three change at any moment; then the cable is pulled."""
+    """Changes all three values at any moment, then pulls the cable. Returns (kept, message)."""
     chance, stick, wish, until = random.Random(f"joyride {seed}"), Stick(), [0, 100, 100], [0.0]
     pulled_s = chance.uniform(6, 14)
 
@@ -180,7 +180,7 @@ def eight_figures(walk, seeds, options):
 
 
 def draw_eights(path, tracks):
-    """Seen from above: the path in black, a way of the trunk for each body."""
+    """Draws the view from above: the path in black, and the trunk's track for each body."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -205,7 +205,7 @@ WALK_S = 14
 
 
 def laid_over(walk, numbers, item):
-    """(kept, said): the walk with a page over it, against the same walk without."""
+    """Returns (kept, message): compares the walk with a page layered over it to the same walk without."""
     name, seed = item
     robot, chance = HEAD if name == "look" else promises.ROBOT, random.Random(f"layer {name} {seed}")
     on_s, off_s = chance.uniform(1, 4), chance.uniform(8, 11)
@@ -256,8 +256,8 @@ ROWS = {
 
 
 def keep_row(row, figures):
-    """A row that ran whole takes the place of its last run on tests/proofs/shape.md. The others stay there with their commits: the
-    page is the only record."""
+    """Replaces a row's last run on tests/proofs/shape.md by this complete one. The other rows stay there with their commits: the page is
+    the only record."""
     kept = {}
     for figure in proof.figures_on_page("shape"):
         kept.setdefault(row_of(figure), []).append(figure)
@@ -267,7 +267,7 @@ def keep_row(row, figures):
 
 
 def row_of(figure):
-    """The row that a figure of the page came from."""
+    """Returns the row that a figure on the page came from."""
     found = re.match(r"`--only (\w+)`, commit ", figure["how"])
     if not found:
         raise ValueError(f"tests/proofs/shape.md: a figure that names no row: {figure['how']}")
@@ -275,7 +275,7 @@ def row_of(figure):
 
 
 def write_rows(kept):
-    """tests/proofs/shape.md from {row: figures}, and its row of the short page."""
+    """Writes tests/proofs/shape.md from {row: figures}, and its row of the short page."""
     figures = [figure for row in ROWS for figure in kept.get(row, ())]
     commits = dict.fromkeys(re.search(r"commit (\w+)", figure["how"])[1] for figure in figures)
     codes = {re.search(r"commit \w+(?:, code (\w+))?", figure["how"])[1] for figure in figures}
@@ -293,7 +293,7 @@ def write_rows(kept):
     )
 
 
-SAMPLE = {"cable": 1, "eight": 1, "look": 1}  # rows of a sample, and how many bodies; samples of the others: tests/models
+SAMPLE = {"cable": 1, "eight": 1, "look": 1}  # rows of a sample and their number of bodies; tests/models has samples of the other rows
 
 
 def run(options):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The rows of the part shape that need no body: the player on the PC against the models of the spec (tests/models, tests/models)."""
+"""The rows of the part shape that need no body: the player on the PC against the models of the specification (tests/models)."""
 
 import functools
 
@@ -13,12 +13,12 @@ PIECE = 100
 
 
 def unset(first):
-    """[what is wrong] of PIECE plays with nothing set."""
+    """Compares PIECE plays with nothing set. Returns the differences."""
     return classic.compare(first, PIECE)[1]
 
 
 def changed(first):
-    """The same while what is set changes at any tick."""
+    """Compares PIECE plays whose settings change at any tick. Returns the differences."""
     return shaped.compare(first, PIECE)
 
 
@@ -58,7 +58,7 @@ BY_CHANCE = 2000
 
 
 def came_at(offs, item):
-    """(walks, [what is wrong]) of a walk over which a layer came at this tick and went after each of so many."""
+    """Returns (walks, faults) for a layer that starts at this tick of a walk and ends after each of the given times."""
     law, name, on = item
     return hand_over.every_tick(law, name, ons=[on], offs=offs)
 

@@ -36,29 +36,29 @@ def module_of(name, file):
 
 
 def tool(name):
-    """A command of tools/dev as a module."""
-    sys.modules.setdefault("avr_elf", module_of("avr_elf", "avr_elf.py"))  # a command finds it beside itself
+    """Returns a command of tools/dev as a module."""
+    sys.modules.setdefault("avr_elf", module_of("avr_elf", "avr_elf.py"))  # the command expects it in its own folder
     return module_of(name, name)
 
 
 def command(*words):
-    """(it passed, what it said)."""
+    """Returns (passed, output)."""
     done = subprocess.run([str(word) for word in words], cwd=proof.TOP, capture_output=True, text=True, check=False)
     return done.returncode == 0, done.stdout + done.stderr
 
 
 def last_lines(text, count=3):
-    """The end of an output that says what is wrong."""
+    """Returns the last lines of an output: they say what is wrong."""
     return "; ".join(text.strip().splitlines()[-count:])
 
 
 def sources(*folders):
-    """The C files of these folders."""
+    """Returns the C files of these folders."""
     return [path for folder in folders for path in sorted((proof.TOP / folder).rglob("*.[ch]"))]
 
 
 def lint_figure():
-    """clang-tidy and cppcheck."""
+    """clang-tidy and cppcheck find nothing."""
     kept, text = command(TOOLS / "lint", "--deep")
     tidied = re.search(r"clang-tidy: (\d+) files", text)
     rules = command("clang-tidy", "--list-checks", f"--config-file={proof.TOP / '.clang-tidy'}")[1].count("\n    ")
@@ -76,7 +76,7 @@ def lint_figure():
 
 
 def layer_figure():
-    """Includes point down only."""
+    """Includes point downwards only."""
     kept, text = command(TOOLS / "check_layers")
     return proof.Figure(
         "No part knows what lies above it, and registers are named in hal/avr and the loader only",
@@ -87,7 +87,7 @@ def layer_figure():
 
 
 def circle_figure():
-    """No two files of an image use each other."""
+    """No two files of an image depend on each other."""
     kept, text = command(TOOLS / "check_circles")
     return proof.Figure(
         "No two files of an image use each other, directly or through others",
@@ -115,7 +115,7 @@ def spm_figure():
 
 
 def symbol_figure():
-    """Nothing that has no bound."""
+    """No unbounded functions."""
     kept, text = command(TOOLS / "check_images", *IMAGES)
     total = sum(int(number) for number in re.findall(r"(\d+) symbols", text))
     return proof.Figure(
@@ -127,7 +127,7 @@ def symbol_figure():
 
 
 def stack_figures():
-    """Recursion, stack and budgets, from what the compiler made."""
+    """Recursion, stack and budgets, from the compiler's output."""
     size = tool("size_report")
     reports = [size.report(elf) for elf in IMAGES]
     calls = sum(len(size.disassemble(elf, size.instructions(elf))) for elf in IMAGES)
@@ -158,7 +158,7 @@ def stack_figures():
 
 
 def compiler_figure():
-    """No warning is left, and none is asked away."""
+    """No warning remains, and the important ones are enabled."""
     flags = (proof.TOP / "tools" / "dev" / "cmake" / "m512.cmake").read_text(encoding="utf-8")
     wanted = re.search(r"set\(M512_WARNINGS (.*?)\)", flags, re.S)[1].split()
     files = len(sources(*FIRMWARE, "tools/sim"))
@@ -172,9 +172,9 @@ def compiler_figure():
 
 
 def array_figure():
-    """No arrays of variable length: the stack figures would not hold."""
+    """No arrays of variable length: they would invalidate the stack figures."""
     listed = json.loads((proof.BUILD / "avr" / "compile_commands.json").read_text(encoding="utf-8"))
-    # Sources with texts are compiled as they are after packing, from below build/avr/firmware.
+    # Sources with packed texts are compiled from below build/avr/firmware.
     folders = tuple(f"{folder}/" for folder in (*(proof.TOP / name for name in FIRMWARE), proof.BUILD / "avr" / "firmware"))
     of = {entry["file"]: entry for entry in listed if entry["file"].startswith(folders)}
     found = []
@@ -192,7 +192,7 @@ def array_figure():
 
 
 def run(options):
-    """The figures. Those that ctest has under their own names are no part of the sample."""
+    """Returns the figures. A sample leaves out those that are ctests of their own."""
     if not IMAGES:
         raise SystemExit("static: no images: build first (tools/dev/build)")
     figures = [compiler_figure(), *stack_figures()]

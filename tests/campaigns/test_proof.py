@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What the parts of tools/prove share. Its pages: the short one is made of the heads of the others, and nobody edits it by hand. Its whole
-runs: one that was interrupted goes on."""
+"""What the parts of tools/prove share. Pages: the short page is made from the heads of the others, never by hand. Whole runs: an
+interrupted one resumes."""
 
 import pathlib
 import re
@@ -17,7 +17,7 @@ PARTS = re.search(r"PARTS = \[\s*name\s+for name in \((.*?)\)", (TOP / "tools" /
 
 @pytest.fixture
 def pages(tmp_path, monkeypatch):
-    """An empty tests/ folder, and the head of a part."""
+    """Redirects the pages to an empty folder. Returns the head of a part."""
     monkeypatch.setattr(proof, "DETAILS", tmp_path / "proofs")
     monkeypatch.setattr(proof, "PAGE", tmp_path / "PROOFS.md")
     monkeypatch.setattr(proof, "commit", lambda: "0123456789")
@@ -79,7 +79,7 @@ def test_the_page_of_this_tree_is_what_the_others_say():
 
 
 def test_no_row_of_this_tree_is_broken():
-    """A finding is mended before its page lands; a page that is only old says so itself."""
+    """A finding is fixed before its page lands. A page that is merely outdated says so itself."""
     assert [page.stem for page in proof.DETAILS.glob("*.md") if "**BROKEN**" in page.read_text(encoding="utf-8")] == []
 
 
@@ -128,7 +128,7 @@ def test_figures_come_back_from_the_pages_of_this_tree():
 
 @pytest.fixture
 def calls(tmp_path, monkeypatch):
-    """What was worked on; each() in this process, and its third item breaks down once."""
+    """Returns the items worked on. each() runs in this process; its third item fails once."""
     made = []
 
     def each(work, items, what, jobs, done):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The strict board with the shipped image and the program in simulated time do the same: goals, text, motion pages, settings. And
-sessions are the same each time, a broken rule is seen, and its list becomes short."""
+"""The shipped image on the strict board and the program in simulated time do the same: goals, text, motion pages, settings. Sessions are
+repeatable, a broken rule is found, and its list of actions is shortened."""
 
 import pytest
 
@@ -19,7 +19,7 @@ def test_a_seed_is_the_same_session_each_time():
 
 
 def test_a_power_cut_begins_with_fresh_memory():
-    """Else the text that stood in the line would be there again, and a rule would say so."""
+    """Otherwise the earlier text would still be in the line, and a rule would report it."""
     actions = [(0, "seed 1"), (0, f"motions {runs.motions()}"), (0, "servo 1"), (0, "image play"), (400, chance.typed("play 8\rhalf a li"))]
     outcome = runs.play(0, [*actions, (700, "cut"), (1200, chance.typed("version\r")), (1400, "end")])
     assert not outcome.fault and outcome.marks["power cut during play"] == 1
@@ -27,7 +27,7 @@ def test_a_power_cut_begins_with_fresh_memory():
 
 @pytest.mark.parametrize("release", ([(640, "remote 0")], []), ids=("let go", "silent"))
 def test_a_stop_that_nobody_has_typed_ends_aims(release):
-    """In the mode `hold`; the joint is then on its way, and no rule is broken."""
+    """In the mode `hold`. The joint is then on its way, and no rule is broken."""
     actions = [(0, "seed 1"), (0, f"motions {runs.motions()}"), (0, "servo 1"), (0, "servo 2"), (0, "image play")]
     asked = [(400, chance.typed("settings remote 1\r")), (600, "remote 1"), (610, chance.typed("aim 2 700 30\r"))]
     outcome = runs.play(0, [*actions, *asked, *release, (1400, "end")])
@@ -35,7 +35,7 @@ def test_a_stop_that_nobody_has_typed_ends_aims(release):
 
 
 def test_a_joint_that_is_sent_elsewhere_need_not_come_to_where_it_was_sent_first():
-    """Also when the line before was refused a moment ago."""
+    """Even if the line before it was refused a moment ago."""
     actions = [(0, "seed 1"), (0, f"motions {runs.motions()}"), *((0, f"servo {servo}") for servo in range(1, 19)), (0, "image play")]
     lines = [(384, "@move 60 11 17a\r"), (2168, "play 21\r"), (2936, "aim 1 600\r"), (3320, "play 1\r"), (3419, "aim 1 590\r")]
     outcome = runs.play(0, [*actions, *((tick, chance.typed(line)) for tick, line in lines), (3600, "end")])
@@ -43,7 +43,7 @@ def test_a_joint_that_is_sent_elsewhere_need_not_come_to_where_it_was_sent_first
 
 
 def test_a_pause_at_a_low_rate_is_longer():
-    """SHAPING.md. No goal goes out in it, and what comes behind it has been asked for."""
+    """SHAPING.md. No goal is sent in the pause, and what follows it counts as requested."""
     actions = [(0, "seed 1"), (0, f"motions {runs.motions()}"), (0, "servo 1"), (0, "image play")]
     lines = [(400, "@rate 10\r"), (450, "play 2\r")]
     outcome = runs.play(0, [*actions, *((tick, chance.typed(line)) for tick, line in lines), (4000, "end")])
@@ -51,7 +51,7 @@ def test_a_pause_at_a_low_rate_is_longer():
 
 
 def test_a_broken_rule_is_seen_and_its_list_becomes_short():
-    """An action that nobody knows stands for a program that fails."""
+    """An unknown action stands in for a program that fails."""
     actions = [(0, "seed 1"), (0, f"motions {runs.motions()}"), (0, "servo 1"), (0, "image play")]
     noise = [(420 + 20 * i, chance.typed("version\r")) for i in range(20)]
     others = [(900, "fault 1 dead 0"), (910, "clear 1"), (920, "no such action")]

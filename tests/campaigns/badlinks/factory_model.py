@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""A boot loader of the factory's kind, as its description says it behaves, in simulated time.
+"""A model of a factory-style boot loader in simulated time, according to its description.
 
-Written from boot/ORIGINAL.md (sections 1 to 4, 7a and 8), with no look at m512. All its
-weaknesses are here: raw data that ends by 111 ms of silence, no bound, the wrap at 0x20000, left-over bytes in the page
-buffer, a ring of 256 bytes that empties when it overflows, a line of 80 characters that crashes it, Ctrl-A, the mailbox.
+Written from boot/ORIGINAL.md (sections 1 to 4, 7a and 8), independently of m512. It has all of its weaknesses: raw data that ends with 111
+ms of silence, no bounds check, the wrap at 0x20000, left-over bytes in the page buffer, a ring of 256 bytes that is emptied when it
+overflows, a line of 80 characters that crashes it, Ctrl-A, the mailbox.
 
-The loader is a process: a generator that yields what it waits for, ("byte", seconds or None) or ("busy", seconds). A Board
-runs it against the two wires of a line.
+The loader is a process: a generator that yields what it waits for, ("byte", seconds or None) or ("busy", seconds). A Board runs it on the
+two wires of a line.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ MODES = {"play": 0x12, "toss": 0x13, "mon": 0x14, "edit": 0x15, "dump": 0x16}
 
 
 class Loader:
-    """The chip with this loader in it. `written` lists (when, flash page, "load" or "mailbox"); `crashes` what jumped wild."""
+    """The chip with this loader. `written` lists (time, flash page, "load" or "mailbox"); `crashes` lists (time, reason)."""
 
     def __init__(self, flash: bytes, eeprom: bytes | None = None):
         self.flash = bytearray(flash)
@@ -58,7 +58,7 @@ class Loader:
     # The process
 
     def life(self):
-        """From a reset on."""
+        """Runs from a reset on."""
         board = self.board
         self.buffer, self.ring, self.hears = bytearray(PAGE), deque(), False
         self.line, self.previous, self.dump_at = bytearray(), b"", 0x5A30
@@ -82,7 +82,7 @@ class Loader:
             yield from self.execute((yield from self.typed()))
 
     def application(self):
-        """Silent and deaf: the images have tests of their own."""
+        """Neither sends nor receives: the images have their own tests."""
         self.where, self.hears = "application", False
         while True:
             yield "busy", FOREVER
@@ -100,7 +100,7 @@ class Loader:
             yield "busy", FOREVER
 
     def arrived(self, byte: int):
-        """The receive interrupt."""
+        """Handles the receive interrupt."""
         if not self.hears:
             return
         if len(self.ring) == RING_BYTES:
@@ -111,7 +111,7 @@ class Loader:
     def write_page(self, address: int, data: bytes, how: str):
         page = address % FLASH_BYTES // PAGE
         self.written.append((self.board.now, page, how))
-        self.hears = page < BOOT // PAGE  # the chip stands still while its own section is written
+        self.hears = page < BOOT // PAGE  # the CPU halts while its own section is written
         yield "busy", PAGE_WRITE
         self.hears = True
         self.flash[page * PAGE : (page + 1) * PAGE] = data
@@ -128,7 +128,7 @@ class Loader:
     # The line
 
     def typed(self):
-        """A line, without its end."""
+        """Returns a typed line without its line end."""
         self.line.clear()
         while True:
             byte = yield "byte", None
@@ -154,7 +154,7 @@ class Loader:
 
     @staticmethod
     def words(line: bytes) -> list[bytes]:
-        """Separators are 0x20..0x2F and TAB; spaces join, every other one stands for itself."""
+        """Splits a line. Separators are 0x20..0x2F and TAB. Spaces are merged; every other separator counts by itself."""
         line = line.lstrip(b" ")
         if line[:1] and (line[0] == 9 or 0x20 <= line[0] <= 0x2F):
             return []
@@ -303,16 +303,16 @@ class Loader:
 
 
 class Board:
-    """Runs a Loader against the wires of a line. `now` is the simulated time in seconds."""
+    """Runs a Loader on the wires of a line. `now` is the simulated time in seconds."""
 
     def __init__(self, loader: Loader, to_board: Wire, to_pc: Wire):
         self.now, self.loader, self.to_board, self.to_pc = 0.0, loader, to_board, to_pc
-        self.errands: list = []  # (when, what): somebody presses MODE, pulls the cable
+        self.errands: list = []  # (time, action): press MODE, pull the cable
         loader.board = self
         self.reset()
 
     def reset(self):
-        """MODE, the power, or the watchdog."""
+        """A reset by MODE, power-on or the watchdog."""
         self.process, self.fresh = self.loader.life(), True
         self.wants, self.wake = ("busy", 0.0), self.now
 
@@ -321,7 +321,7 @@ class Board:
         self.errands.sort(key=lambda errand: errand[0])
 
     def advance_by(self, seconds: float) -> None:
-        """Lets time pass, whatever comes to the PC."""
+        """Runs for this time, whatever arrives at the PC."""
         until = self.now + seconds
         while self.now < until:
             self.advance(until, stops=False)
@@ -329,13 +329,13 @@ class Board:
     def _step(self, value):
         process = self.process
         wants = next(process) if self.fresh else process.send(value)
-        if process is not self.process:  # it has reset itself
+        if process is not self.process:  # the process has reset itself
             return
         self.fresh, self.wants = False, wants
         self.wake = FOREVER if wants[1] is None else self.now + wants[1]
 
     def advance(self, until: float, stops: bool = True) -> None:
-        """Lets time pass until then, or, when it `stops` for that, until something has come to the PC's end."""
+        """Runs until that time; with `stops`, only until something arrives at the PC's end."""
         while True:
             ring = getattr(self.loader, "ring", ())
             if self.wants[0] == "byte" and ring:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""m512's Link over simulated wires, with a process that may die or be cancelled at any moment.
+"""m512's Link over simulated wires, in a process that may die or be cancelled at any moment.
 
-A Line takes whatever runs a board: an object with `now` and advance(until) (factory_model.Board is one), and the wires to
-and from it. No clock of the wall is asked, so that thousands of schedules run in seconds.
+A Line takes a board (an object with `now` and advance(until), such as factory_model.Board) and the wires to and from it. It does not use
+real time, so thousands of schedules run in seconds.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ KILLED, CANCELLED, BROKEN = "killed", "Ctrl-C", "line broken"
 
 
 class Killed(BaseException):
-    """kill -9: nothing of the program runs any more."""
+    """kill -9: the program stops at once."""
 
 
 class Line(Link):
-    """`ends`: (seconds from now, KILLED, CANCELLED or BROKEN). What was written before arrives all the same, but for BROKEN."""
+    """`ends`: (seconds from now, KILLED, CANCELLED or BROKEN). Data written before that still arrives, except after BROKEN."""
 
     def __init__(self, board, to_board, to_pc, ends=None, seed=0):
         self.url, self.trace, self.held = "simulated line", None, b""
@@ -42,7 +42,7 @@ class Line(Link):
         raise PortError("a simulated line has one rate")
 
     def _end(self):
-        """The moment has come: as an exception, once; after a kill, always."""
+        """Raises the exception for the end: after a kill on every call, otherwise once."""
         if self.ended != CANCELLED:
             self.ended = self.end_kind
         self.end_at = float("inf")
@@ -62,7 +62,7 @@ class Line(Link):
 
     def write(self, data, wait=True):
         due = self.board.now + 0.002 >= self.end_at
-        if due:  # in the middle of it: the operating system has taken a part
+        if due:  # in the middle of the write: the operating system has taken a part
             data = data[: self.chance.randrange(len(data) + 1)] if data else data
         self._check()
         self.to_board.send(self.board.now, data)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The same schedules for our own loader: the shipped image on the simulated board, at the end of the same lines.
+"""The same schedules for our own loader: the shipped image on the simulated board, on the same lines.
 
-`ShippedBoard` is to a Line what factory_model.Board is: it has `now`, advance(until), later() and reset(), and runs between two
-wires. The chip is as strict as ever: what it would not do ends the schedule as a fault.
+`ShippedBoard` has the interface that a Line needs from factory_model.Board: `now`, advance(until), later() and reset(). The simulated chip
+is strict: a violation ends the schedule as a fault.
 """
 
 from __future__ import annotations
@@ -17,31 +17,31 @@ from .runs import APP_END, DONE, MOTION_START, MOTIONS, Outcome, Schedule, conte
 from .wire import conditions, wires
 
 HZ = 16_000_000
-SLICE = 0.002  # how long the board runs before its words are looked for
+SLICE = 0.002  # seconds between two looks at the board's output
 SETTLE, WAIT = 6.0, 8.0  # a session ends after 4 s of silence
-APPLICATION = b"\xff\xcf" + bytes(0x8E)  # `rjmp .`, and no record where ours have one: starts, and does nothing
+APPLICATION = b"\xff\xcf" + bytes(0x8E)  # `rjmp .` and no record where our images have one: starts, and does nothing
 EEPROM_BYTES, BOOT_MODE = 0x1000, 0xFFF
 
 
 class ShippedBoard:
-    """boot-cm5.hex. `violation` is what the chip objected to; then it stands still for good."""
+    """The board with boot-cm5.hex. `violation` is the chip's objection; after that the board does nothing more."""
 
     def __init__(self, flash: bytes, eeprom: bytes, to_board, to_pc):
         self.sim = Board(images=["boot-cm5.hex"])
         self.sim.skip_waits()
         self.sim.flash[0:BOOT] = flash[:BOOT]
         self.sim.eeprom[0:EEPROM_BYTES] = eeprom
-        self.sim.allow("uart-overrun")  # of an application that does not listen
+        self.sim.allow("uart-overrun")  # from an application that does not read
         self.sim.power_on()
         self.to_board, self.to_pc, self.errands, self.violation = to_board, to_pc, [], ""
-        self.ahead = 0.0  # time that passed after a violation
+        self.ahead = 0.0  # time passed since a violation
 
     @property
     def now(self):
         return self.sim.now_cycles / HZ + self.ahead
 
     def reset(self):
-        """MODE."""
+        """Presses MODE."""
         if not self.violation:
             self.sim.press("MODE")
             self._run(0.001)
@@ -71,7 +71,7 @@ class ShippedBoard:
             self.to_pc.send(self.now, said)
 
     def advance(self, until, stops=True):
-        """Lets time pass until then, or, when it `stops` for that, until something has come to the PC's end."""
+        """Runs until that time; with `stops`, only until something arrives at the PC's end."""
         while self.now < until:
             if stops and self.to_pc.next_arrival() <= self.now:
                 return
@@ -86,7 +86,7 @@ class ShippedBoard:
 
 
 def plan(chance: random.Random, flash: bytes) -> Plan:
-    """Pages of motions, or of an application behind its first one; some of it is on the board already."""
+    """Returns motion pages, or pages of an application that include either page 1 or the last one; some of it is already on the board."""
     pages = {}
     if chance.random() < 0.6:
         for number in {chance.choice((127, 126, chance.randrange(1, MOTIONS))) for _ in range(chance.randrange(1, 3))}:
@@ -104,7 +104,7 @@ def plan(chance: random.Random, flash: bytes) -> Plan:
 
 
 class OurSchedule(Schedule):
-    """Names exactly the pages of its plans: this loader writes nothing around them, and nothing into EEPROM."""
+    """Names exactly the pages of its plans: this loader writes nothing around them and nothing to EEPROM."""
 
     def __init__(self, number: int):
         self.number = number
@@ -144,5 +144,5 @@ class OurSchedule(Schedule):
 
 
 def play(number: int) -> Outcome:
-    """The schedule with this number, from its begin to its end."""
+    """Plays the schedule with this number."""
     return OurSchedule(number).play()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Schedules: m512 flashes a board with a loader of the factory's kind over a bad line, is stopped at some moment or not,
-and is called again. Everything that happens in one follows from its number."""
+"""Schedules: m512 flashes a board that has a factory-style loader over a bad line. It may be stopped at any moment, and is called again.
+A schedule's number determines everything in it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from .wire import Conditions, conditions, wires
 APP_END, MOTION_START, MOTIONS = 0xC000, 0xE000, 128
 WAIT = 20.0  # how long m512 waits for the button
 DONE, GAVE_UP = "done", "gave up"
-# What would do harm if the loader took it for typed text.
+# Text that would do harm if the loader took it for typed text.
 NASTY = (
     b"\rl\r",
     b"\rload 1e000\r",
@@ -45,17 +45,17 @@ NASTY = (
 @dataclasses.dataclass
 class Outcome:
     number: int
-    kind: str  # of the conditions
-    ends: list  # what became of each process
-    faults: list  # promises broken, in words
-    errors: list  # what m512 said when it gave up
+    kind: str  # of the line's conditions
+    ends: list  # how each process ended
+    faults: list  # broken promises
+    errors: list  # m512's messages when it gave up
     seconds: float  # simulated
     loads: int  # flash pages written by downloads
-    mails: int  # ... and through the mailbox
+    mails: int  # flash pages written through the mailbox
 
 
 def contents(chance: random.Random, count: int) -> bytes:
-    """Bytes for a page: chance, text that would do harm, or long runs."""
+    """Returns bytes for a page: random bytes, harmful text, or one repeated value."""
     style = chance.randrange(4)
     if style == 0:
         return chance.randbytes(count)
@@ -68,7 +68,7 @@ def contents(chance: random.Random, count: int) -> bytes:
 
 
 def plan(chance: random.Random, flash: bytes) -> Plan:
-    """Motion pages or an application; some of it is on the board already."""
+    """Returns motion pages or an application; some of it is already on the board."""
     pages = {}
     if chance.random() < 0.65:
         numbers = {chance.choice((127, 126, 117, 116, 115, 114, chance.randrange(1, MOTIONS))) for _ in range(chance.randrange(1, 4))}
@@ -98,7 +98,7 @@ class Schedule:
         self.chance = chance = random.Random(number)
         self.conditions = conditions(chance)
         self.before = chance.randbytes(0x20000)
-        if chance.random() < 0.7:  # as the known version has it; others restart to say their banner
+        if chance.random() < 0.7:  # as in the known version; other versions restart to print their banner
             self.before = self.before[:BANNER_AT] + BANNER + self.before[BANNER_AT + len(BANNER) :]
         eeprom = bytearray(chance.randbytes(0x1000))
         eeprom[0xFF4], eeprom[0xFFF] = 0xFF, chance.choice((0xFF, 0x11))
@@ -113,11 +113,11 @@ class Schedule:
     def play(self) -> Outcome:
         chance = self.chance
         self.board.advance_by(chance.choice((0.0, 1.0)))
-        if chance.random() < 0.2:  # a user's finger, at any time
+        if chance.random() < 0.2:  # a user presses MODE at any time
             self.board.later(10 ** chance.uniform(-1, 1.7), self.board.reset)
         ends = []
         for _ in range(chance.choice((1, 2, 2, 3))):
-            if ends and chance.random() < 0.2:  # not the same command again
+            if ends and chance.random() < 0.2:  # a different command
                 self.plan = self.new_plan()
             ends.append(self.process())
             self.board.advance_by(chance.choice((0.0, 0.05, 0.3, 2.0)))
@@ -133,16 +133,16 @@ class Schedule:
         return plan(self.chance, self.before)
 
     def names(self) -> set:
-        """The pages that a call names: of motions always both halves."""
+        """Returns the pages that a call names; for motions always both halves."""
         return {half for page in self.plan.pages for half in ((page, page ^ 1) if page * PAGE >= MOTION_START else (page,))}
 
     def process(self) -> str:
-        """One call of m512 flash; how it ended."""
+        """Runs one call of m512 flash. Returns how it ended."""
         chance = self.chance
         ends = (10 ** chance.uniform(-1, 1.5), chance.choice((KILLED, CANCELLED, BROKEN))) if chance.random() < 0.6 else None
         line = Line(self.board, *self.wires, ends, seed=chance.randrange(1 << 30))
         self.wires[0].broken = self.wires[1].broken = False
-        self.wires[1].waiting.clear()  # opening a port empties what has come before
+        self.wires[1].waiting.clear()  # opening a port discards earlier input
         self.named |= self.names()
         try:
             loader = loaders.enter(line, self.told, self.wait_seconds)
@@ -158,7 +158,7 @@ class Schedule:
             if "press MODE before anything else" in str(error):
                 self.board.reset()
             return CANCELLED if line.ended == CANCELLED else BROKEN if line.ended == BROKEN else GAVE_UP
-        except Exception as error:  # whatever comes over the line, m512 says in words what is wrong
+        except Exception as error:  # whatever arrives over the line, m512 must report an error of its own
             self.faults.append(f"m512 crashed: {error!r}")
             return GAVE_UP
 
@@ -183,5 +183,5 @@ class Schedule:
 
 
 def play(number: int) -> Outcome:
-    """The schedule with this number, from its begin to its end."""
+    """Plays the schedule with this number."""
     return Schedule(number).play()

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""A line between a PC and a board, in simulated time: slow, late, in lumps, with holes, lost, doubled and changed bytes.
+"""A line between a PC and a board in simulated time: slow, delayed, lumpy, with gaps, and with lost, doubled and changed bytes.
 
-A Wire is one direction. It knows no protocol and no clock: whoever uses it says what time it is. Bytes stay in order, as
-on every serial bridge. What was sent arrives, even when the sender has died meanwhile: an operating system's buffer and a
-bridge's memory outlive a program.
+A Wire is one direction. It knows no protocol and has no clock: the caller passes the time. Bytes stay in order, as on every serial bridge.
+Sent bytes arrive even if the sender has died: the buffers of the operating system and the bridge outlive a program.
 
     to_board, to_pc = wires(conditions(random.Random(seed)), seed)
     to_board.send(now, b"load e000\\r")
@@ -16,25 +15,25 @@ import dataclasses
 import random
 from collections import deque
 
-BYTE_SECONDS = 10 / 57143  # the UART at the board's end (UBRR 34 at 16 MHz): bytes never come closer than this
-OUTAGE_MOST = 3.0  # seconds; the longest hole that conditions() makes
+BYTE_SECONDS = 10 / 57143  # at the board's UART (UBRR 34 at 16 MHz); bytes are never closer than this
+OUTAGE_MOST = 3.0  # seconds; the longest gap that conditions() makes
 
 
 @dataclasses.dataclass(frozen=True)
 class Conditions:
-    """The faults of a line. Chances are per byte, times in seconds."""
+    """The faults of a line. Probabilities are per byte, times in seconds."""
 
     kind: str = "good"
-    speed: float = 1.0  # of the line rate: 0.05 .. 1
-    late: float = 0.001  # each byte arrives that much later
-    lump: float = 0.0  # bytes are collected for so long and then handed over together
-    hole_every: float = 0.0  # mean time between two holes in which nothing passes; 0: none
-    hole: float = 0.0  # the longest hole; what was sent into it comes behind it
+    speed: float = 1.0  # relative to the line rate: 0.05..1
+    late: float = 0.001  # delay of each byte
+    lump: float = 0.0  # bytes are collected for this time, then delivered together
+    hole_every: float = 0.0  # mean time between two gaps in which nothing passes; 0: no gaps
+    hole: float = 0.0  # the longest gap; bytes sent during a gap arrive after it
     lose: float = 0.0
     double: float = 0.0
-    change: float = 0.0  # one bit of a byte is turned
-    packet_double: float = 0.0  # a bridge sends a packet of up to 64 bytes again
-    hiccup: float = 0.0  # ... or pauses for 0.12 to 0.6 s somewhere in it
+    change: float = 0.0  # one bit of a byte is inverted
+    packet_double: float = 0.0  # a bridge repeats a packet of up to 64 bytes
+    hiccup: float = 0.0  # a bridge pauses for 0.12 to 0.6 s somewhere in a packet
 
     def __str__(self):
         shown = [
@@ -44,7 +43,7 @@ class Conditions:
 
 
 def conditions(chance: random.Random) -> Conditions:
-    """Draws a line: one of the plain kinds, or every fault at once."""
+    """Draws a line: one kind of fault, two kinds combined, or most of them at once."""
     slow = dict(speed=chance.uniform(0.05, 0.9))
     late = dict(late=chance.choice((0.016, 0.05, 0.2, 0.6)) * chance.uniform(0.5, 1.0))
     lumpy = dict(lump=chance.choice((0.004, 0.016, 0.1, 0.4)))
@@ -84,19 +83,19 @@ class Wire:
 
     def __init__(self, conditions: Conditions, seed: int):
         self.conditions, self.chance = conditions, random.Random(seed)
-        self.waiting: deque[tuple[float, int]] = deque()  # (when, byte) on their way
+        self.waiting: deque[tuple[float, int]] = deque()  # (arrival time, byte) in transit
         self.sent_until = self.arrived_until = float("-inf")
         self.hole = (float("inf"), float("inf"))
         self.first = True
         self.broken = False
 
     def cut(self):
-        """Pulls the cable: all bytes under way are lost, and so are those that follow."""
+        """Pulls the cable: bytes in transit and later ones are lost."""
         self.waiting.clear()
         self.broken = True
 
     def send(self, now: float, data: bytes) -> None:
-        """Bytes handed to the sender's operating system at `now`."""
+        """Sends bytes that the operating system received at `now`."""
         if self.broken:
             return
         if self.first:
@@ -136,11 +135,11 @@ class Wire:
             self.hole = (start, start + self.conditions.hole * self.chance.random())
 
     def next_arrival(self) -> float:
-        """When the next byte comes; infinity: none is under way."""
+        """Returns when the next byte arrives; infinity if none is in transit."""
         return self.waiting[0][0] if self.waiting else float("inf")
 
     def arrived(self, now: float, limit: int = 1 << 30) -> bytes:
-        """The bytes that have come by `now`; each is handed over once."""
+        """Returns the bytes that have arrived by `now`, each once."""
         out = bytearray()
         while self.waiting and self.waiting[0][0] <= now and len(out) < limit:
             out.append(self.waiting.popleft()[1])
@@ -148,5 +147,5 @@ class Wire:
 
 
 def wires(conditions: Conditions, seed: int) -> tuple[Wire, Wire]:
-    """Returns both directions of a line: to the board, to the PC."""
+    """Returns both directions of a line: (to the board, to the PC)."""
     return Wire(conditions, 2 * seed), Wire(conditions, 2 * seed + 1)

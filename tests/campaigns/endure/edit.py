@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""An editor that is used without end: cells, undo, plays and, above all, saves. What the flash must hold is known at any time.
+"""An editor in permanent use: cells, undo, plays and many saves. The expected contents of the flash are always known.
 
-There is no terminal emulator before it, only a line: what Edit paints is read away, as a fast terminal does.
+There is no terminal emulator. Edit's output is read and discarded, as by a fast terminal.
 """
 
 import random
@@ -39,7 +39,7 @@ class Editor:
     # ---- the line ----
 
     def settle(self, ms=30, most_ms=3000):
-        """Until Edit has been quiet for so long."""
+        """Runs until Edit has been quiet for `ms`."""
         quiet = 0
         while quiet < ms and most_ms > 0:
             self.board.run(ms=10)
@@ -53,7 +53,7 @@ class Editor:
         self.settle(ms)
 
     def program(self, text):
-        """Sends a line of a program and returns its answer."""
+        """Sends a line of a program. Returns its answer."""
         self.board.take()
         self.board.send(text + "\r")
         self.board.expect(text.split()[0], ms=2000)
@@ -89,7 +89,7 @@ class Editor:
         self.check(self.open)
 
     def save_by_program(self):
-        """A PC program changes the open page and saves it."""
+        """Lets a PC program change a page and save it."""
         number = self.chance.randrange(FIRST, LAST + 1)
         step, joint, pos = self.chance.randrange(STEPS), self.chance.choice(list(JOINTS)), self.chance.randrange(300, 700)
         self.pages[number].set_word(step, joint, pos)
@@ -106,11 +106,11 @@ class Editor:
         self.line("re")
 
     def play(self):
-        self.board.send(f"play {self.open}\r")  # while it plays the screen does not come to rest
+        self.board.send(f"play {self.open}\r")  # the screen is never quiet during a play
         self.board.run(ms=self.chance.randrange(200, 2500))
         if self.chance.random() < 0.5:
-            self.board.send("\x03")  # a blank would change a cell, should the play have ended just now
-            self.board.run(ms=1500)  # until it stands; a line typed before that is none
+            self.board.send("\x03")  # not a space: it would change a cell if the play has just ended
+            self.board.run(ms=1500)  # until the robot stands; earlier input is not taken as a line
             self.settle()
             self.done["breaks"] += 1
         else:
@@ -128,7 +128,7 @@ class Editor:
         return self.done["saves"] + self.done["program saves"]
 
     def episode(self):
-        """One page, from opening to saving."""
+        """Edits one page, from opening to saving."""
         self.open_page()
         self.edit()
         what = self.chance.random()
