@@ -14,14 +14,14 @@ import sys
 import types
 
 from tests.models import (
-    classic_law,  # tests/models, on the path by now
+    classic_law,
     random_pages,
 )
 from tests.models.played import CLASSIC, ENDED, OUTPUT, Played
 
 READING = "reading"
-# What the player takes where the page can be read in two ways (readings 4, 5 and 6 of tests/models/README.md): the page that is left by its exit
-# link counts as gone through, a linked page of the call's code goes before NEXT_PAGE, and pages are passed over by the code that decided the link.
+# The player's choice where the page can be read in two ways (readings 4, 5 and 6 of tests/models/README.md). A page left by its exit link
+# counts as passed. A linked page of the call's code has priority over NEXT_PAGE. Pages are passed over by the code that decided the link.
 OURS = (
     ("            if link in self.exit_pages:", "            self.exit_pages.add(page.number)\n            if link in self.exit_pages:"),
     ("elif self.code and self.code != self.call:", "elif self.code:"),
@@ -39,7 +39,7 @@ def model_with_our_readings():
         assert text.count(old) == 1, old
         text = text.replace(old, new)
     module = types.ModuleType("our_readings")
-    sys.modules[module.__name__] = module  # dataclasses look their module up
+    sys.modules[module.__name__] = module  # dataclasses look up their module
     exec(compile(text, module.__name__, "exec"), module.__dict__)
     return module
 
@@ -48,7 +48,7 @@ our_readings = model_with_our_readings()
 
 
 def play_in_c(case):
-    """[(call, goals)] with output and the number of the last call, as random_pages.result gives them."""
+    """Returns ([(call, goals)] with output, number of the last call), as random_pages.result does."""
     early = [code for tick, code in sorted(case.schedule.items()) if tick == 0 and code]
     play = Played(case.image, case.page, CLASSIC, case.joints, case.positions, case.call or 0, early)
     if not play.started:
@@ -68,7 +68,7 @@ def play_in_c(case):
 
 
 def differs(case):
-    """None when equal, READING when equal under our readings, else a description of the first difference."""
+    """Returns None if equal, READING if equal under our readings, otherwise a description of the first difference."""
     ours = play_in_c(case)
     theirs = random_pages.result(case)[:2]
     if ours == theirs:
@@ -82,7 +82,7 @@ def differs(case):
 
 
 def compare(first, count):
-    """(cases that are equal under our readings only, [(seed, difference)])"""
+    """Returns (number of cases equal only under our readings, [(seed, difference)])."""
     found = [(seed, differs(random_pages.case(seed))) for seed in range(first, first + count)]
     return sum(what == READING for _, what in found), [(seed, what) for seed, what in found if what not in (None, READING)]
 

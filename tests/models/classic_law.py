@@ -1,16 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""The classic law of motion as a model, with which motion/ is compared. Written from the description of the law by
-someone who had not read motion/.
+"""A model of the classic law of motion, to compare motion/ with. Written from the description of the law alone, without reading motion/.
 
     for tick in ClassicPlay(image, page, joints, positions).ticks(1000): ...
 
-Numbers are Python integers of unlimited width; they wrap only where the page says int16(). The order of the code is the order of the
-page, and its names are the page's: w, v, g, A, N, P, M, K, acc, main, nx. The page: "The law of motion", section 1; page bytes: "Motion512"; which
-link is followed: "Calling pages". Ours differs from the original on purpose in two things, both are in here: a flagged joint is
-not driven, and a page that cannot be right is refused.
+Numbers are Python integers of unlimited width; they wrap only where the page says int16(). The order of the code and the names are the
+page's: w, v, g, A, N, P, M, K, acc, main, nx. Page of the law: "The law of motion", section 1. Page bytes: "Motion512". Links: "Calling
+pages". Two intended differences from the original are included: a flagged joint is not driven, and an invalid page is refused.
 
-Readings: where the page leaves two readings open, the one taken here is marked with READING and a number, listed in
-tests/models/README.md.
+READING and a number mark a choice where the page can be read in two ways; tests/models/README.md lists them.
 """
 
 from dataclasses import dataclass
@@ -21,12 +18,12 @@ TIME_BASE, SPEED_BASE = 0x0A, 0
 STOP = 255  # the code that means stop
 RISE, CRUISE, FALL, HOLD = "RISE", "CRUISE", "FALL", "HOLD"
 
-# How a play ended.
+# The end of a play.
 DONE, REFUSED, PASSED_TWICE, EXIT_CIRCLE = "link 0", "page refused", "pages with PLAY_COUNT 0 in a circle", "exit pages in a circle"
 
 
 def int16(value):
-    """Wraps to 16 bits."""
+    """Wraps to 16 bits, signed."""
     return (value + 0x8000) % 0x10000 - 0x8000
 
 
@@ -35,7 +32,7 @@ def uint16(value):
 
 
 def div(a, b):
-    """a / b, truncated toward zero."""
+    """Returns a / b, truncated toward zero."""
     return abs(a) // abs(b) * (1 if (a < 0) == (b < 0) else -1)
 
 
@@ -44,7 +41,7 @@ def limited(value, lowest, highest):
 
 
 class Page:
-    """One motion page of an image, read only. Steps count from 1, as in the page of the spec."""
+    """One motion page of an image, read only. Steps count from 1, as in the specification."""
 
     def __init__(self, image, number):
         self.raw = image[PAGE_BYTES * number : PAGE_BYTES * (number + 1)]
@@ -55,7 +52,7 @@ class Page:
         self.linked = ((self.raw[28], self.raw[27]), (self.raw[30], self.raw[29]))  # (code, page)
 
     def word(self, step, joint):
-        """The position of a joint as it is stored, flags included. READING 1: without a sign."""
+        """Returns the stored position word of a joint, including flags. READING 1: unsigned."""
         at = STEP_BYTES * step + 2 * joint
         return self.raw[at] | self.raw[at + 1] << 8
 
@@ -66,7 +63,7 @@ class Page:
         return self.raw[STEP_BYTES * step + 63]
 
     def refused(self):
-        """READING 2: positions are looked at in the used steps, for all 31 joints."""
+        """Returns whether the page is refused. READING 2: positions are checked in the used steps, for all 31 joints."""
         return (
             sum(self.raw) % 256 != 0xFF
             or self.speed == 0
@@ -80,8 +77,8 @@ class Page:
 
 @dataclass
 class Joint:
-    """A joint that is there. start: output at the last section change; w: speed carried into the section, v: the step's
-    speed, g: the speed reached; M: the step's way, acc: the way of RISE, main: that of CRUISE, then of FALL."""
+    """A joint that is present. start: output at the last section change. w: speed carried into the section, v: the step's speed, g: the
+    speed reached. M: displacement of the step, acc: of RISE, main: of CRUISE, then of FALL."""
 
     id: int
     start: int
@@ -115,9 +112,9 @@ class Joint:
 
 
 class ClassicPlay:
-    """One play. image: 65,536 bytes. page: the start page. joints: bit mask of the IDs that are there. positions: {id: 0..1023},
-    where they stand. schedule: {tick: code}, codes that arrive before that tick (0 = the first call); STOP asks for a stop.
-    call: the code that called the page, None when it was called by its number."""
+    """One play. image: 65,536 bytes. page: the start page. joints: bit mask of the present IDs. positions: {id: 0..1023} at the start.
+    schedule: {tick: code}, codes that arrive before that tick (0 = the first call); STOP requests a stop. call: the code that called the
+    page, None if called by number."""
 
     def __init__(self, image, page, joints, positions, schedule=None, call=None):
         self.image, self.schedule = image, schedule or {}
@@ -128,21 +125,21 @@ class ClassicPlay:
         self.page: Page = None  # type: ignore[assignment]  # until the first step begins
         self.step, self.repetitions, self.repeat = 0, 0, False
         self.next, self.exit_pages = page, set()
-        self.ended = None  # DONE, REFUSED, PASSED_TWICE or EXIT_CIRCLE; stays None when the limit of ticks came first
-        self.reason = DONE  # why there is nothing to follow
+        self.ended = None  # DONE, REFUSED, PASSED_TWICE or EXIT_CIRCLE; None if the limit of ticks came first
+        self.reason = DONE  # why there is no next page
 
     def ticks(self, limit):
-        """Yields for each call the goals that are sent, in the order of the IDs, or None; the last one is the call that finds the end."""
+        """Yields for each call the sent goals in the order of the IDs, or None. The last call is the one that finds the end."""
         for number in range(limit):
             code = self.schedule.get(number, 0)
             if code:
-                self.code = code  # the last non-zero code stays in force (latch). READING 3: also over a stop
+                self.code = code  # the last non-zero code stays in force (latch). READING 3: even over a stop
             yield self.tick()
             if self.ended:
                 return
 
     def tick(self):
-        if self.c >= self.num:  # used up: the next section is set up first, its first tick is made in the same call
+        if self.c >= self.num:  # used up: the next section is set up, and its first tick is made in the same call
             self.section_change()
             if self.ended:
                 return self.end_sample()
@@ -200,7 +197,7 @@ class ClassicPlay:
         self.begin_section(RISE, self.A)  # rule 8
 
     def end_sample(self):
-        """The call that finds the end: RISE with c = 1 and the num of the section used up, from the last value sent."""
+        """Makes the call that finds the end: RISE with c = 1 and the num of the last section, from the last value sent."""
         if self.num == 0:
             return None
         return self.output_of(Joint.rise, 1, self.num)
@@ -208,8 +205,8 @@ class ClassicPlay:
     # Rule 2: pages
 
     def decide_link(self):
-        """At the beginning of the last step of a page. READING 4: an exit link back to a page that an exit link has led to before
-        counts as link 0, so that this step is the final one."""
+        """Decides the link at the beginning of the last step of a page. READING 4: an exit link back to a page that an exit link has
+        already led to counts as link 0, so this step is the final one."""
         self.repetitions = (self.repetitions - 1) % 256
         if self.code == STOP:
             self.repetitions = 0
@@ -217,8 +214,8 @@ class ClassicPlay:
         self.next = self.page.number if self.repeat else self.follow(self.page)
 
     def follow(self, page):
-        """The link of a page by the code in force. 0: nothing follows, self.reason says why. READING 5: the code of the call follows NEXT_PAGE
-        also where a linked page has the same code."""
+        """Returns the link of a page by the code in force; 0 if nothing follows, with the cause in self.reason. READING 5: the code of
+        the call follows NEXT_PAGE even if a linked page has the same code."""
         link = page.next_page
         if self.code == STOP:
             link = page.exit_page
@@ -234,8 +231,8 @@ class ClassicPlay:
         return 0 if link > LAST_PAGE else link
 
     def enter(self, number):
-        """Makes the page of that number, or the one it passes over to, the present one. False: the play ends, self.reason says why.
-        READING 6: pages are passed over along the link of the code that is in force at the join."""
+        """Makes the page of this number, or the one it passes over to, the current page. Returns false if the play ends; self.reason is
+        the cause. READING 6: pages are passed over along the link of the code in force at the join."""
         passed_over = set()
         while number != 0:
             if number > LAST_PAGE:
@@ -258,7 +255,7 @@ class ClassicPlay:
         return self.step == self.page.steps and self.next == 0
 
     def following_word(self, joint):
-        """The word of the following step as stored: behind the last step, that of the first step of the page to come."""
+        """Returns the stored word of the following step; after the last step, of the first step of the next page."""
         if self.step < self.page.steps:
             return self.page.word(self.step + 1, joint.id)
         return Page(self.image, self.next).word(1, joint.id)
@@ -284,7 +281,7 @@ class ClassicPlay:
     def prepare_way(self, joint):
         word = self.page.word(self.step, joint.id)
         joint.acc = 0
-        if word & FLAGGED:  # not driven: the target stays, the output is repeated. READING 7: a remainder behind a pause as well
+        if word & FLAGGED:  # not driven: the target stays, the output repeats. READING 7: even a remainder after a pause
             joint.M = joint.w = joint.g = 0
             joint.through = False
             return

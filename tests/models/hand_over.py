@@ -26,16 +26,16 @@ from tests.models.played import CLASSIC, ENDED, EXACT, GOALS, JOINTS, STEP, TOP,
 
 ROBOT = sum(1 << joint for joint in (*range(1, 21),))
 LAWS = {"exact": EXACT, "classic": CLASSIC}
-UNITS_A_TICK = 1024 / 300 / 128  # of a degree a second
+UNITS_A_TICK = 1024 / 300 / 128  # units per tick for 1 degree/s
 APPROACH_DEG_S = 60
-WARM_UP, CYCLE = 40, 64  # ticks: the start of the walk, and its two loops
-DEPTH = 160  # the layer goes so many ticks after it has come, at the latest: two of its steps and more
-SETTLES = 460  # from the farthest place back, and what the joint's next steps take
+WARM_UP, CYCLE = 40, 64  # ticks: the first start of a layer, and the number of starts; a walk cycle has 56
+DEPTH = 160  # the latest end of a layer in ticks after its start: more than two of its steps
+SETTLES = 460  # ticks to return from the farthest position, plus the joint's next steps
 
 
 @dataclass
 class Run:
-    """What was sent: columns[joint][tick]; the steps of both plays as (first tick, page, step); the layer's last tick, None: it was cut off."""
+    """A recording. columns[joint][tick]: goals. steps, layer_steps: (first tick, page, step). layer_ended: last tick; None: cut off."""
 
     columns: list
     steps: list
@@ -50,7 +50,7 @@ class Walk:
         self.image, self.page, self.law, self.joints, self.pose = bytes(image), page, law, joints, GOALS(*pose)
 
     def run(self, ticks, *actions):
-        """actions: (tick, function); it is called when so many ticks have been made."""
+        """Plays `ticks` ticks. actions: (tick, function); the function is called after that many ticks."""
         library.played_load(self.image)
         library.played_call(0)
         assert library.played_start(self.law, self.page, self.joints, self.pose) == 0
@@ -75,13 +75,13 @@ def word(image, page, step, joint):
 
 
 def step_ticks(image, page, step):
-    """In time base, without pauses; all pages here are so."""
+    """Returns the length of a step in time base without pauses; all pages here are so."""
     return image[512 * page + 64 * step + 63] * image[512 * page + 22] // 32
 
 
 def bounded_until(row, begin, per_tick):
-    """The last tick up to which the joint has gone no farther, between any two ticks from `begin` on, than the speed allows."""
-    # row[b] - row[a] <= per_tick (b - a) + 1 for all a < b, both ways: the highest and the lowest line so far tell.
+    """Returns the last tick up to which the joint keeps to the speed between any two ticks from `begin` on."""
+    # row[b] - row[a] <= per_tick (b - a) + 1 for all a < b, in both directions: it is enough to keep the extreme lines.
     above = below = None
     for tick in range(begin, len(row)):
         up, down = row[tick] - per_tick * tick, row[tick] + per_tick * tick
@@ -92,7 +92,8 @@ def bounded_until(row, begin, per_tick):
 
 
 def owned(row, steps, way_points, begin, end):
-    """None, or what is wrong with a joint that its owner has, in ticks begin..end-1: beside its way, or faster than twice the mean."""
+    """Returns what is wrong with a joint under its owner in ticks begin..end-1, or None: outside its range, or faster than twice the
+    mean."""
     firsts = [step[0] for step in steps]
     for tick in range(begin, end):
         k = bisect.bisect_right(firsts, tick) - 1
@@ -108,13 +109,13 @@ def owned(row, steps, way_points, begin, end):
 
 
 def first_step_behind(steps, tick):
-    """(first tick, tick behind the last) of the first step that begins behind that tick."""
+    """Returns (first tick, tick after the last) of the first step that begins after this tick."""
     k = bisect.bisect_right([step[0] for step in steps], tick)
     return (steps[k][0], steps[k + 1][0]) if k + 1 < len(steps) else (None, None)
 
 
 def check_hand_over(row, steps, at, end, per_tick):
-    """(None or what is wrong, first tick at which it is not held back any more): the joint changes hands behind tick `at`."""
+    """Checks a joint that changes hands after tick `at`. Returns (fault or None, first tick at which it is no longer held back)."""
     free = bounded_until(row[:end], at, per_tick) + 1
     behind = first_step_behind(steps, at)[1]
     if free < end and (behind is None or free < behind):
@@ -123,8 +124,8 @@ def check_hand_over(row, steps, at, end, per_tick):
 
 
 def check_return(row, source, at, end, per_tick):
-    """None, or what is wrong with a joint that goes back to the walk behind tick `at`: until it meets the walk without a layer it goes at the
-    speed, and from then on with the walk, bit by bit."""
+    """Checks a joint that returns to the walk after tick `at`. Until it meets the walk without a layer it keeps to the speed; from then
+    on it equals that walk. Returns the fault or None."""
     met = end = min(end, len(row), len(source))
     while met > at + 1 and row[met - 1] == source[met - 1]:
         met -= 1
@@ -137,7 +138,7 @@ def check_return(row, source, at, end, per_tick):
 
 
 def check(image, law, plain, run, joints, on, off, per_tick):
-    """None, or what is wrong with one walk over which a layer lay from behind tick `on` to behind tick `off` (None: it ended by itself)."""
+    """Checks a walk with a layer from after tick `on` to after tick `off` (None: it ended by itself). Returns the fault or None."""
     for joint in range(JOINTS):
         if joint not in joints and run.columns[joint] != plain.columns[joint]:
             return f"joint {joint} is no joint of the layer and goes otherwise"
@@ -160,7 +161,7 @@ def check(image, law, plain, run, joints, on, off, per_tick):
 
 
 def lay(walk, plain, page, joints, on, off, deg_s=APPROACH_DEG_S):
-    """One walk with a layer; None, or what is wrong."""
+    """Plays one walk with a layer. Returns the fault or None."""
 
     def come():
         mask = sum(1 << joint for joint in joints)
@@ -176,7 +177,7 @@ LAYERS = {"wave_over": (1, 3, 5), "look": (19, 20)}
 
 
 def every_tick(law, name, ons=range(CYCLE), offs=range(1, DEPTH)):
-    """Our walk, with a layer of ours from each tick of its loop on: (walks, [what is wrong])."""
+    """Plays our walk with one of our layers, which starts at tick WARM_UP + each of `ons`. Returns (walks, faults)."""
     made = load(TOP / "tools" / "motions" / "motions.m512")
     ready = made[made.find("ready")]
     pose = [ready.word(0, joint) if joint in range(1, 19) else 512 for joint in range(JOINTS)]
@@ -212,7 +213,7 @@ def page_by_chance(chance, steps, next_page, ticks, joints, spread):
 
 
 def by_chance(seed):
-    """A walk, a layer, its joints and moments by chance; None, or what is wrong."""
+    """Plays a random walk with a random layer, joints and moments. Returns the fault or None."""
     chance = random.Random(f"hand_over {seed}")
     image, everybody = bytearray(65536), list(range(1, 21))
     image[512:1024] = page_by_chance(chance, chance.randint(2, 7), 1, (4, 20), everybody, 120)

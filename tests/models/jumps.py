@@ -16,7 +16,7 @@ import sys
 from fractions import Fraction
 
 from m512.files.formats import load
-from tests.models import shaping  # tests/models, on the path by now
+from tests.models import shaping
 from tests.models.played import EXACT, JOINTS, STEP, TOP, Played
 from tests.models.shaped import Check
 
@@ -29,12 +29,12 @@ JUMPS = {"rate": (50, 200), "amplitude": (0, 120), "blend": (-100, 100)}
 
 
 def jump(kind, value):
-    """A change as Played.shape takes it."""
+    """Returns a change in the form that Played.shape takes."""
     return (kind, value, ROBOT) if kind == "amplitude" else (kind, value)
 
 
 def jumps_of(what, seed):
-    """For each step what is set behind its first tick: lists of changes, without end."""
+    """Yields for each step a list of changes to make after its first tick, without end."""
     chance = random.Random(f"jumps {what} {seed}")
     kinds = list(JUMPS) if what in ("all", "chance") else [what]
     for k in itertools.count(1):
@@ -46,14 +46,16 @@ def jumps_of(what, seed):
 
 
 def way_point_speeds(way, ticks, after_way, after_ticks):
-    """(least, most) size of the speed at the end of a step. The law plans with the ideal length of the step to come, within a tick of its own."""
+    """Returns the (least, most) possible speed at the end of a step. The law plans with the next step's ideal length, within one tick of
+    its real length."""
     if way * after_way <= 0:
         return 0, 0
     return tuple(min(Fraction(abs(way), ticks), Fraction(abs(after_way), max(1, after_ticks + by))) for by in (1, -1))
 
 
 def bound_of(way, ticks, accel, before, after):
-    """The largest change of speed in a tick of a step, rule 2: A ticks from the speed before to v, A from v to the speed after."""
+    """Returns the largest change of speed in a tick of a step, by rule 2: A ticks from the speed before to v, A from v to the speed
+    after."""
     ramp, most = min(accel, ticks // 2), Fraction(0)
     for w0, w1 in itertools.product(before, after):
         cruise = (abs(way) - (w0 + w1) * Fraction(ramp, 2)) / (ticks - ramp) if ticks > ramp else Fraction(abs(way), ticks)
@@ -62,7 +64,7 @@ def bound_of(way, ticks, accel, before, after):
 
 
 def speed_changes(check, accel):
-    """(largest change of speed in a tick, largest part of it that is above its step's bound); the last two steps are left out."""
+    """Returns (largest change of speed in a tick, largest excess over its step's bound). The last two steps are left out."""
     steps = [(begin, goals) for _, begin, goals in check.steps]
     largest, excess = 0, Fraction(-99)
     for joint in range(1, 19):
@@ -72,7 +74,7 @@ def speed_changes(check, accel):
         bounds = [bound_of(way, count, accel, before, after) for way, count, before, after in zip(ways, ticks, ends, ends[1:])]
         row = [steps[0][1][joint]] * 2 + [goals[joint] for goals in check.ticks]
         for k, bound in enumerate(bounds):
-            beside = max(bounds[max(0, k - 1) : k + 1])  # its first tick joins the step before
+            beside = max(bounds[max(0, k - 1) : k + 1])  # its first tick also belongs to the step before
             for tick in range(steps[k][0], steps[k + 1][0]):
                 change = abs(row[tick + 2] - 2 * row[tick + 1] + row[tick])
                 largest = max(largest, change)
@@ -81,7 +83,7 @@ def speed_changes(check, accel):
 
 
 def broken(what, steps, seed=1):
-    """About so many steps: (what is wrong, or None; what was measured)."""
+    """Plays about `steps` steps. Returns (fault or None, measurement)."""
     library = load(TOP / "tools" / "motions" / "motions.m512")
     image, page = library.to_bytes(), library.find(WALK)
     pose = [library[page].word(0, joint) if ROBOT >> joint & 1 else 512 for joint in range(JOINTS)]

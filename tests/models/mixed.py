@@ -32,7 +32,7 @@ SHOWN = 20
 
 
 def first_objection(case, checks=tuple(CHECKS)):
-    """None, or (check, what is wrong)."""
+    """Returns None, or (check, fault)."""
     run = play(case)
     for name in checks if run else ():
         wrong = CHECKS[name](case, run)
@@ -42,7 +42,7 @@ def first_objection(case, checks=tuple(CHECKS)):
 
 
 def shrunk(case, check):
-    """Leaves only actions without which the check objects no more."""
+    """Removes every action without which the check still objects. Returns the case."""
     for action in list(case.actions):
         actions = case.actions
         case.actions = [other for other in actions if other is not action]
@@ -52,7 +52,7 @@ def shrunk(case, check):
 
 
 def objections(first, count):
-    """[(seed, check, what is wrong)]"""
+    """Returns [(seed, check, fault)]."""
     found = ((seed, first_objection(mixed_cases.case_by_chance(seed))) for seed in range(first, first + count))
     return [(seed, *said) for seed, said in found if said]
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Everything that may happen to a play, at once and by chance, for mixed.py: pages of both schedules with steps of 1 to 40 ticks, a shape
-that changes, a second page, motion made by code, pause and resume, stop, break, joints that are lost.
+"""Random events in a play for mixed.py: pages of both schedules with steps of 1 to 40 ticks, changes of the shape, a layer, motion by code,
+pause and resume, stop, break, lost joints.
 
-A case is a motion area, what is set before the play, and actions: (tick before which it is done, name, words of Player.do).
+A case is a motion area, settings made before the play, and actions: (tick before which it is done, name, words of do()).
 """
 
 import ctypes
@@ -15,7 +15,7 @@ from tests.models.played import CLASSIC, ENDED, EXACT, GOALS, JOINTS, library
 ALL = 0x7FFFFFFF
 MAIN_PAGES, LAYER_PAGES, PARTNERS = range(1, 6), range(120, 124), range(110, 114)
 CENTRE_PAGE = 100
-JOINTS_USED = tuple(range(12))  # few, so that the same ones meet again and again
+JOINTS_USED = tuple(range(12))  # few, so that the same joints meet often
 TICKS = 420
 LAYER_ACTIONS = ("layer", "layer_off", "aim", "swing", "free")
 SHAPE_ACTIONS = ("rate", "amplitude", "blend", "centre", "voltage", "reset")
@@ -35,20 +35,20 @@ class Case:
     page: int
     present: int
     pose: list
-    before: list  # what is set before the play, as actions without ticks
+    before: list  # settings made before the play, as actions without ticks
     actions: list
     deg_s: int  # the speed of hand-overs
     about: dict = field(default_factory=dict)
 
     def only(self, *kinds):
-        """The actions of these kinds alone."""
+        """Returns the actions of these kinds."""
         return [action for action in self.actions if action[1] in kinds]
 
 
 @dataclass
 class Run:
-    """What was played, up to the end of the play. columns[joint][tick]; events and layer_events by tick; steps: (first tick, page, step)
-    of the main play; layer_steps; done: (tick, name, words, status) of the actions."""
+    """A recording up to the end of the play. columns[joint][tick]; events and layer_events by tick; steps: (first tick, page, step) of
+    the main play; layer_steps; done: (tick, name, words, status) of the actions."""
 
     columns: list
     events: list
@@ -65,12 +65,12 @@ class Run:
 
 
 def do(name, words):
-    """An action; returns its status, 0: done."""
+    """Does an action. Returns its status, 0: done."""
     return getattr(library, f"played_{name}")(*words) or 0
 
 
 def play(case, image=None, before=None, actions=None, alone=False, ticks=TICKS):
-    """Plays the case, or with another image or other actions. None: it does not start."""
+    """Plays the case, or with another image or other actions. Returns None if it does not start."""
     library.played_load(case.image if image is None else image)
     for name, *words in case.before if before is None else before:
         do(name, words)
@@ -122,7 +122,7 @@ def sealed(page):
 
 
 def time_byte(chance, ticks, page, longest):
-    """The byte 63 that makes about so many ticks of a step."""
+    """Returns byte 63 of a step for about `ticks` ticks."""
     if page[16] == 0x0A:
         return max(1, min(255, round(ticks * 32 / page[22])))
     return max(1, min(255, round(40 * 32 * longest / (3 * ticks * page[22]))))
@@ -147,7 +147,8 @@ def page_by_chance(chance, style, steps, following, leaving):
 
 
 def area_by_chance(chance, style):
-    """The main play's pages lead to each other, and so do the layers'; partners have as many steps as theirs."""
+    """Returns an area. The main play's pages link to each other, and so do the layers'. Each partner has as many steps as one of the
+    main pages."""
     image = bytearray(65536)
 
     def put(number, steps, following, leaving, partners=(0, 0)):
@@ -253,6 +254,6 @@ def case_by_chance(seed):
         style,
     )
     case.actions = actions_by_chance(chance, style, deg_s)
-    if style.get("rate"):  # reset would set the rate too
+    if style.get("rate"):  # reset would also set the rate
         case.actions = [action for action in case.actions if action[1] != "reset"]
     return case

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""The checks of mixed.py: each compares two plays that the page of the spec calls equal, or asks a bound. A check takes a Case and the Run
-that was made of it, and returns None or what is wrong."""
+"""The checks of mixed.py. Each compares two plays that are equal by the specification, or checks a bound. A check takes a Case and its
+Run, and returns the fault or None."""
 
 import itertools
 import math
 from fractions import Fraction
 
 from tests.models import (
-    classic_law,  # tests/models, on the path by now
+    classic_law,
     hand_over,
     mixed_cases,
     shaping,
@@ -17,18 +17,18 @@ from tests.models.mixed_facts import bits, dropped, ends_of, first_difference, h
 from tests.models.played import CLASSIC, ENDED, EXACT, JOINTS, OUTPUT, STOPPED
 from tests.models.shaped import model_pose
 
-BYTES_PAGE, UNROLLED = 512, 109  # pages that an unrolled play may have
+BYTES_PAGE, UNROLLED = 512, 109  # the number of pages that an unrolled play may have
 COMBINATIONS = 64
 BRAKES_TICKS = 8
-BESIDE_TARGET = 3 * JOINTS  # of all joints: the classic law ends a step a little beside its target
+BESIDE_TARGET = 3 * JOINTS  # units, over all joints: the classic law ends a step slightly off its target
 
 
 # --- bytes ---
 
 
 def poses_of(case, run):
-    """For each step the poses it may have: of what was in force in the two steps before it and in its first tick, the likeliest first.
-    A text: what is wrong. A pause between two steps counts to the first of them, which has come to its end then."""
+    """Returns for each step its possible poses, the likeliest first: from the shapes in force in the two steps before it and in its
+    first tick. Returns a text if there is a fault. A pause between two steps counts to the first one, which has ended then."""
     shapes, found, away = in_force(case, run), [], lent(case, run) | dropped(run)
     present = bits(case.present)
     ends, halts = ends_of(run), halts_of(run)
@@ -49,7 +49,7 @@ def poses_of(case, run):
                     return f"page {page} step {step} ends in tick {ends[k]}: no shape that was in force makes these goals"
                 poses = [pose for pose, by in zip(poses, off) if by == 0]
             else:
-                played = any(run.events[at] & OUTPUT for at in range(tick, ends[k] + 1))  # else it is skipped, and ends anywhere
+                played = any(run.events[at] & OUTPUT for at in range(tick, ends[k] + 1))  # otherwise it is skipped and ends anywhere
                 most = min(off) + BESIDE_TARGET if played and min(off) <= BESIDE_TARGET else max(off)
                 poses = [pose for by, pose in sorted(zip(off, poses), key=lambda pair: pair[0]) if by <= most]
         found.append(poses)
@@ -57,7 +57,7 @@ def poses_of(case, run):
 
 
 def unrolled(case, run, poses):
-    """(the area with a page for each page visited, tick up to which the run can be compared)"""
+    """Returns (area with one page for each page visited, tick up to which the run can be compared)."""
     image, number = bytearray(case.image), 0
     until = run.ticks if run.ended and not is_broken(run) else run.steps[-1][0]
     for k, ((tick, page, step), pose) in enumerate(zip(run.steps, poses)):
@@ -84,14 +84,14 @@ def check_bytes(case, run):
     if case.about["rates"] or not run.steps:
         return None
     if dropped(run) and by_way(case, run):
-        return None  # lost behind the look, a joint counts for the length of that step; a shaped step is looked at earlier
+        return None  # a joint lost after the look still counts for that step's length; a shaped step is looked at earlier
     poses = poses_of(case, run)
     if isinstance(poses, str):
         return poses
     before = [action for action in case.before if action[0] in ("rate", "voltage")]
     actions = [action for action in case.actions if action[1] not in (*SHAPE_ACTIONS, "stop")]
     if math.prod(map(len, poses)) > COMBINATIONS:
-        return None  # too many of them cannot be told apart by the joints that were never lent
+        return None  # too many combinations that the joints never lent cannot tell apart
     found = None
     for chosen in itertools.product(*poses):
         image, until = unrolled(case, run, chosen)
@@ -105,7 +105,7 @@ def check_bytes(case, run):
 
 
 def by_way(case, run):
-    """Whether the length of some step comes from the way of its joints."""
+    """Returns whether the length of any step depends on its joints' displacements."""
     limited = any(shape.volts and shape.is_set() for shape in in_force(case, run))
     return limited or any(case.image[BYTES_PAGE * page + 16] == 0 for page in mixed_cases.MAIN_PAGES)
 
@@ -145,7 +145,7 @@ def check_hands(case, run):
 
 
 def by_code(row, action, begin, end, per_tick, paused):
-    """None, or what is wrong with a joint that code moves in ticks begin..end-1."""
+    """Returns what is wrong with a joint that code moves in ticks begin..end-1, or None."""
     moves = [tick for tick in range(begin, end) if tick not in paused]
     if any(row[tick] != row[tick - 1] for tick in range(begin, end) if tick in paused):
         return "moves in a pause"
@@ -179,7 +179,7 @@ def check_lengths(case, run):
     plain = play(case, actions=[action for action in case.actions if action[1] not in LAYER_ACTIONS]) if case.only(*LAYER_ACTIONS) else run
     shapes, target, halts = in_force(case, plain), list(case.pose), halts_of(plain)
     present, ends, sums = bits(case.present), ends_of(plain), [Fraction(0)] * 2
-    # A pause between two steps, or before the first: the one behind it begins with a stand, and is longer for it.
+    # After a pause between two steps, or before the first, the next step begins from a stop and is longer.
     next_halted = bool(halts) and halts[0] <= plain.steps[0][0]
     exactly = not case.about["rates"] and not halts and not any(action[0] == "voltage" and action[1] for action in case.before)
     for k, (tick, page, step) in enumerate(plain.steps[:-1]):
@@ -216,7 +216,7 @@ def ideal_of(case, page, step, target, pose, shape):
 
 
 def length_wrong(run, target, pose, shape, ideal, k, ends):
-    """None, or what is wrong with step k: its length, or a joint beside its way."""
+    """Returns what is wrong with step k, or None: its length, or a joint outside its range."""
     tick, page, step = run.steps[k]
     if abs(ends[k] + 1 - tick - ideal) > 2 + (ideal / 60 if shape.is_set() else 0):
         return f"page {page} step {step} from tick {tick} on: {ends[k] + 1 - tick} ticks, model {float(ideal):.2f}"
@@ -241,7 +241,7 @@ def check_pauses(case, run):
     actions = case.only("pause", "resume")
     halted, straight = play(case, actions=actions), play(case, actions=[], ticks=2 * TICKS)
     halts, ends, straight_ends = halts_of(halted), ends_of(halted), ends_of(straight)
-    # A pause between two steps, in the last tick of one, or before the first: the one behind it begins with a stand, and is longer for it.
+    # After a pause between two steps, in a step's last tick, or before the first step, the next step begins from a stop and is longer.
     between = bool(halts) and halts[0] <= halted.steps[0][0]
     for k, ((tick, *place), (begun, *other)) in enumerate(zip(halted.steps[:-1], straight.steps)):
         if place != other:
@@ -249,7 +249,7 @@ def check_pauses(case, run):
         inside = [halt for halt in halts if tick < halt <= ends[k]]
         was_between, between = between, len(inside) > 1 or any(halt - tick >= straight_ends[k] - begun for halt in inside)
         if was_between or inside or (case.law == CLASSIC and by_way(case, halted)):
-            continue  # under the classic law a joint may be a little beside its target behind a step, but not behind a pause
+            continue  # under the classic law a joint may be slightly off its target after a step, but not after a pause
         if ends[k] - tick != straight_ends[k] - begun:
             return f"step {k} from tick {tick} on has {ends[k] - tick + 1} ticks, without a pause {straight_ends[k] - begun + 1}"
         wrong = [j for j in range(JOINTS) if halted.columns[j][ends[k]] != straight.columns[j][straight_ends[k]]]
@@ -262,7 +262,8 @@ def check_pauses(case, run):
 
 
 def stands_well(case, run):
-    """Slowing down takes ACCEL_TIME ticks at most, or 8; nothing turns round on the way, and then nothing moves until it is resumed."""
+    """Checks that braking takes at most ACCEL_TIME ticks or 8, that no joint reverses meanwhile, and that nothing moves until it is
+    resumed."""
     most = max(BRAKES_TICKS, max(case.image[512 * page + 24] for page in mixed_cases.MAIN_PAGES))
     halts = [(tick, name) for tick, name, _, _ in run.done]
     halted = False

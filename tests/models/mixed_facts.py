@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""What happened in a run of a case, for the checks of mixed.py: what was in force, who had which joint, where two runs part."""
+"""What happened in a run of a case, for the checks of mixed.py: the shape in force, the owner of each joint, the first difference of two
+runs."""
 
 from fractions import Fraction
 
 from tests.models import (
-    classic_law,  # tests/models, on the path by now
+    classic_law,
     shaping,
 )
 from tests.models.mixed_cases import SHAPE_ACTIONS
@@ -15,7 +16,7 @@ TIMING = STEP | ENDED | STOPPED | OUTPUT
 
 
 def in_force(case, run):
-    """The shapes: [0] before the play, [t + 1] in tick t."""
+    """Returns the shapes: [0] before the play, [t + 1] in tick t."""
     shape = shaping.Shape(volts=Fraction(0))
     for action in case.before:
         shape = apply(shape, *action)
@@ -37,7 +38,7 @@ def used_by(image, page, step):
 
 
 def lent(case, run):
-    """Joints that may have been lent."""
+    """Returns the joints that may have been lent."""
     joints = set()
     for _, name, words, status in run.done:
         if name == "layer" and status == 0:
@@ -56,12 +57,12 @@ def is_broken(run):
 
 
 def ends_of(run):
-    """The last tick of each step."""
+    """Returns the last tick of each step."""
     return [step[0] - 1 for step in run.steps[1:]] + [run.ticks - 1]
 
 
 def first_difference(run, other, joints, ticks, events=TIMING):
-    """None, or where two runs are different within the first ticks."""
+    """Returns the first difference of two runs within the first `ticks` ticks, or None."""
     ticks = min(ticks, max(run.ticks, other.ticks))
     if any(a[:ticks] != b[:ticks] for a, b in ((run.columns[j], other.columns[j]) for j in joints)) or [e & events for e in run.events[:ticks]] != [
         e & events for e in other.events[:ticks]
@@ -78,7 +79,7 @@ def first_difference(run, other, joints, ticks, events=TIMING):
 
 
 def owners(case, run):
-    """{joint: [(tick from which on, "main" | "page" | "code" | "none", the action)]}; up to a break."""
+    """Returns {joint: [(first tick, "main" | "page" | "code" | "none", action)]}, up to a break."""
     of_page, of_code, gone, found = set(), set(), set(range(JOINTS)) - bits(case.present), {j: [(0, "main", None)] for j in range(JOINTS)}
 
     def give(joints, tick, owner, action=None):
@@ -112,7 +113,7 @@ def owners(case, run):
 
 
 def halts_of(run):
-    """The ticks in front of which a pause began."""
+    """Returns the ticks before which a pause began."""
     halts, paused = [], False
     for tick, name, _, _ in run.done:
         if name == "pause" and not paused:
@@ -122,7 +123,7 @@ def halts_of(run):
 
 
 def paused_ticks(run):
-    """The ticks in front of which a pause was in force."""
+    """Returns the ticks before which a pause was in force."""
     ticks, since = set(), None
     for tick, name, _, _ in run.done:
         if name == "pause" and since is None:

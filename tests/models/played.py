@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The C player in Python: one play at a time, tick by tick (played.c)."""
+"""The C player (played.c) in Python: one play at a time, tick by tick."""
 
 import ctypes
 import os
@@ -20,7 +20,7 @@ library.played_amplitude.argtypes = (ctypes.c_int, ctypes.c_uint32)
 
 
 class Played:
-    """A play of `page` of a motion area; `codes` arrive before it starts. started: whether it began (player_status_t 0)."""
+    """A play of `page` of a motion area. `codes` arrive before it starts. started: whether it began (player_status_t 0)."""
 
     def __init__(self, image, page, law, joints=0x7FFFFFFF, positions=None, call=0, codes=(), shape=()):
         library.played_load(bytes(image))
@@ -35,7 +35,7 @@ class Played:
 
     @staticmethod
     def shape(name, *values):
-        """rate PERCENT, amplitude PERCENT JOINTS, blend PERCENT, centre PAGE, voltage DECIVOLTS, reset."""
+        """Takes rate PERCENT, amplitude PERCENT JOINTS, blend PERCENT, centre PAGE, voltage DECIVOLTS or reset."""
         result = getattr(library, f"played_{name}")(*values)
         assert name in ("voltage", "reset") or result == 0, (name, values)
 
@@ -45,7 +45,7 @@ class Played:
 
     @staticmethod
     def tick():
-        """PLAYER_EV_ bits of one tick."""
+        """Plays one tick. Returns its PLAYER_EV_ bits."""
         return library.played_tick()
 
     @staticmethod
@@ -54,5 +54,5 @@ class Played:
 
     @staticmethod
     def place():
-        """(page, step) that plays."""
+        """Returns the (page, step) that plays."""
         return library.played_page(), library.played_step()

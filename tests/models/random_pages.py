@@ -34,12 +34,12 @@ class Case:
     limit: int = 1500
 
     def play(self, model=law):
-        """The play of this case by a model that is spelled like classic_law."""
+        """Plays this case with a model that has the interface of classic_law."""
         return model.ClassicPlay(self.image, self.page, self.joints, self.positions, self.schedule, self.call)
 
 
 def one_of(chance, *choices):
-    """A choice, made only when it is taken: each is a value or a function without arguments."""
+    """Returns one of the choices, values or functions without arguments. Only the chosen function is called."""
     choice = chance.choice(choices)
     return choice() if callable(choice) else choice
 
@@ -51,7 +51,7 @@ def checksummed(page, error=0):
 
 
 def positions_by_chance(chance, steps):
-    """Positions of one joint in all steps of a page: a style of motion, not only noise."""
+    """Yields the positions of one joint in all steps of a page: a style of motion, not only noise."""
     style = chance.choice(("any", "any", "corners", "run", "small", "still"))
     at, way = chance.randrange(1024), chance.choice((-1, 1))
     for _ in range(steps):
@@ -59,7 +59,7 @@ def positions_by_chance(chance, steps):
             at = chance.randrange(1024)
         elif style == "corners":
             at = chance.choice(CORNERS)
-        elif style == "run":  # goes on in one direction: through joints
+        elif style == "run":  # keeps one direction: passes through
             at = law.limited(at + way * chance.randrange(200), 0, 1023)
         elif style == "small":
             at = law.limited(at + chance.randint(-12, 12), 0, 1023)
@@ -67,12 +67,12 @@ def positions_by_chance(chance, steps):
 
 
 def flag(chance):
-    """The word of a joint that is not driven: either flag, anything in the bits below."""
+    """Returns the word of a joint that is not driven: either flag, any lower bits."""
     return chance.choice((0x4000, 0x4000, 0x4200, 0x2000, 0x6000)) | chance.choice((0, 0, chance.randrange(0x2000)))
 
 
 def page_by_chance(chance, links):
-    """One page that can be played. links: page numbers that its links may name."""
+    """Returns a page that can be played. links: page numbers that its links may name."""
     page = bytearray(512)
     steps = chance.choice((1, 1, 2, 2, 3, 4, 5, 6, 7))
     page[15] = chance.choice((1, 1, 1, 1, 1, 1, 1, 2, 3, 0, 0, chance.randrange(256)))
@@ -97,7 +97,7 @@ def page_by_chance(chance, links):
 
 
 def damaged(chance, page, joint):
-    """The page with one thing that makes ours refuse it. joint: one that is there."""
+    """Returns the page with one fault for which our player refuses it. joint: a present joint."""
     kind = chance.choice(DAMAGES)
     if kind == "checksum":
         return checksummed(page, chance.randint(1, 255))
@@ -114,7 +114,7 @@ def damaged(chance, page, joint):
 
 
 def case(seed, limit=1500):
-    """The case of a seed. About one page in eight is damaged."""
+    """Returns the case of a seed. About one page in eight is damaged."""
     chance = random.Random(seed)
     pages = chance.sample(range(1, 128), chance.randint(1, 6))
     links = pages * 2 + [0] * chance.choice((1, len(pages) * 2, len(pages) * 6)) + [chance.randint(128, 255), chance.randint(1, 127)]
@@ -138,7 +138,7 @@ def case(seed, limit=1500):
 
 
 def result(case, model=law):
-    """What a model makes of a case: [(call, goals)] with output, the number of the last call, the reason or "limit"."""
+    """Returns a model's result of a case: [(call, goals)] with output, the number of the last call, the reason or "limit"."""
     play = case.play(model)
     last, sent = -1, []
     for last, goals in enumerate(play.ticks(case.limit)):

@@ -15,14 +15,14 @@ import sys
 from fractions import Fraction
 
 from tests.models import (
-    classic_law,  # tests/models, on the path by now
+    classic_law,
     shaping,
 )
 from tests.models.played import ENDED, EXACT, JOINTS, OUTPUT, STEP, Played
 
 ALL = 0x7FFFFFFF
 LIMIT = 1500
-LOOK_AHEAD = 7  # a step is looked at up to 6 ticks before the one in front of it begins; what is set behind a tick counts from the next
+LOOK_AHEAD = 7  # a step is looked at up to 6 ticks before the previous one begins; a setting made after a tick counts from the next
 
 
 def page_by_chance(chance, steps, pages):
@@ -46,12 +46,12 @@ def area_by_chance(chance):
     for number in pages:
         image[512 * number : 512 * number + 512] = page_by_chance(chance, steps if chance.random() < 0.8 else chance.randint(1, 7), pages)
     if chance.random() < 0.1:
-        image[512 * pages[-1] + 100] ^= 1  # damaged: no partner, and a play ends there
+        image[512 * pages[-1] + 100] ^= 1  # damaged: cannot be a partner, and a play ends there
     return bytes(image), pages
 
 
 def change_by_chance(chance, pages):
-    """A call of Played.shape and what it sets in the model."""
+    """Returns a call of Played.shape; apply() makes the same change to the model."""
     kind = chance.choice(("rate", "amplitude", "blend", "centre", "reset", "voltage"))
     if kind == "rate":
         return kind, chance.choice((10, 50, 75, 100, 130, 200, 400))
@@ -65,7 +65,7 @@ def change_by_chance(chance, pages):
 
 
 def apply(shape, kind, *values):
-    """What a change makes of the model's Shape: a new one."""
+    """Returns the model's Shape after a change, as a new object."""
     made = shaping.Shape(shape.blend, dict(shape.amplitude), shape.rate, shape.centre_page, shape.volts)
     if kind == "amplitude":
         made.amplitude.update({j: values[0] for j in range(JOINTS) if values[1] >> j & 1})
@@ -81,7 +81,7 @@ def apply(shape, kind, *values):
 
 
 def model_pose(image, place, shape):
-    """The shaped pose; centre page 0 means that nothing is scaled."""
+    """Returns the shaped pose. Centre page 0 means that nothing is scaled."""
     if shape.centre_page == 0:
         scaled = shaping.Shape(shape.blend, {}, shape.rate, place[0], shape.volts)
         page = classic_law.Page(image, place[0])
@@ -101,18 +101,19 @@ def model_pose(image, place, shape):
 
 
 class Check:
-    """Follows a play tick by tick and says what is wrong with it."""
+    """Follows a play tick by tick and checks it."""
 
     def __init__(self, image, pose):
         self.image, self.target = image, list(pose)
-        self.steps = []  # (page and step, tick in which it begins, goals before it)
-        self.ticks = []  # goals of all ticks; None: a tick without output
-        self.shapes = []  # what was in force at each tick
+        self.steps = []  # (page and step, first tick, goals before it)
+        self.ticks = []  # goals of each tick; None: no output
+        self.shapes = []  # the shape in force at each tick
         self.before = list(pose)
-        self.trace = []  # goals of the running step, tick by tick; None: a tick without output
+        self.trace = []  # goals of the running step, tick by tick; None: no output
 
     def candidates(self, tick, begun_at):
-        """The shapes of which one was in force when the step was looked at: since the beginning of the step before the one before."""
+        """Returns the shapes of which one was in force when the step was looked at. begun_at: LOOK_AHEAD ticks before the start of the
+        step before."""
         seen = []
         for shape in self.shapes[max(0, begun_at) : tick + 1]:
             if shape not in seen:
@@ -120,14 +121,14 @@ class Check:
         return seen
 
     def step_ends(self, place, ticks, goals, shapes):
-        """Compares the end of a step with the model. Returns a description of what is wrong, or None."""
+        """Compares the end of a step with the model. Returns the fault or None."""
         page, found = classic_law.Page(self.image, place[0]), []
         for shape in shapes:
             pose = model_pose(self.image, place, shape)
             wrong = [f"joint {j} at {goals[j]}, model {to}" for j, to in pose.items() if goals[j] != to]
             longest = max((abs(to - self.target[j]) for j, to in pose.items()), default=0)
             ideal = max(shaping.ideal_step(page, place[1], longest, shape), Fraction(1)) + shaping.ideal_pause(page, place[1], shape)
-            slack = Fraction(2) + (ideal / 60 if shape.is_set() else 0)  # the top speed is kept to 1/16 unit a tick
+            slack = Fraction(2) + (ideal / 60 if shape.is_set() else 0)  # the top speed is kept to 1/16 unit per tick
             if not wrong and abs(ticks - ideal) > slack:
                 wrong = [f"{ticks} ticks, model {float(ideal):.2f}"]
             wrong = wrong or self.on_the_way(pose, ideal - shaping.ideal_pause(page, place[1], shape))
@@ -137,7 +138,7 @@ class Check:
         return f"page {place[0]} step {place[1]}: {found}"
 
     def on_the_way(self, pose, ideal):
-        """No joint passes the way-points on either side of the step; no tick of it is idle."""
+        """Checks that no joint passes the way-points on either side of the step, and that no tick is idle."""
         wrong = [
             f"joint {j} passes its way-point: {row[j]}"
             for row in self.trace
@@ -150,7 +151,8 @@ class Check:
         return wrong
 
     def follow(self, play, shape, changes, limit=LIMIT):
-        """Plays on, tick by tick: None, or what is wrong. changes(events) -> what is set behind this tick, as Played.shape takes it."""
+        """Plays on, tick by tick. Returns the fault or None. changes(events) returns the changes to make after this tick, as
+        Played.shape takes them."""
         for tick in range(limit):
             self.shapes.append(shape)
             events = play.tick()
@@ -177,7 +179,7 @@ class Check:
 
 
 def first_difference(seed):
-    """None, or what is wrong."""
+    """Returns the fault or None."""
     chance = random.Random(seed)
     image, pages = area_by_chance(chance)
     pose = [chance.randrange(1024) for _ in range(JOINTS)]
@@ -195,7 +197,7 @@ def first_difference(seed):
 
 
 def compare(first, count):
-    """[(seed, difference)]"""
+    """Returns [(seed, difference)]."""
     found = [(seed, first_difference(seed)) for seed in range(first, first + count)]
     return [(seed, what) for seed, what in found if what]
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""What blend, amplitude, clamp, rate and limit make of a step: a model of the page of the spec "Shaping a motion while it plays".
+"""What blend, amplitude, clamp, rate and limit do to a step: a model of the specification page "Shaping a motion while it plays".
 
-Written from that page alone, by someone who had not read motion/. Everything is exact (fractions) until the one place where the page rounds. Speeds are
-in servo units per tick, lengths in ticks. READING marks a sentence with a second reading; README.md lists them.
+Written from that page alone, without reading motion/. All values are exact (fractions) up to the one place where the page rounds. Speeds
+are in servo units per tick, lengths in ticks. READING marks a sentence that can be read in two ways; README.md lists them.
 """
 
 import math
@@ -19,7 +19,7 @@ PARTNER_RIGHT, PARTNER_LEFT = 17, 18  # bytes of the page's header
 
 @dataclass
 class Shape:
-    """What is in force. blend -100..100 %, right is positive; amplitude {joint: 0..150 %}, 100 where none is given; rate 10..400 %."""
+    """The values in force. blend: -100..100 %, right is positive. amplitude: {joint: 0..150 %}, 100 if not given. rate: 10..400 %."""
 
     blend: int = 0
     amplitude: dict = field(default_factory=dict)
@@ -28,7 +28,7 @@ class Shape:
     volts: Fraction = Fraction(12)
 
     def is_set(self):
-        """READING 8: a value that changes nothing in this page (a blend without a partner) counts as set."""
+        """READING 8: a value without effect in this page (a blend without a partner) counts as set."""
         return self.blend != 0 or self.rate != 100 or any(percent != 100 for percent in self.amplitude.values())
 
 
@@ -37,24 +37,25 @@ def used(word):
 
 
 def rounded(displacement):
-    """To the nearest whole number, halves away from zero: the mirrored displacement gives the mirrored result. READING 9."""
+    """Rounds to the nearest integer, halves away from zero: a mirrored displacement gives the mirrored result. READING 9."""
     return int(math.copysign(math.floor(abs(displacement) + Fraction(1, 2)), displacement))
 
 
 def exact_position(p, q, c, blend, amplitude):
-    """p1 = p + W (q - p); p2 = c + A (p1 - c), as a fraction. q or c is None: not blended, not scaled. blend, amplitude in per cent."""
+    """Returns p2 as a fraction: p1 = p + W (q - p), p2 = c + A (p1 - c). q None: not blended. c None: not scaled. blend and amplitude in
+    percent."""
     p1 = Fraction(p) if q is None else p + Fraction(abs(blend), 100) * (q - p)
     return p1 if c is None else c + Fraction(amplitude, 100) * (p1 - c)
 
 
 def shaped_position(p, q, c, blend, amplitude):
-    """The position 0..1023 that is planned. Rounded once, as a displacement from c (from p where nothing is scaled). READING 9."""
+    """Returns the planned position 0..1023. It is rounded once, as a displacement from c (from p if nothing is scaled). READING 9."""
     anchor = p if c is None else c
     return max(0, min(1023, anchor + rounded(exact_position(p, q, c, blend, amplitude) - anchor)))
 
 
 def partner(image, page, blend):
-    """The page that is blended in, None if there is none: byte 17 or 18 is 0 or above 127, the page is refused or of another length."""
+    """Returns the page to blend in. None if byte 17 or 18 is 0 or above 127, or the page is refused or has another number of steps."""
     number = page.raw[PARTNER_RIGHT if blend > 0 else PARTNER_LEFT]
     if blend == 0 or not 0 < number <= LAST_PAGE:
         return None
@@ -63,13 +64,13 @@ def partner(image, page, blend):
 
 
 def centre(image, shape, joint):
-    """The joint's place in the centre pose, None if that pose does not use it (or the page cannot be played)."""
+    """Returns the joint's position in the centre pose. None if that pose does not use the joint, or the page cannot be played."""
     page = Page(image, shape.centre_page)
     return None if page.refused() or not used(page.word(1, joint)) else page.word(1, joint)
 
 
 def shaped_pose(image, number, step, shape):
-    """{joint: position} of the joints that the step uses. step counts from 1."""
+    """Returns {joint: position} of the joints that the step uses. Steps count from 1."""
     page = Page(image, number)
     other = partner(image, page, shape.blend)
     pose = {}
@@ -83,13 +84,13 @@ def shaped_pose(image, number, step, shape):
 
 
 def top_speed(volts):
-    """The servo's top speed in units per tick: 9.44 at 12 V, in proportion to the supply."""
+    """Returns the servo's top speed in units per tick: 9.44 at 12 V, proportional to the supply."""
     return NO_LOAD_DEGREES_PER_S * UNITS_PER_DEGREE / TICKS_PER_S * Fraction(volts) / 12
 
 
 def ideal_step(page, step, longest, shape):
-    """Ideal length of a step in ticks. longest: the largest |M| of the shaped step, from the targets before it (shaped as well).
-    The exact law's length, over the rate, stretched by the limit. READING 10: the limit looks at the mean speed |M| / N."""
+    """Returns the ideal length of a step in ticks: the exact law's length, divided by the rate, stretched by the limit. longest: the
+    largest |M| of the shaped step, from the (also shaped) targets before it. READING 10: the limit applies to the mean speed |M| / N."""
     if page.schedule == TIME_BASE:
         length = Fraction(page.time(step) * page.speed, 32)
     else:
@@ -101,15 +102,15 @@ def ideal_step(page, step, longest, shape):
 
 
 def ideal_pause(page, step, shape):
-    """Ideal length of the pause behind a step, in ticks."""
+    """Returns the ideal length in ticks of the pause after a step."""
     pause = page.pause(step)
     nominal = Fraction(pause * page.speed, 32) if page.schedule == TIME_BASE else Fraction(pause * 32, page.speed)
     return nominal * 100 / shape.rate
 
 
 def carried(ideals):
-    """Whole lengths for a list of ideal ones; the fraction is carried on. Each end is the whole tick at or before the ideal end.
-    What the page promises is `within_one_tick`; a player may carry in another way. Steps below one tick: see there."""
+    """Returns integer lengths for ideal ones, with the fraction carried on. Each end is at the last whole tick up to the ideal end. The
+    specification promises only `within_one_tick`; a player may carry differently. Steps below one tick: see there."""
     made, end = [], Fraction(0)
     for length in ideals:
         end += length
@@ -118,5 +119,5 @@ def carried(ideals):
 
 
 def within_one_tick(made, ideals):
-    """Is every end right to one tick? Only for sections of at least one tick: a shorter step still takes one."""
+    """Returns whether every end is right to one tick. Only for sections of at least one tick: a shorter step still takes one."""
     return all(abs(sum(made[:n]) - sum(ideals[:n])) <= 1 for n in range(1, len(ideals) + 1))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The model of the classic law against what the original firmware sent (../golden)."""
+"""The model of the classic law against recordings of the original firmware (golden/)."""
 
 import csv
 import pathlib
@@ -18,7 +18,7 @@ def recorded(name):
 
 
 def played(name, model=classic_law):
-    """The rows of the recording, by the model: ticks are counted from the first one with output."""
+    """Returns the rows of the recording by the model, and how the play ended. Ticks count from the first output."""
     play = model.ClassicPlay(SETS[name].read_bytes(), 1, 0x1FFE, {i: 512 for i in range(1, 13)})
     rows = [(tick, *goals) for tick, goals in enumerate(play.ticks(100_000)) if goals is not None]
     return [(row[0] - rows[0][0], *row[1:]) for row in rows], play.ended

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A sample of what hand_over.py asks at every tick: a layer that comes and goes over a walk, and joints that change hands."""
+"""A sample of hand_over.py: a layer that comes and goes over a walk, and joints that change hands."""
 
 import pytest
 
@@ -19,5 +19,5 @@ def test_pages_joints_and_moments_by_chance():
 
 @pytest.mark.parametrize("seed", [522, 1357, 1808])
 def test_a_joint_much_slower_than_its_owners_page_meets_it_all_the_same(seed):
-    """What the owner asks for comes past it between two ticks, and never near it at one."""
+    """The owner's motion passes the joint between two ticks and is never near it at a tick."""
     assert hand_over.by_chance(seed) is None

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""No play of our library asks a servo for more than it can do, by the goals of the C player, tick by tick: every page, walks led by a
+"""No play of our library exceeds a servo's speed. Checked by the goals of the C player, tick by tick, for every page, walks led by a
 remote, and walks blended with their curves.
 
-The bound is worked out here from the maker's sheet: an AX-12 turns 59 rpm without load at 12 V, in proportion at less, 1024 units are 300
-degrees, a tick is 1/128 s. A goal is a whole unit, so speeds are those of four ticks."""
+The bound comes from the maker's data sheet: an AX-12 turns at 59 rpm without load at 12 V, in proportion at lower voltages; 1024 units
+are 300 degrees, a tick is 1/128 s. A goal is a whole unit, so speeds are averaged over four ticks."""
 
 import pytest
 
@@ -22,7 +22,7 @@ UP, DOWN, LEFT, RIGHT, STOP = 1, 2, 4, 8, 255
 
 
 def units_per_tick(volts):
-    """What an unloaded AX-12 does: 1208 units a second at 12 V."""
+    """Returns the speed of an unloaded AX-12: 1208 units per second at 12 V."""
     return 59 * 360 / 60 * 1024 / 300 / 128 * volts / 12
 
 
@@ -30,7 +30,7 @@ MOST = 0.9 * units_per_tick(11.1)
 
 
 def fastest(image, number, ticks=1500, codes=(), shape=()):
-    """Units a tick that a play asks of a joint at most. codes: {tick: of the remote}."""
+    """Returns the highest speed in units per tick that a play asks of a joint. codes: {tick: code of the remote}."""
     page, codes = image[number], dict(codes)
     begin = {joint: page.word(0, joint) if page.word(0, joint) < 1024 else 512 for joint in JOINTS}
     play = Played(image.to_bytes(), number, EXACT, joints=ROBOT, positions=begin, shape=shape)
@@ -47,7 +47,7 @@ def fastest(image, number, ticks=1500, codes=(), shape=()):
 
 
 def made(ticks):
-    """400 to 496 and back, at one speed: 96 units in so many ticks."""
+    """Returns a page that moves 400 to 496 and back at one speed: 96 units in `ticks` ticks."""
     return read_text(f"motion512 1\nrow 1..18\npage 1 fast\n  accel 0\n  step 50 | 1..18:400\n  step {ticks} | 1:496\n  step {ticks} | 1:400\n")
 
 
@@ -83,14 +83,14 @@ def test_ways_led_by_a_remote_keep_to_it(name, keys):
 
 @pytest.mark.parametrize("blend", range(-100, 101, 25))
 def test_blended_walks_keep_to_it(blend):
-    """With no voltage told, so that the player's own limit does not help."""
+    """Without a given voltage, so that the player's own limit does not help."""
     assert fastest(LIBRARY, NUMBER["walk"], 1500, {900: STOP}, [("blend", blend)]) <= MOST
 
 
 @pytest.mark.parametrize("name", ["walk", "back", "right", "end_r", "kick_r", "bow"])
 def test_m512_tells_what_a_weaker_battery_cannot_do(name):
-    """It names a page exactly when the C player asks for more than this battery's servos do."""
+    """It names a page exactly when the C player asks for more speed than servos have at this voltage."""
     asked = fastest(LIBRARY, NUMBER[name], 400)
     for volts in (9.6, 8.0):
-        if abs(asked - units_per_tick(volts)) > 1 / WINDOW:  # else rounding decides
+        if abs(asked - units_per_tick(volts)) > 1 / WINDOW:  # otherwise rounding decides
             assert bool(too_fast(LIBRARY, NUMBER[name], volts, seconds=400 / 128)) == (asked > units_per_tick(volts)), (volts, asked)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A sample of what mixed.py asks at scale."""
+"""A sample of mixed.py."""
 
 from tests.models import mixed
 

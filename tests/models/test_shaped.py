@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A sample of what shaped.py and jumps.py compare at scale: shaped plays of the C player and the model of the page."""
+"""A sample of shaped.py and jumps.py: shaped plays of the C player against the model of the specification."""
 
 import pytest
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The model of shaping against values worked by hand and the properties that the page of the spec names."""
+"""The model of shaping against values worked out by hand and properties that the specification names."""
 
 import random
 from fractions import Fraction
@@ -14,7 +14,7 @@ IMAGE = 65536
 
 
 def area(**pages):
-    """A motion area: p3={"steps": [({joint: position}, pause, time)], "right": n, "schedule": s, ...}."""
+    """Returns a motion area from p3={"steps": [({joint: position}, pause, time)], "right": n, "schedule": s, ...}."""
     image = bytearray(IMAGE)
     for name, given in pages.items():
         page = bytearray(512)
@@ -43,8 +43,8 @@ WALK = area(
     [
         (600, None, None, 0, 100, 600),
         (600, 700, None, 50, 100, 650),
-        (600, 700, None, -50, 100, 650),  # q is the left partner's then
-        (600, 700, 500, 100, 50, 600),  # blend first: 700, then half the way from 500
+        (600, 700, None, -50, 100, 650),  # q is then the left partner's
+        (600, 700, 500, 100, 50, 600),  # blend first: 700, then half the distance from 500
         (600, None, 500, 0, 150, 650),
         (900, None, 500, 0, 150, 1023),  # 1100
         (100, None, 500, 0, 150, 0),  # -100
@@ -79,7 +79,7 @@ def test_the_planned_position_is_the_nearest_to_the_exact_one():
     [
         (Shape(), {0: 600, 1: 400, 2: 300}),
         (Shape(blend=50), {0: 650, 1: 400, 2: 350}),  # joint 1 is not used in the partner
-        (Shape(blend=-50), {0: 600, 1: 400, 2: 300}),  # the left partner has another length
+        (Shape(blend=-50), {0: 600, 1: 400, 2: 300}),  # the left partner has another number of steps
         (Shape(amplitude={0: 50, 2: 50}), {0: 550, 1: 400, 2: 300}),  # joint 2 is not used in the centre pose
         (Shape(amplitude={0: 50}, centre_page=9), {0: 600, 1: 400, 2: 300}),
     ],

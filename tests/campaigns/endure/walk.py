@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""A robot with Play that is kept busy: by a remote, by a terminal that fills the line, by faults of its servos.
+"""A robot with Play that is kept busy by a remote, by a terminal that fills the serial line, and by faults of its servos.
 
-All of it is drawn from one seed. Time passes in slices; the packets on the servo bus are judged as they come, so the trace
-of an hour (a million packets) never stands in memory.
+One seed determines everything. Time runs in slices. The packets on the servo bus are checked as they come, so the trace of an hour (a
+million packets) is never in memory.
 """
 
 import random
@@ -14,11 +14,11 @@ from tests.sim import play_robot
 
 UP, DOWN, LEFT, RIGHT, STOP = 1, 2, 4, 8, 512
 SLICE_MS = 10
-PACKET_MS = 100  # a hand on the remote: so often it sends
+PACKET_MS = 100  # interval between two packets while a button of the remote is held
 LINE_BYTES_A_MS = 5.76
 XON, XOFF = 0x11, 0x13
-REST_TICKS = 5  # between two plays READY alone takes longer; a shorter gap in the frames is a missed tick
-FIRST_FRAME_ERROR = 2  # pos: the pose is read, and the first goal is one tick's way from it
+REST_TICKS = 5  # between two plays, READY alone takes longer; a shorter gap between frames is a missed tick
+FIRST_FRAME_ERROR = 2  # pos; the pose is read, and the first goal is one tick's motion away from it
 QUERIES = [
     "status",
     "servos",
@@ -43,14 +43,14 @@ QUIET = "nothing to do"
 
 
 class Bus:
-    """Judges the frames of goals."""
+    """Checks the frames of goals."""
 
     def __init__(self, phase):
         self.phase = phase
         self.frames = self.missed = self.doubled = 0
         self.offset_min, self.offset_max = CYCLES_PER_TICK, 0
         self.last = None  # tick of the last frame
-        self.recording = None  # [(tick, goals)] while a reference is played
+        self.recording = None  # [(tick, goals)] while the reference page plays
 
     def take(self, packets):
         for cycle, packet in packets:
@@ -69,15 +69,15 @@ class Bus:
 
 
 def ticks_of(page):
-    """How long a page of time-base schedule takes behind its first two steps: 32 is the speed at which a step's time counts ticks.
+    """Returns the ticks that a page of time-base schedule takes after its first two steps. At speed 32, a step's time counts ticks.
 
-    The first begins where the servos are, a unit or two off their goals, and the second at the speed that follows from it.
+    The first step begins where the servos are, a unit or two from their goals. The second begins at the resulting speed.
     """
     return sum(round(page.time(step) * 32 / page.speed) + page.pause(step) for step in range(2, page.steps))
 
 
 class Walker:
-    """The robot and all that happens to it."""
+    """The robot and everything that happens to it."""
 
     def __init__(self, seed, joints, motions, reference, layer):
         self.chance = random.Random(seed)
@@ -124,7 +124,7 @@ class Walker:
             self.run(100)
         return bool(re.search(pattern, self.text))
 
-    # ---- hands ----
+    # ---- remote and terminal ----
 
     def packet(self, value):
         self.board.rc(value)
@@ -143,7 +143,7 @@ class Walker:
         self.run(60)
 
     def type(self):
-        """A PC that types without a pause, but obeys XOFF."""
+        """Types like a PC: without a pause, but obeying XOFF."""
         room = int(LINE_BYTES_A_MS * SLICE_MS) + 1
         while len(self.rest) < room:
             self.rest += QUERIES[self.lines % len(QUERIES)].encode() + b"\r"
@@ -165,7 +165,7 @@ class Walker:
         self.run(2500)
 
     def stand(self):
-        """Lets go of all buttons, breaks the play, and waits until nothing moves."""
+        """Releases all buttons, breaks the play, and waits until nothing moves."""
         if self.flooding:
             self.stop_typing()
         self.hold(0)
@@ -175,7 +175,7 @@ class Walker:
     # ---- episodes ----
 
     def walk(self):
-        """A hand on the stick, for a while; then it lets go, and the walk goes on until it is stopped."""
+        """Holds and changes buttons for a while, then releases them. The walk goes on until it is stopped."""
         self.hold(self.chance.choice((UP, UP, UP, DOWN, LEFT, RIGHT)))
         for _ in range(self.chance.randrange(2, 9)):
             self.run(self.chance.randrange(600, 3000))
@@ -184,7 +184,7 @@ class Walker:
         self.stop()
 
     def stop(self):
-        """Stops the walk by remote, panel, or typed word; sometimes twice within a second."""
+        """Stops the walk by remote, panel or typed word; sometimes twice within a second."""
         self.hold(0)
         for _ in range(self.chance.choice((1, 1, 1, 2))):
             way = self.chance.randrange(3)
@@ -222,7 +222,7 @@ class Walker:
             self.stop()
 
     def flood(self):
-        """Fills the line in both directions while the robot walks."""
+        """Fills the serial line in both directions while the robot walks."""
         self.hold(UP)
         self.run(1500)
         self.flooding = 1
@@ -232,8 +232,7 @@ class Walker:
         self.stop_typing()
 
     def driven(self):
-        """A program drives the walk twenty times a second, a second page comes over it and goes; then the cable is pulled, and the
-        play ends by itself."""
+        """Drives the walk twenty times a second while a layer comes and goes. Then the cable is pulled, and the play must end by itself."""
         self.hold(UP)
         self.run(1500)
         self.hold(0)
@@ -253,12 +252,12 @@ class Walker:
             self.complaints.append(f"nobody drives, and the play goes on, at {self.board.now_ms:.0f} ms: {before[-40:]} ... {self.text[-80:]}")
 
     def is_idle(self):
-        """Whether nothing plays. A play that ended early, as a walk does whose code the remote held, has told so long ago."""
+        """Returns whether nothing plays. A play that ended early (such as a walk whose code the remote held) reported its end long ago."""
         self.say("@where")
         return self.until("state=idle", 1000)
 
     def passing_faults(self):
-        """Spoils one or two answers in a row; the walk must go on."""
+        """Spoils one or two answers in a row. The walk must go on."""
         self.hold(UP)
         for _ in range(self.chance.randrange(2, 8)):
             self.board.servos[self.chance.choice(self.joints)].fault(self.chance.choice(PASSING), times=self.chance.choice((1, 2)))
@@ -268,7 +267,7 @@ class Walker:
             servo.clear()
 
     def lasting_fault(self):
-        """A servo fails, the rule ends the play, the servo is well again and switched on."""
+        """Makes a servo fail. The rule ends the play; then the servo recovers and is switched on."""
         self.say(f"play {self.chance.choice(list(self.pages))}")
         self.run(self.chance.randrange(500, 3000))
         servo = self.board.servos[self.chance.choice(self.joints)]
@@ -307,11 +306,11 @@ class Walker:
         chosen()
         self.stand()
 
-    # ---- the yardstick ----
+    # ---- the reference page ----
 
     def measure(self):
-        """Plays the reference page: its goals, tick by tick, behind its first two steps (ticks_of). Complains about joints that do not
-        stand where the page ends."""
+        """Plays the reference page. Returns its goals tick by tick, after its first two steps (ticks_of). Complains about joints that do
+        not end at the page's last positions."""
         self.stand()
         for line in ("law exact", "remote latch", "settings approach 60", "on"):
             self.say(line)
@@ -330,7 +329,7 @@ class Walker:
         return [(tick - ends, goals) for tick, goals in recorded if tick > ends - self.reference_ticks]
 
     def statistics(self):
-        """What `faults` counts."""
+        """Returns the counts that `faults` prints."""
         self.stand()
         self.say("faults")
         self.run(500)

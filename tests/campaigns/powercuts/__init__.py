@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""The scenes of the power cuts (tests/campaigns/power.py) and what plays them."""
+"""The scenes of the power cuts (tests/campaigns/power.py), and the code that plays them."""

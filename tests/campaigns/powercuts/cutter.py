@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Cuts the power of a simulated board at every operation of a scene, without running the scene again for each.
 
-    scene.act()       what is cut: it runs on and on in this process
+    scene.act()       the scene to cut: it runs to its end in this process
        | an operation is about to begin
-       +--> a copy of the process (fork) for each phase: the power goes there --> restart --> verdict
-                                                                                     | operations of the restart itself
-                                                                                     +--> copies of the copy: nested cuts
+       +--> a copy of the process (fork) for each phase: cut there --> restart --> verdict
+                                                                          | operations of the restart itself
+                                                                          +--> copies of the copy: nested cuts
 
-A state is named scene:operation:phase, nested ones with a slash: save:7:half/2:after is a SAVE cut in the middle of its
-7th operation, whose repair at the next start was cut right behind its 2nd one.
+A state is named scene:operation:phase; nested cuts follow a slash. save:7:half/2:after is a SAVE cut in the middle of its 7th operation,
+whose repair at the next start was cut directly after its 2nd operation.
 """
 
 import json
@@ -19,8 +19,8 @@ from typing import NamedTuple
 
 from cm5sim import PowerCut
 
-# How much of an operation is done when the power goes. Flash: one bit has changed, few, half or most of them, all but
-# one, the first or the last bytes of the page. EEPROM byte: between old, erased and new.
+# How much of an operation is done at the cut. Flash: one, few, half, most, or all but one of the bits have changed, or the first or last
+# bytes of the page. EEPROM byte: between old, erased and new.
 TORN = ("one", "few", "half", "most", "rest", "head", "tail")
 PHASES = ("before", *TORN, "after")
 ORIGINAL, COPY, DONE, EMPTY = range(4)
@@ -39,7 +39,7 @@ def path_text(scene, path):
 
 
 def path_of(text):
-    """(scene, [Cut]) of the name of a state."""
+    """Returns (scene, [Cut]) from the name of a state."""
     scene, _, rest = text.partition(":")
     cuts = [part.split(":") for part in rest.split("/")] if rest else []
     if any(len(cut) != 2 or not cut[0].isdigit() or cut[1] not in PHASES for cut in cuts):
@@ -48,7 +48,7 @@ def path_of(text):
 
 
 def torn_flash(old, new, phase, chance):
-    """A flash page between two contents: each bit that changes has changed or not."""
+    """Returns a flash page between two contents: some of the bits that differ have changed."""
     changing = [(at, 1 << bit) for at in range(len(old)) for bit in range(8) if (old[at] ^ new[at]) >> bit & 1]
     if phase in ("head", "tail"):
         edge = chance.randrange(1, len(old))
@@ -61,14 +61,14 @@ def torn_flash(old, new, phase, chance):
 
 
 def torn_byte(old, new, phase, chance):
-    """An EEPROM byte that was being erased, then programmed."""
+    """Returns an EEPROM byte that was being erased, then programmed."""
     bits = chance.randrange(256)
     one = 1 << chance.randrange(8)
     return {"one": old | one, "few": old | bits, "half": 0xFF, "most": new | bits, "rest": new | one, "head": old & bits, "tail": bits}[phase]
 
 
 class Cutter:
-    """Plays one scene. `wanted(path, operation)` gives the phases to cut at, `only` is a single path instead."""
+    """Plays one scene. `wanted(path, operation)` gives the phases to cut at. `only` is a single path instead."""
 
     def __init__(self, scene, wanted, only=None, seed=1):
         self.scene, self.board, self.wanted, self.only, self.seed = scene, scene.board, wanted, only, seed
@@ -76,11 +76,11 @@ class Cutter:
         self.operations = 0
 
     def play(self):
-        """[(name of the state, outcome or None, what is wrong or None)] of all states; the scene uncut is one, too."""
+        """Returns [(state, outcome or None, fault or None)] of all states. The uncut scene is one of them."""
         self._go(self.scene.act)
         return self.results
 
-    # Every process that comes out of _watched has an end of its own: copies report and exit.
+    # Every process that returns from _watched ends by itself: copies report and exit.
 
     def _go(self, act):
         try:
@@ -91,7 +91,7 @@ class Cutter:
                     self.board.power_off()
                     self.scene.restart()
                 self._add(self.scene.verdict(cut=bool(self.path)), None)
-        except Exception as error:  # whatever went wrong is this state's, and it is told with its name
+        except Exception as error:  # the error belongs to this state and is reported with its name
             self._add(None, f"{type(error).__name__}: {error}")
         finally:
             if self.pipe is not None:
@@ -100,7 +100,7 @@ class Cutter:
                 os._exit(0)
 
     def _uncut(self, act):
-        """Runs with cuts. False: this is a copy that has come to its end without the cut it was made for."""
+        """Runs with cuts. Returns false in a copy that ended without reaching its cut, or whose cut needs no verdict."""
         depth = len(self.path)
         try:
             self._watched(act)
@@ -151,8 +151,8 @@ class Cutter:
         return [cuts[0].phase] if cuts and cuts[0].operation == operation else []
 
     def _fork(self):
-        """COPY in the copy; the original waits for it and takes its results: DONE, or EMPTY when the operation that it
-        was made for did not come."""
+        """Forks. Returns COPY in the copy. The original waits for its results and returns DONE, or EMPTY if the copy did not reach its
+        operation."""
         out, into = os.pipe()
         child = os.fork()
         if child == 0:
@@ -173,7 +173,7 @@ class Cutter:
         return DONE if results else EMPTY
 
     def _tear(self):
-        """Makes the contents what the phase says. False: they are the same as before or after the operation."""
+        """Sets the contents for the phase. Returns false if they equal those before or after the operation."""
         board, phase = self.board, self.path[-1].phase
         if phase not in TORN:
             return True

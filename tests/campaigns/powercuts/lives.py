@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Long runs: one board that is cut at random in save after save, and in the repairs; and one that is never cut, for the
-wear."""
+"""Long runs: one board with random cuts in many saves and repairs, and one without cuts to measure wear."""
 
 import random
 
@@ -11,7 +10,7 @@ from . import robot, saves, settings
 from .robot import SLOT_BYTES, SLOTS
 
 SLOT_PAGES = SLOT_BYTES // 256
-ENDURANCE = 10_000  # erases of a flash page of the ATmega128
+ENDURANCE = 10_000  # erases per flash page of the ATmega128
 PAGES = (0, 5, 6, 40, robot.ERASED, 127)
 
 
@@ -22,7 +21,7 @@ class Life(saves.Save):
     steps = 60
 
     def play(self, seed, number, until=None):
-        """[(name, outcome, fault)] of its cuts, up to and with step `until`."""
+        """Returns [(name, outcome, fault)] of its cuts, up to and including step `until`."""
         chance, results = random.Random(f"{seed} {self.name} {number}"), []
         for step in range(self.steps if until is None else until + 1):
             name = f"{self.name}-{number}:{step}"
@@ -33,7 +32,7 @@ class Life(saves.Save):
         return results
 
     def step(self, step, chance):
-        """One change that may be cut; what became of it, once for each cut."""
+        """Makes one change that may be cut. Returns its outcome once for each cut."""
         cuts = 0
         try:
             with self.armed(chance, 0.8, self.operations):
@@ -60,7 +59,7 @@ class Life(saves.Save):
         return Armed()
 
     def starts(self, chance):
-        """Power on; False: cut again."""
+        """Switches the power on. Returns false if it was cut again."""
         try:
             with self.armed(chance, 0.4, 5):
                 self.restart()
@@ -116,7 +115,7 @@ class Wear(Life):
     saves = 250
 
     def spread(self):
-        """(fewest, most) erases of the journal's flash pages, and those of the page saved."""
+        """Returns (fewest, most) erases of the journal's flash pages, and the erases of the saved page."""
         for turn in range(self.saves):
             new = robot.made(saves.OPENED, turn)
             self.client.save_page(saves.OPENED, new)

@@ -24,12 +24,12 @@ def silently(_):
 
 @functools.cache
 def application(name):
-    """An image as flash pages."""
+    """Returns an image as flash pages."""
     return memory.plan(find_image(name)).pages
 
 
 def overlaid(area, pages):
-    """An area with some of its pages replaced."""
+    """Returns an area with some of its pages replaced."""
     area = bytearray(area)
     for number, data in pages.items():
         area[FLASH_PAGE * number : FLASH_PAGE * (number + 1)] = data
@@ -37,7 +37,7 @@ def overlaid(area, pages):
 
 
 def new_motions():
-    """The motions of the board with nine pages changed."""
+    """Returns the board's motions with eight pages changed."""
     data = bytearray(robot.motions())
     for number in (1, 2, 3, 40, 41, robot.ERASED, 90, 126, 127):
         data[PAGE_BYTES * number : PAGE_BYTES * (number + 1)] = robot.made(number, 5)
@@ -48,7 +48,7 @@ def flash_pages(data, start):
     return {(start + at) // FLASH_PAGE: data[at : at + FLASH_PAGE] for at in range(0, len(data), FLASH_PAGE)}
 
 
-# The protocols: each brings `pages` (flash page -> bytes) to a board whose loader is at its prompt.
+# The protocols. Each brings `pages` (flash page -> bytes) to a board whose loader is at its prompt.
 
 
 def by_blocks(board, pages, fast=False):
@@ -97,7 +97,7 @@ class Download:
     promise = "A download of code that was cut is started only when it is whole; the loader says what is wrong and takes it again"
     what = "app"
     rates, chunks, about = (8, 1, 1), 6, 400
-    all_phases_until = 6  # the first pages, with vectors and record, are cut in every way
+    all_phases_until = 6  # the first pages, with vectors and record, are cut at every phase
     finish_one_in = 6
     kind = "cm5"
 
@@ -126,7 +126,7 @@ class Download:
         self.settled()
 
     def settled(self):
-        """Runs until the application answers if it is whole, else until the loader's prompt."""
+        """Runs until the application answers if it is complete, otherwise until the loader's prompt."""
         state = {self.old: self.old_image, self.new: self.new_image}.get(self.now())
         if state is None:
             self.board.expect(PROMPT, ms=1500)
@@ -150,7 +150,7 @@ class Download:
         return "refused"
 
     def neither(self):
-        """Flash pages that hold neither what they held nor what they were to hold."""
+        """Returns the flash pages whose contents are neither old nor new."""
         now = self.now()
         return [
             at // FLASH_PAGE
@@ -159,7 +159,7 @@ class Download:
         ]
 
     def finish(self):
-        """The user repeats the command: only what is missing goes over the line."""
+        """Repeats the command, as a user would: only missing pages are sent."""
         by_blocks(self.board, self.pages)
         assert self.now() == self.new
         self.board.send("go\r")
@@ -203,7 +203,7 @@ class Motions(Download):
 
 
 def sound_pages(area):
-    """(valid, damaged) of a motion area: erased ones and those without an action are neither."""
+    """Returns (valid, damaged) pages of a motion area. Erased pages and pages without an action are neither."""
     pages = [area[at : at + PAGE_BYTES] for at in range(0, len(area), PAGE_BYTES)]
     whole = [page for page in pages if page != b"\xff" * PAGE_BYTES]
     sound = [page for page in whole if sum(page) & 0xFF == 0xFF]
@@ -303,7 +303,7 @@ class Taken:
 
 
 def download_scene(base, scene_name, protocol, **options):
-    """A class of scenes that knows its name and protocol."""
+    """Returns a class of scenes with this name and protocol."""
 
     def start(self, seed):
         base.__init__(self, scene_name, protocol, seed)

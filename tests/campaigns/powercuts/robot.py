@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the scenes share: m512's own clients on a simulated board, what its memories may hold, and how it starts again."""
+"""What the scenes share: m512's own clients on a simulated board, the permitted memory contents, and the restart."""
 
 import functools
 import random
@@ -16,11 +16,11 @@ PAGE_BYTES, PAGES = 512, 128
 SLOT_BYTES = 768
 SLOTS = (MOTIONS - JOURNAL_START) // SLOT_BYTES
 APPLICATION = 0x11  # EEPROM FFF: the loader starts the application
-ERASED, DAMAGED = 90, 91  # motion pages to be saved over
+ERASED, DAMAGED = 90, 91  # motion pages to save over
 
 
 class SimLink(Link):
-    """m512's line to a board, without a port: time passes on the board only while somebody waits."""
+    """m512's line to a board without a port. Time passes on the board only while the client waits."""
 
     def __init__(self, board):
         self.url, self.trace, self.board, self.held = "simulated board", None, board, b""
@@ -69,7 +69,7 @@ class SimLink(Link):
 
 @functools.cache
 def motions(seed=1):
-    """All 128 pages, each with contents of its own; one is erased, one damaged."""
+    """Returns all 128 pages, each with its own contents; one is erased, one damaged."""
     chance = random.Random(seed)
     image = Image.empty()
     for number in range(PAGES):
@@ -83,13 +83,13 @@ def motions(seed=1):
 
 
 def made(number, version):
-    """A page to be saved: both halves differ from those of other versions."""
+    """Returns a page to save. Both of its halves differ from those of other versions."""
     chance = random.Random(1000 * number + version)
     return bytes(page(f"{number} v{version}", [(50 + version % 100, {j: chance.randrange(1024) for j in range(1, 19)}) for _ in range(7)]).data)
 
 
 def new_board(*images, seed=1, kind="cm5", **options):
-    """A board with its motions and the loader told to start the application."""
+    """Returns a board with motions. The loader is set to start the application."""
     board = Board(kind=kind, images=images, motions=motions(), seed=seed, **options)
     board.skip_waits()
     board.eeprom[BOOT_MODE] = APPLICATION
@@ -97,21 +97,21 @@ def new_board(*images, seed=1, kind="cm5", **options):
 
 
 class Memories:
-    """What flash and EEPROM held, and what of it may have changed since. Everything else may not."""
+    """The contents of flash and EEPROM, and what may have changed since. Nothing else may change."""
 
     def __init__(self, board):
         self.board = board
         self.flash, self.eeprom = bytes(board.flash), bytes(board.eeprom)
-        self.pages = {}  # motion page -> the contents that it may have now
-        self.free_eeprom = set()  # addresses judged elsewhere
+        self.pages = {}  # motion page -> its permitted contents
+        self.free_eeprom = set()  # addresses checked elsewhere
         self.app_is_free = False
 
     def saving(self, number, new):
-        """`new` is on its way into a motion page."""
+        """A save of `new` to a motion page has begun."""
         self.pages[number] = [*self.pages.get(number, [self.page(number)]), bytes(new)]
 
     def saved(self, number):
-        """The user was told so: from now on it is the last one."""
+        """The save was reported as done: only its contents are permitted now."""
         self.pages[number] = self.pages[number][-1:]
 
     def page(self, number):
@@ -119,7 +119,7 @@ class Memories:
         return self.flash[at : at + PAGE_BYTES]
 
     def check(self):
-        """Raises AssertionError where something is neither old nor new. {page: index of what it holds now}."""
+        """Raises AssertionError if something is neither old nor new. Returns {page: index of its present contents}."""
         flash, eeprom = bytes(self.board.flash), bytes(self.board.eeprom)
         found = {}
         for number in range(PAGES):
@@ -135,7 +135,7 @@ class Memories:
         return found
 
     def outcome(self):
-        """Returns the result of check as a word: all pages old, all new, or some."""
+        """Returns the result of check() as a word: "old" (all pages), "new" (all pages) or "between"."""
         found = self.check()
         steps = {(found[number], len(self.pages[number]) - 1) for number in self.pages}
         return "old" if all(now == 0 < last for now, last in steps) else "new" if all(now == last for now, last in steps) else "between"
@@ -146,7 +146,7 @@ def differs(one, other):
 
 
 def pending(flash):
-    """Whether the newest record of the journal is one that waits (firmware/common/journal.h)."""
+    """Returns whether the newest record of the journal is pending (firmware/common/journal.h)."""
     newest = None
     for slot in range(SLOTS):
         record = flash[JOURNAL_START + SLOT_BYTES * slot + 512 :][:12]
@@ -165,7 +165,7 @@ def power_on(board):
 
 
 def to_loader(board):
-    """From the start of the board to the loader's prompt, by '#'."""
+    """Enters the loader's prompt with '#' after the start of the board."""
     board.expect(b"\xff", ms=200)
     board.run(ms=1)
     board.send("#")
@@ -173,7 +173,7 @@ def to_loader(board):
 
 
 def loader_answers(board, app="good"):
-    """Presses MODE and asks the loader who it is."""
+    """Presses MODE and asks the loader for its ID."""
     board.reset()
     board.take()
     to_loader(board)
@@ -182,13 +182,13 @@ def loader_answers(board, app="good"):
 
 
 def application_answers(board, name, ms=2500):
-    """The application has started and answers as `name`."""
+    """Waits until the application has started; it must answer as `name`."""
     board.expect({"play": b"] ", "edit": b"\x1b["}[name], ms=ms)
     ask(board, "@ver", f"image={name}")
 
 
 def quiet(board, ms=60):
-    """Runs until nothing has come for so long. Returns what came before."""
+    """Runs until nothing has come for `ms`. Returns what came before."""
     came = b""
     while True:
         board.run(ms=ms)
@@ -199,11 +199,11 @@ def quiet(board, ms=60):
 
 
 def ask(board, request, wanted="OK", ms=1500):
-    """Sends one line of the protocol for programs and returns its answer."""
+    """Sends one line of the protocol for programs. Returns its answer."""
     board.send(request + "\r")
     word = request.split()[0]
     if word == request:
-        board.expect(f"{word} ", ms=ms)  # its echo goes by
+        board.expect(f"{word} ", ms=ms)  # skips the echo
     answer = board.expect("\r\n", ms=ms)
     assert wanted in answer, f"{request}: {answer!r}"
     return answer

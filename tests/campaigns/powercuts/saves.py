@@ -22,9 +22,9 @@ class Save:
 
     name = "save"
     promise = "SAVE in Edit leaves the old page or the new one"
-    rates = (1, 24, 200)  # of all cuts at this depth, one in so many is made
+    rates = (1, 24, 200)  # one in so many of the cuts at this depth is made
     chunks = 1
-    about = 11  # operations, roughly: a sample is spread by it
+    about = 11  # approximate number of operations: the cuts of a sample are spread over it
     kind = "cm5"
     servos = ()
 
@@ -50,19 +50,19 @@ class Save:
             robot.quiet(self.board)
 
     def save(self, number, new, line="save", sure=False):
-        """Types the line; when it asks, says yes."""
+        """Types the line. Answers yes if `sure`."""
         self.memories.saving(number, new)
         self.board.send(line + "\r")
         if sure:
             self.board.expect("[y/N]", ms=1000)
-            self.board.run(ms=300)  # what is typed ahead answers no question
+            self.board.run(ms=300)  # input before the question is no answer
             self.board.send("y")
         self.board.expect("OK", ms=1000)
         self.memories.saved(number)
         robot.quiet(self.board)
 
     def edited(self, number):
-        """Opens a page and changes a cell in each half; what it becomes."""
+        """Opens a page and changes a cell in each half. Returns the resulting page."""
         data = bytearray(self.memories.page(number))
         self.type(f"page {number}", "goto 1 3", "set 700", "goto 7 31", "set 9")
         data[64 + 6 : 64 + 8] = struct.pack("<H", 700)
@@ -76,7 +76,7 @@ class Save:
         self.save(OPENED, new)
 
     def restart(self):
-        """Half of the states look at the loader first."""
+        """Half of the states enter the loader first."""
         robot.power_on(self.board)
         if crc16(self.board.flash[JOURNAL_START : MOTIONS + 0x2000]) % 2:
             robot.to_loader(self.board)
@@ -91,7 +91,7 @@ class Save:
         return outcome
 
     def save_again(self):
-        """The next save must be as good as any."""
+        """The next save must work as usual."""
         new = robot.made(OPENED, 77)
         self.memories.saving(OPENED, new)
         self.client.save_page(OPENED, new)
@@ -108,7 +108,7 @@ class SaveHalf(Save):
     name, about = "save-half", 9
 
     def act(self):
-        """Two changes of which the checksum in the first half knows nothing."""
+        """Makes two changes that leave the checksum in the first half as it is."""
         data = bytearray(self.memories.page(OPENED))
         data[510] = (data[510] + sum(data[454:456]) - sum(b"\xf7\x01")) & 0xFF
         data[454:456] = b"\xf7\x01"
@@ -191,7 +191,7 @@ class SaveWrap(Saves):
     promise = "The same where the journal's numbers begin again at 0"
 
     def prepare(self):
-        """Old records in all slots, the newest with 65,534, as many saves would have left them."""
+        """Fills all slots with old records, as many saves would. The newest has number 65,534."""
         for slot in range(SLOTS):
             at = JOURNAL_START + SLOT_BYTES * slot
             data = robot.made(3, slot)
@@ -242,7 +242,7 @@ class SaveFactory(Save):
         robot.application_answers(self.board, "edit")
 
     def loader_answers(self):
-        """The imitation has no prompt."""
+        """The imitation of the factory loader has no prompt."""
 
 
 class RepairFactory(SaveFactory):
@@ -281,7 +281,7 @@ class Mailbox(Save):
     rates = (5, 24, 200)
 
     def prepare(self):
-        """The call table is gone, and the page before in the mailbox was an older version of the same one."""
+        """Erases the call table. Leaves an older version of the same page in the mailbox."""
         self.board.flash[MAP["MEM_BOOT_API"] : MAP["MEM_BOOT_END"]] = b"\xff" * 32
         self.board.eeprom[MAP["MEM_EE_MAILBOX"] : MAP["MEM_EE_MAILBOX"] + PAGE_BYTES] = robot.made(OPENED, 3)
         self.board.eeprom[MAIL_PAGE] = OPENED

@@ -15,13 +15,13 @@ AREA = range(MAP["MEM_EE_SETTINGS"], MAP["MEM_EE_SETTINGS_END"])
 COPY_BYTES = 64
 FIELDS = ("law", "remote", "approach", "fault", "low", "hot", "neutral", "flow", "fast", "talk")
 JOINTS = 31
-LAST = ("centre", "drive")  # behind the partners of the joints
+LAST = ("centre", "drive")  # after the joints' partners
 BODY_BYTES = len(FIELDS) + JOINTS + len(LAST)
 PLACES = {field: at for at, field in enumerate(FIELDS)} | {field: len(FIELDS) + JOINTS + at for at, field in enumerate(LAST)}
 
 
 def defaults():
-    """settings.h, in brackets."""
+    """Returns the defaults of settings.h (there in brackets)."""
     partners = [joint + 1 if joint % 2 else joint - 1 for joint in range(1, 19)]
     return bytes([0, 0, 60, 0, 90, 70, 0, 1, 0, 1, 0xFF, *partners, *[0xFF] * 12, 1, 10])
 
@@ -32,7 +32,7 @@ def record(body, sequence):
 
 
 def kept(eeprom):
-    """(body, whether it is damaged) that a start must find: the newer good copy, else the defaults."""
+    """Returns (body, damaged): the settings that a start must find. They are the newer good copy, otherwise the defaults."""
     good, dirty = None, False
     for copy in range(2):
         data = eeprom[AREA.start + COPY_BYTES * copy :][: BODY_BYTES + 6]
@@ -45,7 +45,7 @@ def kept(eeprom):
 
 
 def paired(body, one, other):
-    """The settings with two joints made partners (one with itself: none); their former partners lose theirs."""
+    """Returns the settings with two joints made partners (one with itself: none). Their former partners lose theirs."""
     pair = bytearray(body[len(FIELDS) : -len(LAST)])
     for joint in (one, other):
         if pair[joint] < JOINTS:
@@ -78,8 +78,8 @@ class Settings:
         self.allowed = [kept(bytes(self.board.eeprom))[0]]
 
     def saved(self):
-        """Waits until nothing is written any more (one byte at most in a turn of the main loop, equal ones too); what was
-        allowed before is not any longer."""
+        """Waits until nothing is written any more. The main loop writes at most one byte per turn, even if equal. After that only the
+        last settings are permitted."""
         operations = -1
         while operations != self.board.operations:
             operations = self.board.operations
@@ -116,7 +116,7 @@ class Settings:
         return "defaults" if damaged else "new" if body == self.allowed[-1] else "old"
 
     def shown(self, body, damaged, greeting):
-        """The application must see the same, and say so when it had to take defaults."""
+        """The application must see the same settings, and report damage if it took the defaults."""
         assert (b"settings were damaged" in greeting) == damaged, f"damaged {damaged}, but: {greeting!r}"
         self.board.take()
         self.board.send("settings\r")
@@ -169,7 +169,7 @@ class Pairs(Settings):
             self.saved()
 
     def shown(self, body, damaged, greeting):
-        """Edit tells nothing of damage; the pairs are those kept."""
+        """Edit does not report damage. It must show the stored pairs."""
         pair = body[len(FIELDS) :]
         self.board.send("pairs\r", wait=True)
         text = robot.quiet(self.board).decode("latin-1")

@@ -1,26 +1,25 @@
 # SPDX-License-Identifier: MIT
-"""Faults of servos, and what the robot must say about them: the table of servofaults/README.md as code.
+"""Faults of servos, and what the robot must report: the table of servofaults/README.md as code.
 
-The table is about what a controller can know. It hears a servo only by its answers to the health poll, one servo a tick, so
-a fault shows as *silence* (three polls in a row without one clean answer), as *error bits* in a clean answer, or as *torque*
-that is off although it was switched on. `expected` works out which, from who talks when a joint is asked; it knows nothing
-of the firmware.
+The table is about what a controller can know. It hears a servo only through the answers to the health poll, one servo per tick. So a fault
+shows as *silence* (three polls in a row without a clean answer), as *error bits* in a clean answer, or as *torque* that is off although it
+was switched on. `expected` works this out from which servos talk when a joint is polled. It knows nothing of the firmware.
 """
 
 import dataclasses
 import typing
 
 SILENT, VOLTAGE, ANGLE, HEAT, OVERLOAD, TORQUE = "silent", "voltage", "angle limit", "overheating", "overload", "torque"
-GRAVE = {SILENT, ANGLE, HEAT, OVERLOAD, TORQUE}  # what the rule hold / exit / limp acts on; voltage is told only
+GRAVE = {SILENT, ANGLE, HEAT, OVERLOAD, TORQUE}  # the rule hold / exit / limp acts on these; voltage is only reported
 ALARMS = {"overload": OVERLOAD, "overheating": HEAT, "low-voltage": VOLTAGE, "angle-limit": ANGLE}
-SLOW_BAUD = 34  # address 4 of a servo at 57,142 bps
+SLOW_BAUD = 34  # value of a servo's register 4 for 57,142 bps
 JAMMED_POS = 150
-CABLE = 3  # so many servos hang on the cable that breaks
+CABLE = 3  # number of servos on the cable that breaks
 
 
 @dataclasses.dataclass(frozen=True)
 class Fault:
-    """A fault by its name: what it is, what it does to a servo."""
+    """A fault: its description, and how it begins and ends."""
 
     what: str
     begin: typing.Callable
@@ -28,7 +27,7 @@ class Fault:
 
 
 def _model(name):
-    """A fault that the virtual servo has by itself (tools/sim/servo/servo_fault.h), until cleared."""
+    """Returns begin and end of a fault of the virtual servo itself (tools/sim/servo/servo_fault.h)."""
     return lambda board, servo: servo.fault(name), lambda board, servo: servo.clear(name)
 
 
@@ -37,18 +36,18 @@ def _times(name, count):
 
 
 def _register(address, value, well):
-    """A register that a servo has lost, and has got back when it is mended."""
+    """Returns begin and end of a wrong register value."""
     return lambda board, servo: servo.write(address, [value]), lambda board, servo: servo.write(address, [well(servo)])
 
 
 def _jam(board, servo):
-    """Holds the servo where no page goes, so that it has to push."""
+    """Holds the servo at a position outside of all pages, so that it has to push."""
     servo.push_to(JAMMED_POS)
     servo.fault("blocked")
 
 
 def _blink(board, servo):
-    """Takes the power away for a moment."""
+    """Cuts the power for 50 ms."""
     servo.fault("dead")
     board.run(ms=50)
     servo.clear("dead")
@@ -81,13 +80,13 @@ FAULTS = {
 }
 TRANSIENT = {name for name in FAULTS if name.endswith("-2")}
 LASTING = [name for name in FAULTS if name not in TRANSIENT]
-# What a servo forgets without power, or is given back with it: together with a blink on the same servo these are no two faults.
+# A loss of power clears these faults. Combined with a blink on the same servo they are not a second fault.
 ENDED_BY_BLINK = {"dead", "blocked", "overload"}
 
 
 @dataclasses.dataclass
 class Expected:
-    """What must be said, of which at least one must be said, and what may be said: {(joint, kind)}."""
+    """Reports as {(joint, kind)}: all in `must`, at least one of each set in `either`, and only those in `may`."""
 
     must: set
     either: list
@@ -95,17 +94,17 @@ class Expected:
 
 
 def _is_heard(faults):
-    """Whether the answer of a servo with these faults, which nobody talks over, is understood."""
+    """Returns whether the answer of a servo with these faults is understood if no other servo talks over it."""
     return not faults & {"silent", "dead", "rate", "checksum", "short"}
 
 
 def _answers(faults):
-    """Whether a servo with these faults puts something on the wire when it is its turn to."""
+    """Returns whether a servo with these faults sends something when it is polled."""
     return not faults & {"silent", "dead", "rate", "late"}
 
 
 def _kinds(faults, driven, held):
-    """(must, may) kinds of a joint that is heard, by the faults of the servo that answers; held: its torque was on."""
+    """Returns the (must, may) kinds of a joint that is heard. faults: of the servo that answers. held: its torque was on."""
     must, may = {kind for name, kind in ALARMS.items() if name in faults}, set()
     cut = must & {OVERLOAD, HEAT}  # the alarms that switch a servo off
     if held and cut:
@@ -116,20 +115,20 @@ def _kinds(faults, driven, held):
     if "late-2" in faults:
         may.add(SILENT)
     if "blink" in faults:
-        may.update({SILENT} | must & {OVERLOAD})  # without power it forgets that it was overloaded
+        may.update({SILENT} | must & {OVERLOAD})  # without power it forgets the overload
         must.discard(OVERLOAD)
-        if held:  # a robot that plays sees nothing of it: the next goal switches the torque on again
+        if held:  # a robot that plays does not notice: the next goal switches the torque on again
             (may if driven else must).add(TORQUE)
     return must, may
 
 
 def expected(faults, joints, driven, held, cut=frozenset()):
-    """What a robot with servos `joints` must say.
+    """Returns what a robot with servos `joints` must report.
 
-    faults: {joint: set of fault names}
-    driven: joints that get a goal every tick
-    held:   joints whose torque is on
-    cut:    joints that are switched off at their first grave fault, so that the loss of torque itself is no news
+        faults: {joint: set of fault names}
+        driven: joints that get a goal every tick
+        held:   joints whose torque is on
+        cut:    joints switched off at their first grave fault, so that the loss of torque is no news
     """
     told = Expected(set(), [], set())
     for joint in joints:
@@ -138,14 +137,14 @@ def expected(faults, joints, driven, held, cut=frozenset()):
         must, may, either = set(), set(), set()
         if others or (_answers(own) and "duplicate" in own):
             must = {SILENT}
-        elif "duplicate" in own:  # the twin stands in for a servo that says nothing; its torque came up off
+        elif "duplicate" in own:  # the twin answers for a servo that says nothing; its torque is off after power-up
             (may if joint in driven else must).update({TORQUE} if joint in held else set())
             may.add(SILENT)
         elif not _is_heard(own):
             must = {SILENT}
         else:
             must, may = _kinds(own, joint in driven, joint in held)
-            if "late" in own:  # it may be heard, as long as nobody else is asked; what it says then is true
+            if "late" in own:  # it may be heard while no other servo is polled; its report is then true
                 either, may, must = must | {SILENT} if must else set(), may | must | {SILENT}, set()
         if SILENT in must and "blink" in own:
             may.add(TORQUE)

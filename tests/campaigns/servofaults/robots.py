@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The robots that have the faults: Play and Edit, at rest, being taught, playing; and what their screens say.
+"""The robots that have the faults: Play and Edit at rest, while taught and while playing; and what their screens show.
 
-Of twenty servos 1..15 and 17 have positions in the pages, but 17 was switched off by hand; 16 has the torque-off mark in the
-pages, 18..20 are there and no page uses them.
+There are twenty servos. 1..15 and 17 have positions in the pages; 17 was switched off by hand. 16 has the torque-off mark in the pages. No
+page uses 18..20.
 """
 
 import re
@@ -22,7 +22,7 @@ UNUSED = (18, 19, 20)
 TORQUE_OFF_MARK, UNUSED_MARK = 0x2000, 0x4000
 WALK, EXIT, POSE, LAYER = 4, 5, 6, 7
 LAID_OVER = (1, 2, 3)  # joints of the layer
-BY_CODE = ("swing 5 512 40 1500", "aim 15 540")  # and of motion made by code
+BY_CODE = ("swing 5 512 40 1500", "aim 15 540")  # motion by code in the layer situation
 LOW, HIGH, MIDDLE = 412, 612, 512
 RULES = ("hold", "exit", "limp")  # settings fault 0, 1, 2
 SLICE_MS = 10
@@ -40,7 +40,7 @@ EDIT_SAYS = {"No answer": SILENT, "Low voltage": VOLTAGE, "Angle limit": ANGLE, 
 
 
 def motions():
-    """A page that swings all joints to and fro until it is stopped, the page it leaves by, a pose, and a page that is laid over the first."""
+    """Returns a page that swings all joints until it is stopped, its exit page, a pose, and a page to layer over the first."""
     placed = (*SWINGING, RELEASED)
 
     def swing(number):
@@ -61,13 +61,13 @@ def motions():
 
 
 class Watched:
-    """What both images have in common: the clock, what was told and when, the way into a situation."""
+    """What both images share: the clock, the reports with their times, and getting into a situation."""
 
     rule, playing = "hold", False
-    shown, shown_row, heard = frozenset(), "", 0  # what the row of Edit said last; bytes until then
+    shown, shown_row, heard = frozenset(), "", 0  # Edit's last message row; console bytes up to then
 
     def watch(self):
-        """Forgets what was told; from now on `told` is {(joint, kind): ms after this}."""
+        """Forgets all reports. From now on `told` is {(joint, kind): ms since this call}."""
         self.told, self.ended = {}, None
         self.started_ms = self.board.now_ms
         self.held = self.holding
@@ -87,7 +87,7 @@ class Watched:
             self.listen()
 
     def run_until(self, done, ms):
-        """Runs until done() says so; whether it did in time."""
+        """Runs until done() is true. Returns whether that happened in time."""
         for _ in range(int(ms / SLICE_MS)):
             if done():
                 return True
@@ -108,13 +108,13 @@ class Watched:
         return frozenset(servo.id for servo in self.board.servos if servo.torque)
 
     def where(self):
-        """The answer to @where as a dictionary."""
+        """Returns the answer to @where as a dictionary."""
         answer = self.request("@where")
         return dict(word.split("=") for word in answer.split() if "=" in word)
 
 
 class PlayRobot(Watched):
-    """Play with a terminal of lines."""
+    """Play with a line terminal."""
 
     def __init__(self, state, rule="hold", seed=1):
         self.name = f"play.{state}" + (f".{rule}" if state not in ("rest", "off") else "")
@@ -134,7 +134,7 @@ class PlayRobot(Watched):
         if state == "pause":
             self.line("pause")
             self.board.run(ms=500)
-        self.board.run(ms=700)  # the settings are in the EEPROM, the step is in its middle
+        self.board.run(ms=700)  # the settings are in EEPROM, and the step is in its middle
         self.resets = self.board.resets
         self.phase = bus_watch.phase_of(self.board)
         self.watch()
@@ -160,7 +160,7 @@ class PlayRobot(Watched):
         return self.board.expect("OK\r\n")
 
     def does(self, text):
-        """Types a line; whether the answer is OK. News of servos may come between."""
+        """Types a line. Returns whether the answer is OK; reports about servos may come before it."""
         self.board.send(text + "\r")
         try:
             self.board.expect(" OK\r\n", ms=3000)
@@ -179,7 +179,7 @@ class PlayRobot(Watched):
         self.run(600)
 
     def remember_screen(self):
-        """A terminal of lines has no screen to damage."""
+        """A line terminal has no screen to damage."""
 
     def screen_faults(self):
         return []
@@ -201,7 +201,7 @@ class EditRobot(Watched):
             self.line("off")
             self.board.servos[3].push_to(300)
         elif state == "walk":
-            self.board.send(f"play {WALK}\r")  # the screen does not come to rest while it plays
+            self.board.send(f"play {WALK}\r")  # the screen is never quiet during a play
             self.board.run(ms=2200)
             self.robot.pump()
         self.resets = self.board.resets
@@ -219,10 +219,10 @@ class EditRobot(Watched):
         self.robot.pump()
         row, now = self.row(), set()
         heard, self.heard = self.heard, len(self.board.console)
-        stands = row == self.shown_row and heard == self.heard  # two rows in a row may look alike while they are written
+        stands = row == self.shown_row and heard == self.heard  # a row that is still being written may look the same twice
         for says, ids in re.findall(r"([A-Z][a-z ]+): ID ((?:\d+(?:-\d+)? )+)", row + " "):
             now |= {(joint, EDIT_SAYS[says]) for joint in _ids(ids) if says in EDIT_SAYS}
-        if stands and (now or "well" in row or "Battery" in row):  # it is all there, and it says all there is to say
+        if stands and (now or "well" in row or "Battery" in row):  # the row is complete
             for told in now:
                 self.note(*told)
             for joint, kind in self.shown - now:
@@ -237,7 +237,7 @@ class EditRobot(Watched):
                 self.note(joint, TORQUE)
 
     def cell(self, joint):
-        """The joint in the work pose's column."""
+        """Returns the joint's cell in the work pose's column."""
         buffer = self.robot.terminal.screen.buffer[joint]
         return "".join(buffer[x].data for x in range(19, 23))
 
@@ -266,7 +266,7 @@ class EditRobot(Watched):
         self.at = self.robot.cursor
 
     def screen_faults(self):
-        """What is on the screen that does not belong there: against before, and against a screen drawn anew."""
+        """Returns what is wrong on the screen, compared to before the fault and to a redrawn screen."""
         self.robot.settle()
         rows = self.robot.rows - 1
         now = self.robot.terminal.screen.display[:rows]
@@ -284,7 +284,7 @@ def _ids(text):
 
 
 def _settings(rule):
-    """An EEPROM with this rule in it, written by Play: Edit has no command for it."""
+    """Returns an EEPROM with this rule, written by Play: Edit has no command for it."""
     with Board(images=[play_robot.IMAGE], seed=1) as board:
         board.expect("] ", ms=2000)
         play_robot.ask(board, f"settings fault {RULES.index(rule)}")

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The same session in simulated time and on the strict board with the shipped image: goals, text, memories.
+"""Plays the same session in simulated time and on the strict board with the shipped image, and compares goals, text and memories.
 
-Actions are ("type", text), ("remote", buttons), ("goal",), ("wait", ticks)
-and ("push", servo). Each line ends at the same place within a tick in
-both, because a break or a pause that is heard a tick later leaves the joints elsewhere.
+Actions are ("type", text), ("remote", buttons), ("goal",), ("wait", ticks) and ("push", servo). Each line ends at the same point of a tick
+in both, because a break or pause received one tick later leaves the joints elsewhere.
 """
 
 import random
@@ -18,20 +17,20 @@ from tests.campaigns.simtime import chance, runs
 from tests.sim.play_robot import shown
 
 TICK = 15625  # half microseconds
-BYTE = 347  # of the line at 57,600 baud, half microseconds
-ENDS_AT = 5000  # behind the beginning of a tick: where the last byte of a line lies
-CYCLES = 8  # in half a microsecond
+BYTE = 347  # of the serial line at 57,600 baud, half microseconds
+ENDS_AT = 5000  # the last byte of a line ends this long after the start of a tick
+CYCLES = 8  # per half microsecond
 START = 4 * 128  # ticks until the robot has found its servos
 MOST_WAIT = 3 * 128
 SERVOS = range(1, 19)
 SHORT = (1, 2, 9, 12, 13, 15, 21, 22)
-LOOPS = (3, 4, 6, 7, 8)  # they are not over before they are stopped: a code would then start a play, whose first frame nobody waits for
+LOOPS = (3, 4, 6, 7, 8)  # endless: after an end, a code would start a play whose first frame is not waited for
 PAGES_AT, PAGES_BYTES = 0xE000, 128 * 512
 SETTINGS_AT, SETTINGS_BYTES = 0, 128
 
 
 class Trace(NamedTuple):
-    """What a session leaves behind."""
+    """The results of a session."""
 
     goals: list
     text: bytes
@@ -41,9 +40,9 @@ class Trace(NamedTuple):
 
 
 def made(seed):
-    """Plays, and what may happen in them, by chance. Each begins with a frame of goals, from which on both count.
+    """Returns random plays with random events. Each play begins with a frame of goals; both sides count ticks from it.
 
-    A hand puts the joints to 512 before it: where a servo comes to rest depends on the microsecond of its last goal, and `on` reads it.
+    Before each play the joints are pushed to 512: a servo's resting place depends on the microsecond of its last goal, and `on` reads it.
     """
     rng = random.Random(f"both {seed}")
     actions = []
@@ -83,18 +82,18 @@ def made(seed):
 
 
 def packet(buttons):
-    """A packet of the remote."""
+    """Returns a packet of the remote."""
     low, high = buttons & 0xFF, buttons >> 8
     return bytes([0xFF, 0x55, low, low ^ 0xFF, high, high ^ 0xFF])
 
 
 def data_of(action):
-    """The bytes on the console's line."""
+    """Returns the bytes on the console's line."""
     return action[1].encode("latin-1") if action[0] == "type" else packet(action[1])
 
 
 def pause_of(count, into_tick):
-    """How long the line must be silent so that `count` bytes end at ENDS_AT, if now is `into_tick` behind the beginning of a tick."""
+    """Returns the silence before `count` bytes so that they end at ENDS_AT. into_tick: the present time since the start of a tick."""
     return (ENDS_AT - into_tick - count * BYTE) % TICK
 
 
@@ -102,7 +101,7 @@ def pause_of(count, into_tick):
 
 
 def simulated(actions, servos=SERVOS):
-    """The Trace of it, and how far behind the beginning of the program's tick its own ticks lie."""
+    """Returns the Trace, and how long after the start of the program's tick the ticks of simulated time begin."""
 
     def session(lines):
         head = ["0 seed 1", f"0 motions {runs.motions()}", *(f"0 servo {servo}" for servo in servos), "0 image play"]
@@ -141,19 +140,19 @@ def simulated(actions, servos=SERVOS):
 
 
 def tick_at(cycles):
-    """The number of the tick in which this is."""
+    """Returns the number of the tick at this cycle."""
     return cycles // (TICK * CYCLES)
 
 
 def on_board(actions, into_tick, servos=SERVOS):
-    """The same; its grid of ticks lies where that of the simulated time lies."""
+    """Returns the Trace on the board. Its ticks are aligned to those of simulated time."""
     with Board(images=["play-cm5.hex"], motions=chance.motions(), servos=servos) as board:
         board.run(ticks=START)
         board.run_to("__vector_12")
         began = board.now_cycles
         board.run(cycles=into_tick * CYCLES)
         board.clear_trace()
-        ahead = 0  # ticks of the next wait that have passed already
+        ahead = 0  # ticks of the next wait that have already passed
         for action in actions:
             if action[0] == "wait":
                 board.run(ticks=action[1] - ahead)
@@ -165,7 +164,7 @@ def on_board(actions, into_tick, servos=SERVOS):
                 for _ in range(MOST_WAIT):
                     board.run(ticks=1)
                     if len(board.trace) > before:
-                        # Simulated time computes in no time, and sees the frame in its own tick. The board may see it in the next one.
+                        # Simulated time computes instantly and sees the frame in its own tick. The board may see it in the next tick.
                         ahead = tick_at(board.now_cycles - began) - tick_at(board.trace[before].cycle - began)
                         break
             else:
@@ -180,19 +179,19 @@ def on_board(actions, into_tick, servos=SERVOS):
 
 
 def lines_of(text):
-    """What a terminal shows, without the line that names the board."""
+    """Returns what a terminal shows, without the line that names the board."""
     return [line.rstrip() for line in shown(text).split("\n") if "Motion512 Play" not in line]
 
 
 def difference(seed):
-    """(frames of goals, ticks, what differs: "" or words) of a session in both."""
+    """Plays a session in both. Returns (frames of goals, ticks, difference or "")."""
     actions = made(seed)
     here, into_tick = simulated(actions)
     return len(here.goals), here.ticks, differs(here, on_board(actions, into_tick))
 
 
 def differs(here, there):
-    """What differs between two traces, in words; "": nothing."""
+    """Returns the first difference of two traces as text; "" if there is none."""
     for frame, (ours, theirs) in enumerate(zip(here.goals, there.goals)):
         if ours != theirs:
             return f"goals of frame {frame}: {ours}, on the board {theirs}"
@@ -207,7 +206,7 @@ def differs(here, there):
 
 
 def replay(actions):
-    """Prints what the board makes of a list that simulated time has run; adapter and computer are no part of it."""
+    """Plays a list of simulated time on the board and prints the console. Actions of the adapter and the computer are skipped."""
     servos = [int(words.split()[1]) for tick, words in actions if words.startswith("servo ")]
     passed = set()
     with Board(images=["play-cm5.hex"], motions=chance.motions(), servos=servos) as board:

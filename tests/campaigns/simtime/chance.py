@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Sessions by chance, for sessions.py: made(seed) is the list of actions of a session, [(tick, words)].
+"""Random sessions for sessions.py. made(seed) returns the actions of a session: [(tick, words)].
 
-The verbs are those of world.c; ticks are 1/128 s. A session is a person with a robot for some minutes: lines are typed, the remote is
-used, servos and lines fail and recover, the power is cut, the computer is late.
+The verbs are those of world.c; a tick is 1/128 s. A session is a person with a robot for some minutes: typing, use of the remote, servos
+and lines that fail and recover, power cuts, a late computer.
 """
 
 import random
@@ -12,13 +12,13 @@ from tests.campaigns.fuzz_board import pages as play_pages
 
 SECOND = 128
 START = 3 * SECOND  # the search for servos is over
-LOOKED_AT = 220  # ticks: all is painted, and the rules have looked at it
-CAPITALS, DEAF = 0.06, 0.1  # of lines; of sessions: some servos take no notice of SYNC WRITE
+LOOKED_AT = 220  # ticks until everything is painted and the rules have checked it
+CAPITALS, DEAF = 0.06, 0.1  # shares: of lines; of sessions in which some servos ignore SYNC WRITE
 LONG, MANY = 180 * SECOND, 100_000
 LAW_PAGES = range(20, 30)
 SOFT_PAGES = (1, 2, 3, 4, 5, 6, 7, 8, 9, 12, 13, 14, 21, 22, *LAW_PAGES)
 SOFTNESS = (0x55, 0x55, 0x33, 0x66, 0x42)
-CODE_PAGES = (  # number, code, steps, times played, whole: of pages with the same code only some can be called
+CODE_PAGES = (  # number, code, steps, times played, undamaged: of the pages with one code only some can be called
     (70, 2, 0, 1, True),
     (71, 2, 1, 1, False),
     (72, 2, 1, 0, True),
@@ -60,9 +60,9 @@ BUTTONS = (1, 1, 2, 4, 8, 16, 16, 32, 64, 256, 512, 512)
 
 
 def motions():
-    """The pages that all sessions begin with: those of Play's tests, and pages by chance for the law, with both schedules, pauses, odd
-    speeds, unused joints and joints that go through a step, no joint faster than a servo is. Then pages that a code may not choose,
-    below others that it must. Joints are not equally soft in all of them."""
+    """Returns the pages that all sessions begin with. They are the pages of Play's tests, random pages for the law, and pages that a
+    code must not choose, placed below pages that it must choose. The pages for the law have both schedules, pauses, odd speeds, unused
+    joints and joints that go through a step; no joint is faster than a servo. The softness of joints varies in many pages."""
     image, rng = bytearray(play_pages()), random.Random("pages of the law")
     for number in LAW_PAGES:
         page = image[512 * number : 512 * (number + 1)]
@@ -105,13 +105,13 @@ def motions():
 
 
 def typed(text):
-    """The action that types this."""
+    """Returns the action that types this."""
     data = text if isinstance(text, bytes) else text.encode("latin-1")
     return "type " + data.hex()
 
 
 def in_capitals(rng, text):
-    """The same line with another case; what `name` gives stays as it is."""
+    """Returns the line with another case. The argument of `name` keeps its case."""
     word, blank, rest = text.partition(" ")
     change = rng.choice((str.upper, str.capitalize, lambda words: "".join(rng.choice((c.upper(), c)) for c in words)))
     if word == "name":
@@ -120,7 +120,7 @@ def in_capitals(rng, text):
 
 
 class Person:
-    """Adds actions to a list, one after the other; `at` is the tick of the next."""
+    """Adds actions to a list one after another. `at` is the tick of the next action."""
 
     def __init__(self, rng, servos):
         self.rng, self.servos, self.at, self.actions = rng, servos, START, []
@@ -140,7 +140,7 @@ class Person:
     def joints(self, most=3):
         return " ".join(str(self.servo()) for _ in range(self.rng.randrange(1, most + 1)))
 
-    # what happens around the program
+    # events around the program
 
     def servo_fails(self):
         rng, servo = self.rng, self.servo()
@@ -194,13 +194,13 @@ class Person:
 
 
 class Player(Person):
-    """A person before Play."""
+    """A person at Play."""
 
     def plays(self):
         self.line(f"play {self.rng.choice(PLAYED)}" if self.rng.random() < 0.9 else "play walk start")
 
     def plays_by_the_law(self):
-        """Nothing but the pages decides where joints go."""
+        """Plays by the law alone: only the pages decide where joints go."""
         for word in ("break", "free", "shape reset"):
             self.line(word, SECOND)
         self.line(f"play {self.rng.choice(LAW_PAGES)}", self.rng.randrange(4, 10) * SECOND)
@@ -249,7 +249,7 @@ class Player(Person):
             self.line("layer off")
 
     def stop_in_a_layer(self):
-        """What a fault of a servo must not disturb."""
+        """A fault of a servo must not disturb the stop."""
         rng, servo = self.rng, self.servo()
         self.line("play walk start", 4 * SECOND)
         self.line(f"layer 8 {servo}", rng.randrange(20, 2 * SECOND))
@@ -297,7 +297,7 @@ class Player(Person):
         )
 
     def fingers(self):
-        """Several buttons, that come and go one after the other or at once, in a play, a stop, a pause or at rest."""
+        """Presses several buttons, one after another or together, in a play, a stop, a pause or at rest."""
         rng, down = self.rng, 0
         if rng.random() < 0.25:
             self.fingers_at_the_panel()
@@ -324,7 +324,7 @@ class Player(Person):
         self.act("press 0", rng.randrange(8, 3 * SECOND))
 
     def calls(self):
-        """Codes at rest, of pages that can be called and of others."""
+        """Sends codes at rest, of pages that can be called and of others."""
         self.line("break", 6 * SECOND)
         for _ in range(self.rng.randrange(1, 4)):
             button = self.rng.choice((1, 2, 2, 8, 8, 16, 32, 64, 4))
@@ -335,7 +335,7 @@ class Player(Person):
                 self.act("remote 0", self.rng.randrange(SECOND, 4 * SECOND))
 
     def rests(self):
-        """A pause, in which much is asked, and nothing moves."""
+        """Sends many requests in a pause. Nothing may move."""
         rng = self.rng
         self.line(f"play {rng.choice((3, 4, 8, 9, 14, 21))}", rng.randrange(2, 5) * SECOND)
         self.shapes_rest(rng.randrange(3))
@@ -361,7 +361,7 @@ class Player(Person):
             self.line(rng.choice(words), rng.randrange(20, 2 * SECOND))
 
     def loses_power(self):
-        """A servo's cable comes out and is put in again: what was written to it is forgotten."""
+        """Unplugs a servo and plugs it in again. It forgets what was written to it."""
         rng, servo = self.rng, self.servo()
         page = rng.choice((3, 8, 13, 14, 21))
         if not self.servos:
@@ -374,7 +374,7 @@ class Player(Person):
         self.line(f"play {rng.choice((page, page, 9))}", rng.randrange(3, 6) * SECOND)
 
     def requests(self):
-        """Right and wrong ones: words, how many, ranges."""
+        """Sends right and wrong requests: words, number of words, ranges."""
         rng = self.rng
         first, last = sorted(rng.randrange(256) for _ in range(2))
         pages, rate = rng.choice((f"{first} {min(last, first + 20)}", f"{last} {first}", "5 300")), rng.choice((10, 50, 9, 400, 401))
@@ -395,7 +395,7 @@ class Player(Person):
         self.line(f"settings {name} {self.rng.choice(values)}", self.rng.choice((1, 8, 40, 200)))
 
     def halts_in_a_line(self):
-        """Text that stands while status lines come."""
+        """Types text that stays unfinished while status lines come."""
         rng = self.rng
         text = "".join(rng.choice("abcdefg hij 0123") for _ in range(rng.randrange(1, 30)))
         self.act(typed(text), rng.randrange(6 * SECOND))
@@ -444,7 +444,7 @@ class Player(Person):
 
 
 class Editor(Person):
-    """A person before Edit."""
+    """A person at Edit."""
 
     def line(self, text, wait=None):
         super().line(text, self.rng.randrange(30, 2 * SECOND) if wait is None else wait)
@@ -480,7 +480,7 @@ class Editor(Person):
             )
 
     def tries(self):
-        """One thing after the other, each of them looked at: what it does to the table, and what is said."""
+        """Tries commands one at a time, with time to check each effect on the table and each answer."""
         rng = self.rng
         arrows = [b"\x1b[" + end for end in (b"A", b"B", b"C", b"D", b"H", b"F", b"5~", b"6~")]
         for _ in range(rng.randrange(1, 8)):
@@ -511,7 +511,7 @@ class Editor(Person):
                 words = ("next", "before", f"page {rng.choice((1, 13, 20, 21, 22, 31, 200))}", "new", f"copy {rng.randrange(20, 30)}", "go 6")
                 self.line(rng.choice(words), LOOKED_AT)
                 self.act(typed(rng.choice("yyn")), LOOKED_AT)
-                self.act(typed("\x15\r"), SECOND // 2)  # it was no question
+                self.act(typed("\x15\r"), SECOND // 2)  # if there was no question
             elif kind < 0.8:
                 words = (
                     "page",
@@ -566,7 +566,7 @@ class Editor(Person):
         key = rng.choice((" ", "\r", "\r", "\x1b", "\x03", "\x1b[A", "\x1b[B", "\x1b[C", "\x1b[D"))
         self.act(typed(key), rng.choice((SECOND, 3 * SECOND)))
         if len(key) == 3 and rng.random() < 0.5:
-            self.act(typed(" "), SECOND)  # it does not end of itself while a page is long
+            self.act(typed(" "), SECOND)  # with a long page the play would not end by itself
 
     def views(self):
         self.line(self.rng.choice(("list", "find walk", "check 3", "re", "hex", "dec", "help", "mon", "rows 40", "rows 24", "pairs")), SECOND)
@@ -576,7 +576,7 @@ class Editor(Person):
         self.line(self.rng.choice(("@where", "@pose", "@crc", "@ver", "@list 1 9", "@page 1", "@watch 50", "@watch 0")))
 
     def uploads(self):
-        """A program saves a page: old or new, and the new one whole."""
+        """A program saves a page. A cut must leave the old or the complete new one."""
         rng = self.rng
         data = bytearray(play_pages()[13 * 512 : 14 * 512])
         for _ in range(rng.randrange(1, 9)):
@@ -619,7 +619,7 @@ class Editor(Person):
 
 
 def made(seed, motions):
-    """The actions of a session."""
+    """Returns the actions of a session."""
     rng = random.Random(f"session {seed}")
     servos = list(range(1, 1 + rng.choice((0, 1, 4, 6, 6, 12, 18, 18))))
     actions = [(0, f"seed {seed}"), (0, f"motions {motions}")] + [(0, f"servo {servo}") for servo in servos]
@@ -642,5 +642,5 @@ def made(seed, motions):
 
 
 def text(actions):
-    """The list as simtime_session reads it."""
+    """Returns the list in the form that simtime_session reads."""
     return "".join(f"{tick} {words}\n" for tick, words in actions)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs lists of actions in simulated time, and makes a failing one short."""
+"""Runs lists of actions in simulated time, and shortens a failing list."""
 
 import pathlib
 import resource
@@ -16,7 +16,7 @@ MOST_TRIES = 600
 
 
 class Outcome(NamedTuple):
-    """How a session went. fault: "" or "RULE at tick N: what happened"."""
+    """The result of a session. fault: "" or "RULE at tick N: what happened"."""
 
     seed: int
     ticks: int
@@ -26,14 +26,14 @@ class Outcome(NamedTuple):
 
 
 def motions():
-    """The file of motion pages that all sessions begin with."""
+    """Writes the file of motion pages that all sessions begin with. Returns its path."""
     if not MOTIONS.exists() or MOTIONS.read_bytes() != chance.motions():
         MOTIONS.write_bytes(chance.motions())
     return MOTIONS
 
 
 def play(seed, actions):
-    """Runs a list."""
+    """Runs a list of actions."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run([PROGRAM, FOLDER], input=chance.text(actions), capture_output=True, text=True, check=False)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -55,12 +55,12 @@ def play(seed, actions):
 
 
 def rule_of(fault):
-    """The rule that was broken."""
+    """Returns the rule that was broken."""
     return fault.partition(" at tick ")[0]
 
 
 def shrunk(actions, rule):
-    """The list without what can be left out: it still breaks this rule. Halves, quarters, ... of it are tried first."""
+    """Returns a shorter list that still breaks this rule. Leaves out halves, quarters, and so on, in at most MOST_TRIES tries."""
     setup, rest, end = [a for a in actions if a[0] == 0], [a for a in actions if a[0] > 0][:-1], actions[-1:]
     tries, size = 0, max(1, len(rest) // 2)
     while tries < MOST_TRIES:
@@ -79,13 +79,13 @@ def shrunk(actions, rule):
 
 
 def read(path):
-    """A list from a file."""
+    """Reads a list from a file."""
     lines = [line for line in pathlib.Path(path).read_text(encoding="utf-8").splitlines() if line and not line.startswith("#")]
     return [(int(tick), words) for tick, _, words in (line.partition(" ") for line in lines)]
 
 
 def shown(actions):
-    """The list for people: what is typed as text."""
+    """Returns the list in readable form: typed bytes appear as text."""
 
     def readable(words):
         return f"type {bytes.fromhex(words[5:])!r}" if words.startswith("type ") else words

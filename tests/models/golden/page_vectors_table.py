@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Turns page_vectors.json into a C table for test_page_vectors.c:  page_vectors_table.py page_vectors.json out.h"""
+"""Converts page_vectors.json to a C table for test_page_vectors.c: page_vectors_table.py page_vectors.json out.h"""
 
 import json
 import sys
