@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT
- * fuzz.h - what the harnesses share. Each is one file that turns any bytes into calls of one module and ASSERTs (trap.h)
- * what must hold whatever the bytes. Linked with libFuzzer (clang) it searches; linked with replay.c (any compiler) it
- * repeats a corpus. Knows no module. */
+ * fuzz.h - what the harnesses share. Each harness is one file. It turns any bytes into calls of one module and
+ * ASSERTs (trap.h) what must always hold. Linked with libFuzzer (clang) it searches; linked with replay.c (any
+ * compiler) it repeats a corpus. This header depends on no module. */
 #ifndef FUZZ_H
 #define FUZZ_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-/* The one function of a harness, by libFuzzer's name for it. Returns 0. */
+/* The harness's function, named by libFuzzer. Returns 0. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* Takes an input apart from its front; past its end all bytes are 0. */
+/* Reads an input from its start; after its end all bytes are 0. */
 typedef struct {
     const uint8_t *at, *end;
 } fuzz_t;

@@ -29,7 +29,7 @@ void bus_port_listen(void)
     ASSERT(!on_wire);
 }
 
-/* The answer must be what was asked for, and lie in what was heard. */
+/* The answer must match the request and lie within the received bytes. */
 static void must_be_the_answer(const bus_answer_t *answer)
 {
     uint8_t sum = 0;
@@ -86,7 +86,7 @@ static void step(uint8_t action, uint8_t argument, fuzz_t *fuzz)
     }
 }
 
-/* Whatever came before: sending ends, time passes, and the engine is free again. */
+/* After any history: once sending ends and time passes, the engine is free again. */
 static void must_come_to_rest(void)
 {
     for (unsigned i = 0; i < 4000 && core.result == BUS_PENDING; i++) {
@@ -99,7 +99,7 @@ static void must_come_to_rest(void)
     ASSERT(core.result != BUS_PENDING && core.state == BUS_IDLE);
 }
 
-/* On a copy of exactly this size, so that one byte too many is seen. */
+/* Uses a copy of exactly this size, so that a read beyond it is found. */
 static void find(const uint8_t *data, size_t size)
 {
     const uint8_t count = (uint8_t)(size > BUS_HEARD_BYTES ? BUS_HEARD_BYTES : size);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Edit as a whole: fuzz_image.h says how the input is read. Flash may change in the journal and the motions only, EEPROM
- * only where settings and the loader's bytes are; afterwards every page is as good as it was, or better. */
+ * Edit as a whole; fuzz_image.h describes the input. Flash may change only in the journal and the motions, EEPROM
+ * only in the settings and the loader's bytes. Afterwards every page is as valid as before, or better. */
 #include "fuzz_image.h"
 #include "fake_eeprom.h"
 #include "fake_flash.h"
@@ -15,7 +15,8 @@
 #include "firmware/edit/main.c"
 #undef main
 
-/* Out of any mode: Ctrl-C ends plays and lines, ESC lists and questions, Ctrl-U CR a program's line. Then a request. */
+/* Leaves any mode: Ctrl-C ends plays and lines, ESC lists and questions, Ctrl-U CR a program's line. Then sends a
+   request. */
 const char *fuzz_image_last_words(unsigned k)
 {
     static const char *const words[] = {"\x03", "\x1B", "\x15\r", "\x03", "@where\r"};

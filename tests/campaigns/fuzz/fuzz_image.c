@@ -21,24 +21,24 @@
 #include <stdbool.h>
 #include <string.h>
 
-#define KICK_HALF_US 100u      /* a turn of the main loop */
+#define KICK_HALF_US 100u      /* one turn of the main loop */
 #define TICK_HALF_US 15625u
-#define ROOM_A_TURN 64u        /* bytes that leave meanwhile: a fast line, or the runs get long */
+#define ROOM_A_TURN 64u        /* bytes sent per turn: a fast line, otherwise the runs get long */
 #define TURNS_MAX 400000u      /* between two sleeps: it hangs */
 #define REST_TICKS 64u
-#define BREAK_TICKS 260u        /* the longest ramp, and what else a break takes */
+#define BREAK_TICKS 260u        /* the longest ramp, plus the rest of a break */
 #define LAST_TICKS 40u
 
 static fuzz_t input;
 static unsigned ticks_to_wait, turns;
 static enum { FEEDING, LAST_WORDS } phase;
-static unsigned last;          /* how many of the last words are said */
+static unsigned last;          /* number of last words typed */
 static uint16_t packets_seen;
 static jmp_buf over;
 
 /* ---- what reaches the servos ---- */
 
-/* Goals go to servos that are there, and lie within 0..1023. */
+/* Goals must go to present servos and be within 0..1023. */
 static void check_sync_write(const uint8_t *packet, uint8_t size)
 {
     const uint8_t address = packet[5], length = packet[6];
@@ -88,7 +88,7 @@ static void happen(uint8_t what, uint8_t argument)
     }
 }
 
-/* As much of the input as the line takes at once. */
+/* Types as much of the input as the line takes at once. */
 static void feed(void)
 {
     while (fuzz_left(&input) > 0 && ticks_to_wait == 0 && console_waiting() < 100) {
@@ -104,7 +104,7 @@ static void feed(void)
     }
 }
 
-/* The input is over: nothing is held or broken any more, and half a second goes by. */
+/* At the end of the input, releases all buttons, clears faults and waits for half a second. */
 static void rest(void)
 {
     phase = LAST_WORDS;
@@ -116,7 +116,7 @@ static void rest(void)
     }
 }
 
-/* The main loop sleeps: what comes next? */
+/* Called when the main loop sleeps: makes the next thing happen. */
 static void go_on(void)
 {
     if (ticks_to_wait > 0) {
@@ -147,7 +147,7 @@ uint8_t system_reset_cause(void)
     return SYSTEM_RESET_POWER_ON;
 }
 
-/* The end of board_start: everything is initialized, and the servos have power. */
+/* The end of board_start: everything is initialized, and the servos are powered. */
 void system_watchdog_on(void)
 {
     for (uint8_t id = 1; id <= FUZZ_IMAGE_SERVOS; id++) {
@@ -204,7 +204,7 @@ uint16_t system_adc(uint8_t channel)
     return 512;
 }
 
-/* ---- page_service.h: our loader is there; fake_flash writes ---- */
+/* ---- page_service.h: reports our loader; fake_flash does the writing ---- */
 
 page_service_kind_t page_service_init(const boot_rx_t *rx)
 {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * fuzz_image.h - a whole application on the PC: its real main() over the fakes, with the input as its terminal, its remote
- * and its servos' mishaps. fuzz_play.c and fuzz_edit.c say which application and what must hold in the end.
+ * fuzz_image.h - a complete application on the PC: its real main() on the fakes. The input drives its terminal, its
+ * remote and the faults of its servos. fuzz_play.c and fuzz_edit.c select the application and check the result.
  *
- * Input: bytes of the line, but
- *   FE nn  nn ticks go by (FE FE: the byte itself)
+ * Input: bytes of the line, except
+ *   FE nn  wait nn ticks (FE FE: the byte itself)
  *   FD nn  servo 1 + (nn & 3): nn >> 2 are its faults (fake_bus.h); bit 7: its error byte becomes overload
  *   FC nn  the panel's buttons
  *   FB nn  a packet of the remote with nn */
@@ -15,21 +15,21 @@
 
 #define FUZZ_IMAGE_SERVOS 4u   /* IDs 1..4 */
 
-/* The application's main (CMakeLists.txt renames it). */
+/* The application's main, renamed by CMakeLists.txt. */
 int image_main(void);
 
-/* Puts pages into the flash, before the start. */
+/* Writes pages into the flash, before the start. */
 void fuzz_image_pages(void);
 
-/* What is typed when the input is over: the harness's own, asked for k = 0, 1, ... and given a third of a
- * second each (2 s for the first, which may end a play); NULL: the end. */
+/* Returns what the harness types after the input, for k = 0, 1, ...; NULL: the end. Each text is followed by a third
+ * of a second (the first by 2 s, because it may end a play). */
 const char *fuzz_image_last_words(unsigned k);
 
-/* Runs the application from reset to the end of the input, half a second beyond, and through the last words.
- * true: it got there; false: it restarted itself. */
+/* Runs the application from reset to the end of the input, half a second longer, and through the last words. Returns
+ * true if it got there, false if it restarted itself. */
 bool fuzz_image_run(const uint8_t *data, size_t size);
 
-/* What the terminal has heard since the last words but one. */
+/* Returns the output since the last of the last words was typed. */
 const char *fuzz_image_said(void);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * The journal's recovery on any contents of its area. Input: slots (bit k: slot k's record gets its CRCs), mishaps (bit 0:
- * the power goes; bit 1: a page does not take what is written), a sequence, record bytes and data seed of each slot, then
- * their details. */
+ * The journal's recovery with any contents of its area. Input: slots (bit k: slot k's record gets its CRCs), mishaps
+ * (bit 0: power cut; bit 1: a page cannot be written), a sequence number, record bytes and data seed of each slot,
+ * then the details of the mishaps. */
 #include "fuzz.h"
 #include "fake_flash.h"
 #include "firmware/common/crc16.h"
@@ -23,7 +23,7 @@ static void put16(uint8_t *at, uint16_t value)
     at[1] = (uint8_t)(value >> 8);
 }
 
-/* Sequences of good records are those of saves in a row, in any order: a journal's own lie within its slots. */
+/* Good records have the numbers of consecutive saves, in any order: a journal's own numbers lie within its slots. */
 static void make_slot(uint8_t slot, bool good, uint16_t sequence, fuzz_t *fuzz)
 {
     uint8_t *data = fake_flash_bytes() + MEM_JOURNAL_START + 768u * slot, *record = data + 512;
@@ -42,7 +42,7 @@ static void make_slot(uint8_t slot, bool good, uint16_t sequence, fuzz_t *fuzz)
     }
 }
 
-/* Outside the journal only the two flash pages of at most one motion page may differ, and they hold a slot's data. */
+/* Outside the journal, only the two flash pages of at most one motion page may differ. They must hold a slot's data. */
 static void must_be_one_page(void)
 {
     const uint8_t *now = fake_flash_bytes();
@@ -110,7 +110,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     ASSERT(whole);
     const uint32_t operations = fake_flash_ops();
     ASSERT(journal_recover(work) == JOURNAL_CLEAN);
-    /* Only a torn mark is made whole, and that once. */
+    /* Only a torn mark is completed, and only once. */
     ASSERT(journal_recover(work) == JOURNAL_CLEAN && fake_flash_ops() <= operations + 1);
     must_save(fuzz_byte(&fuzz) & 127);
     return 0;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * A main play that is shaped, a page layer and code-made motion over it, on any pages, with every call of layers.h and
- * shape.h at any tick. Beside it the same play goes without layers: whatever was never lent must go the same way, bit by
- * bit, in the same time. What must hold: layers_rules.h, and for each play step_rules.h.
+ * A shaped main play with a page layer and motion by code over it, on any pages, with every call of layers.h and
+ * shape.h at any tick. The same play also runs without layers. Joints that were never lent must move identically, in
+ * the same time. The rules are in layers_rules.h, and for each play in step_rules.h.
  *
- * Input: options, hand-over speed, joints present; the pages (fuzz_pages.h), two of which get partners; then what happens:
- * an action, its arguments, and how many ticks go by. */
+ * Input: options, hand-over speed, joints present; the pages (fuzz_pages.h), two of which get partners; then events:
+ * an action, its arguments, and the number of ticks after it. */
 #include "fuzz_pages.h"
 #include "layers_rules.h"
 #include "step_rules.h"
@@ -59,7 +59,7 @@ static void disturb(void)
     step_rules_disturb(&rules_of_layer);
 }
 
-/* The play is over: as the performer does it. */
+/* Ends the play as the performer does. */
 static void ended(void)
 {
     layers_bind(&run.layers, NULL);
@@ -113,7 +113,7 @@ static void start(uint8_t number)
         return;
     }
     call();
-    memset(run.laid.joint, 0, sizeof run.laid.joint);   /* the approach had this memory */
+    memset(run.laid.joint, 0, sizeof run.laid.joint);   /* the approach used this memory */
     const player_status_t status = start_one(&run.alone, number);
     ASSERT(start_one(&run.laid, number) == status);
     memset(&rules_of_main, 0, sizeof rules_of_main);
@@ -186,11 +186,11 @@ static void lay(uint8_t page, uint32_t joints)
     ASSERT(memcmp(&run.layers, &old, sizeof run.layers) == 0 && memcmp(&run.laid, &old_laid, sizeof run.laid) == 0);
 }
 
-/* Code moves a joint: aim (amplitude 0, with its own speed), or swing. */
+/* Moves a joint by code: aim (amplitude 0, with its own speed) or swing. */
 static void move_by_code(fuzz_t *fuzz, bool swings)
 {
     uint8_t id = fuzz_byte(fuzz);
-    /* Without a play the caller asks who is there. */
+    /* Without a play the caller must pass a present joint. */
     id = run.layers.main != NULL || id >= PAGE_JOINTS || has(run.present, id) ? id : 0;
     const uint16_t pos = fuzz_word(fuzz) & 0x7FF;
     const uint16_t amount = fuzz_byte(fuzz), period = swings ? fuzz_word(fuzz) : 0;
@@ -240,7 +240,7 @@ static void set_shape(fuzz_t *fuzz)
 
 static uint32_t mask(fuzz_t *fuzz)
 {
-    const uint16_t word = fuzz_word(fuzz);   /* joints 0, 1, 17, 30 are those that the pages move */
+    const uint16_t word = fuzz_word(fuzz);   /* the pages move joints 0, 1, 17 and 30 */
     return ((uint32_t)(word & 0x4003) << 16 | word) & ALL;
 }
 
@@ -256,7 +256,7 @@ static void to_link(uint8_t code)
 
 static void lay_on_joints(fuzz_t *fuzz)
 {
-    const uint8_t page = (uint8_t)(1 + fuzz_byte(fuzz) % FUZZ_PAGES);   /* first, with any compiler */
+    const uint8_t page = (uint8_t)(1 + fuzz_byte(fuzz) % FUZZ_PAGES);   /* evaluated first with any compiler */
     lay(page, mask(fuzz));
 }
 
@@ -286,7 +286,7 @@ static void act(fuzz_t *fuzz)
     }
 }
 
-/* A break of everything: all that is being moved stands soon, and stays. */
+/* After a break of everything, all motion must stop soon and not restart. */
 static void must_stand_after_a_break(void)
 {
     uint16_t stands_pos[PAGE_JOINTS];

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT
- * The boot loader's prompt, words, downloads, STK500 and block protocol: prompt.c and all below it but the registers.
+ * The boot loader's prompt, words, downloads, STK500 and block protocol: prompt.c and everything below it except the
+ * registers.
  *
- * Input: bytes of the line, but FE nn is a silence of nn * 100 ms (FE FE: the byte itself), FD presses or releases START,
- * and FC begins a block frame whose length and CRC are made good (FC, command, number, count, that many words). */
+ * Input: bytes of the line, except: FE nn is a silence of nn * 100 ms (FE FE: the byte itself), FD presses or
+ * releases START, and FC begins a block frame that gets a valid length and CRC (FC, command, number, count, that
+ * many words). */
 #include "fuzz.h"
 
-/* All of memory.c but its two reads of the chip's own addresses. */
+/* All of memory.c except its two reads of the chip's own addresses. */
 #define memory_next chip_memory_next
 #define memory_fetch chip_memory_fetch
 #include "firmware/boot/memory.c"
@@ -33,13 +35,13 @@
 
 static uint8_t flash[MEM_BOOT_END], flash_before[MEM_BOOT_END], eeprom[MEM_EEPROM_BYTES];
 static fuzz_t input;
-static uint8_t line[LINE_BYTES];      /* what comes next: a frame, or one byte */
+static uint8_t line[LINE_BYTES];      /* the next bytes: a frame, or one byte */
 static uint16_t line_at, line_count;
-static uint32_t silence_ticks;        /* before it */
+static uint32_t silence_ticks;        /* before `line` */
 static uint16_t clock_ticks;
 static bool start_down;
 static uint32_t turns;
-static unsigned given;                /* bytes taken from the line, and what the loader sent */
+static unsigned given;                /* bytes sent by the loader since it last took one */
 static jmp_buf over;
 static enum { OVER_INPUT = 1, OVER_JUMP, OVER_RESET } why;
 
@@ -59,7 +61,7 @@ static void put_frame(void)
     line_count = (uint16_t)(line_count + bytes + 2);
 }
 
-/* Makes the next byte, and the silence before it. false: the input is over. */
+/* Makes the next bytes and the silence before them. false: the input is over. */
 static bool fill(void)
 {
     while (line_at == line_count) {
@@ -85,7 +87,7 @@ static bool fill(void)
     return true;
 }
 
-/* The input is over: silence for ever. Long enough for every time limit, then the loader must wait at its prompt. */
+/* The input is over: permanent silence, longer than every time limit. Then the loader must wait at its prompt. */
 static void end_of_input(void)
 {
     if (turns++ > TURNS_MAX) {
@@ -102,7 +104,7 @@ void uart_open(uint8_t ubrr)
 void uart_put(uint8_t byte)
 {
     (void)byte;
-    /* 256 flash pages of READ answers and 20 lines a byte: nothing answers more to one byte taken. */
+    /* 256 flash pages of READ answers and 20 lines per byte: no answer to one byte is longer. */
     ASSERT(++given < 3000000u);
 }
 
@@ -272,7 +274,7 @@ void start_reset(void)
     longjmp(over, 1);
 }
 
-/* ---- texts: print.c without the chip's addresses; check.c looks at memories only ---- */
+/* ---- texts: print.c without the chip's addresses; check.c only reads memories ---- */
 
 uint8_t print_byte(const void *progmem)
 {

@@ -10,7 +10,7 @@
 
 #define NUMBER 77u
 
-/* page_check again, in pieces and from the table in PAGE_FORMAT.md. */
+/* Repeats page_check piecewise, by the table in PAGE_FORMAT.md. */
 static page_status_t check_in_pieces(const uint8_t *page)
 {
     uint8_t sum = 0;

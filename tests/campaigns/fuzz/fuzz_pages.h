@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * fuzz_pages.h - pages 1..6 made of an input, for the harnesses that play them. Others read as erased flash. */
+ * fuzz_pages.h - pages 1..6 made from an input, for the harnesses that play them. Other pages read as erased flash. */
 #ifndef FUZZ_PAGES_H
 #define FUZZ_PAGES_H
 
@@ -10,14 +10,14 @@
 #define FUZZ_PAGES 6u
 
 extern uint8_t fuzz_pages[FUZZ_PAGES + 1][PAGE_BYTES];   /* page 0 stays zero */
-extern const page_source_t fuzz_pages_source;            /* asserts that what is asked for lies in a page */
+extern const page_source_t fuzz_pages_source;            /* asserts that reads stay within a page */
 
-/* Makes all six anew. Of each page the input holds an options byte, 15 header bytes, and for each of its steps pause,
- * time and four words (joints 0, 1, 17, 30). Three bits of the options say how wild the page is: 0..4 is sealed and in
- * range, 5..6 sealed as it is, 7 has the checksum that is written (one byte more). */
+/* Makes all six pages. For each page the input holds an options byte, 15 header bytes, and for each of its steps
+ * pause, time and four words (joints 0, 1, 17, 30). Three bits of the options select the kind: 0..4 sealed and in
+ * range, 5..6 sealed with any contents, 7 with a checksum from the input (one byte more). */
 void fuzz_pages_make(fuzz_t *fuzz);
 
-/* Seals a page after a change, if its checksum was right before. */
+/* Changes a byte of a page. Seals the page if it was good before. */
 void fuzz_pages_set(uint8_t page, uint8_t at, uint8_t byte);
 
 #endif

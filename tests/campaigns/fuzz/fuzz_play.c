@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Play as a whole: fuzz_image.h says how the input is read. Flash may change in no way (an erased journal needs no
- * recovery), EEPROM only where the settings are. */
+ * Play as a whole; fuzz_image.h describes the input. Flash must not change (an erased journal needs no recovery),
+ * EEPROM only in the settings. */
 #include "fuzz_image.h"
 #include "fake_eeprom.h"
 #include "fake_flash.h"

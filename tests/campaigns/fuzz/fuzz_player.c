@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * Links and player on any pages: the plays end or loop, no goal ever leaves 0..1023 or a joint that is not theirs, and the
- * steps keep step_rules.h.
+ * Links and player on any pages. Plays end or loop, goals stay within 0..1023 and on permitted joints, and the steps
+ * follow step_rules.h.
  *
- * Input: law and first page; joints present; the pages (fuzz_pages.h); then what happens: an action and its argument. */
+ * Input: law and first page; joints present; the pages (fuzz_pages.h); then pairs of an action and its argument. */
 #include "fuzz_pages.h"
 #include "player.h"
 #include "step_rules.h"
@@ -18,10 +18,10 @@ static link_t links;
 static unsigned ticks_left;
 static uint32_t present, dropped;
 static uint16_t pose[PAGE_JOINTS];
-static bool undisturbed;   /* no break or pause since the step began: its targets must be met */
+static bool undisturbed;   /* no break or pause since the step began: its targets must be reached */
 static step_rules_t rules;
 
-/* Behind the last tick of a step every joint that it used stands where the page wants it. */
+/* After the last tick of a step every joint used by it must be at the page's position. */
 static void must_be_on_target(void)
 {
     if (!undisturbed || player.law != PLAYER_LAW_EXACT) {
@@ -111,7 +111,7 @@ static void act(uint8_t action, uint8_t argument)
     }
 }
 
-/* A break brings everything to a stand within the ramp (at most 255 ticks). */
+/* A break must stop everything within the ramp (at most 255 ticks). */
 static void must_stand_after_a_break(void)
 {
     ticks_left = 300;

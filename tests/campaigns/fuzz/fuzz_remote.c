@@ -7,7 +7,7 @@
 #include <stdbool.h>
 
 static remote_t remote;
-static unsigned taken, given;   /* bytes in; bytes accounted for: text, packets */
+static unsigned taken, given;   /* bytes in; bytes accounted for as text or packets */
 
 static void account(remote_event_t event)
 {
@@ -27,7 +27,7 @@ static void account(remote_event_t event)
     }
 }
 
-/* After a silence a good packet counts, whatever was before it. */
+/* After a silence a good packet must be received, whatever came before. */
 static void must_hear(uint16_t buttons)
 {
     const uint8_t low = (uint8_t)buttons, high = (uint8_t)(buttons >> 8);

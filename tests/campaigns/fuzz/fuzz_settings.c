@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Settings out of an EEPROM that holds anything: option byte (bit 0, 1: the copy gets its CRC), then the EEPROM. */
+ * Settings from an EEPROM with any contents. Input: option byte (bit 0, 1: the copy gets its CRC), then the EEPROM. */
 #include "fuzz.h"
 #include "crc16.h"
 #include "eeprom.h"

@@ -10,7 +10,7 @@ static int distance(int from, int to)
     return from < to ? to - from : from - to;
 }
 
-/* Servo units a tick of degrees/s, rounded up. */
+/* Returns degrees/s in servo units per tick, rounded up. */
 static int units_a_tick(unsigned deg_s)
 {
     return (int)((deg_s * 1024u + 38399u) / 38400u);
@@ -26,7 +26,7 @@ static const code_slot_t *code_of(const layers_run_t *run, unsigned joint)
     return NULL;
 }
 
-/* How far a joint that code moves may go in a tick: 2 pi A / T. */
+/* Returns how far a joint moved by code may go in a tick: 2 pi A / T. */
 static int most_of_swing(const code_slot_t *slot)
 {
     const int most = (int)((uint64_t)slot->amplitude_pos * slot->phase_step * 6284u / 1000u >> 32) + 2;
@@ -54,7 +54,7 @@ void must_be_sane(const layers_run_t *run)
         return;
     }
     ASSERT(((of_page(run) | seeking) & ~of_code & ~run->laid.player.present) == 0);
-    /* A pause holds for all. */
+    /* A pause applies to both plays. */
     if (player_is_paused(&run->laid.player)) {
         ASSERT(run->layers.holds && (!player_is_moving(&run->layers.play) || player_is_paused(&run->layers.play)));
     }
@@ -71,7 +71,8 @@ void remember(const layers_run_t *run, before_t *before)
     }
 }
 
-/* Of a joint that seeks: the speed it was given. In the tick in which it meets its source, as fast as that. */
+/* Returns the limit of a seeking joint: its given speed. In the tick in which it meets its source it may be as fast
+   as that source. */
 static int most_while_seeking(const layers_run_t *run, uint8_t joint, const before_t *before, bool layer_ended)
 {
     const code_slot_t *slot = code_of(run, joint);

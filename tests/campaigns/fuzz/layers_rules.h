@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * layers_rules.h - what a robot must keep to while layers lie over its play (SHAPING.md, "Layers"), for fuzz_layers.c, which
- * makes it play. */
+ * layers_rules.h - rules for layers over a play (SHAPING.md, "Layers"), for fuzz_layers.c, which makes it play. */
 #ifndef LAYERS_RULES_H
 #define LAYERS_RULES_H
 
 #include "layers.h"
 
-/* A main play and what is its own. */
+/* A main play with its own state. */
 typedef struct {
     player_t player;
     player_joint_t joint[PAGE_JOINTS];
@@ -24,8 +23,8 @@ typedef struct {
     uint32_t present;
 } layers_run_t;
 
-/* What must_move_well has to know of the tick before: the goals, what the joints' sources asked for, and which joints
- * had not met their source. */
+/* The state before a tick, for must_move_well: the goals, what the joints' sources asked for, and which joints had
+ * not met their source. */
 typedef struct {
     uint16_t goal_pos[PAGE_JOINTS], asked_pos[PAGE_JOINTS];
     uint32_t seeking;
@@ -41,15 +40,15 @@ static inline bool has(uint32_t joints, unsigned joint)
     return (joints >> joint & 1u) != 0;
 }
 
-/* Behind each call: owners, joints and pauses of both plays fit together. */
+/* After each call: owners, joints and pauses of both plays are consistent. */
 void must_be_sane(const layers_run_t *run);
 
-/* Around each tick: no joint goes faster than its source and the hand-over allow, and one that is with the main play goes as
- * in `alone`. */
+/* Around each tick: no joint is faster than its source and the hand-over allow. A joint of the main play moves as in
+ * `alone`. */
 void remember(const layers_run_t *run, before_t *before);
 void must_move_well(const layers_run_t *run, const before_t *before, bool layer_ended);
 
-/* Behind each tick: the main play is the same with layers and without. */
+/* After each tick: the main play is the same with and without layers. */
 void must_be_equal(const layers_run_t *run);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * replay.c - runs a harness once for each file of a folder (or each file named): the corpus as a test, without libFuzzer.
- * With libFuzzer's options -runs=N -seed=N -max_len=N -artifact_prefix=FOLDER/ before the files, N inputs more are made from
- * these by chance (vary.h). A harness that finds something aborts; the file's name is the last line before that, and a made
- * input is the file that is named. */
+ * replay.c - runs a harness once for each file of a folder (or each named file): the corpus as a test, without
+ * libFuzzer. libFuzzer's options -runs=N -seed=N -max_len=N -artifact_prefix=FOLDER/ before the files add N random
+ * variations of these inputs (vary.h). A harness that finds something aborts. The last line before that names the
+ * file; a varied input is in the named file. */
 #include "fuzz.h"
 #include "vary.h"
 
@@ -18,7 +18,7 @@
 static input_t corpus[INPUTS_MAX];
 static size_t corpus_count;
 
-/* Exactly as long as the input, so that a read beyond its end is seen. */
+/* Uses a copy of exactly this size, so that a read beyond it is found. */
 static void run_bytes(const uint8_t *bytes, size_t size, const char *name)
 {
     uint8_t *input = malloc(size > 0 ? size : 1);
@@ -51,7 +51,7 @@ static unsigned run_file(const char *path)
     return 1;
 }
 
-/* The file is there while its input runs: what it holds when the harness aborts is the finding. */
+/* The file exists while its input runs. After an abort it holds the finding. */
 static void run_made(const input_t *input, const char *prefix)
 {
     char path[4096];
@@ -100,7 +100,7 @@ static unsigned run_folder(const char *folder)
     return done;
 }
 
-/* The value of -NAME=VALUE, or NULL. */
+/* Returns the value of -NAME=VALUE, or NULL. */
 static const char *option(const char *word, const char *name)
 {
     const size_t length = strlen(name);

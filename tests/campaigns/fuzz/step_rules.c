@@ -22,10 +22,10 @@ void step_rules_before(step_rules_t *rules, const player_t *player)
     }
     rules->made_ticks = 0;
     rules->waits = true;
-    rules->hold = player->brake_ticks == 0; /* else a break or a pause begins with the step */
+    rules->hold = player->brake_ticks == 0; /* otherwise a break or a pause begins with the step */
 }
 
-/* Rule 2: the speed stays below 2 |M| / N. A unit more is the rounding. */
+/* Rule 2: the speed stays below 2 |M| / N. One unit more is rounding. */
 static void must_not_leap(const step_rules_t *rules, const player_t *player)
 {
     const rules_step_t *step = &rules->step;

@@ -36,7 +36,7 @@ static void remove_range(input_t *input, size_t at, size_t count)
     input->size -= count;
 }
 
-/* from: `count` bytes that are no part of the input */
+/* from: `count` bytes outside of the input */
 static void insert(input_t *input, size_t size_max, size_t at, const uint8_t *from, size_t count)
 {
     count = smaller(count, size_max - input->size);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * vary.h - changes an input by chance, blindly: what a sample does, which has no time for libFuzzer. The same seed gives
- * the same inputs on every machine. */
+ * vary.h - changes an input at random, without guidance, for samples that have no time for libFuzzer. The same seed
+ * gives the same inputs on every machine. */
 #ifndef VARY_H
 #define VARY_H
 
@@ -12,14 +12,14 @@ typedef struct {
     size_t size;
 } input_t;
 
-/* Begins anew; any seed will do. */
+/* Restarts the random numbers; any seed is valid. */
 void vary_seed(uint32_t seed);
 
-/* 0..below-1 by chance; below 0 gives 0. */
+/* Returns a random number 0..below-1; 0 if below is 0. */
 size_t vary_chance(size_t below);
 
-/* One to four changes: bits, bytes, ranges that go, come twice or come from `other` (another input of the corpus). The
- * input must not be longer than size_max, and is not afterwards. */
+/* Makes one to four changes: bits, bytes, or ranges that are removed, repeated or copied from `other` (another input
+ * of the corpus). The input must not be longer than size_max, before and after. */
 void vary(input_t *input, size_t size_max, const input_t *other);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * answers.c - what the requests of firmware/common/PROTOCOL.md must answer, by that page, the memories, the servos
- * and what was asked before. And what `@save` wrote is what `@data` has sent. */
+ * answers.c - the required answers to the requests of firmware/common/PROTOCOL.md, by that page, the memories, the
+ * servos and earlier requests. Also: `@save` must write what `@data` has sent. */
 #include "session.h"
 
 #include <math.h>
@@ -12,14 +12,14 @@
 #define CHECKSUM_AT 31u
 #define WORDS 6u
 #define ANY 99u
-#define LATEST (8u * SECOND)       /* an answer has come by then, also if it asks all servos */
+#define LATEST (8u * SECOND)       /* an answer comes by then, even if it needs all servos */
 #define STILL SECOND               /* ticks without a goal: the joints have come to rest */
-#define LINE_MOST 110u             /* bytes of a request that are sure to find room */
+#define LINE_MOST 110u             /* bytes of a request that certainly fit */
 
 enum { ERR_WORD = 1, ERR_COUNT = 2, ERR_RANGE = 3, ERR_CRC = 9, ERR_UNSAVED = 12, ERR_LINE = 15 };
 enum { BOTH, PLAY, EDIT };
 
-/* How many words stand behind each request, and the range of those that are numbers (the first `numbers` ones). */
+/* The number of words after each request, and the range of the first `numbers` of them, which are numbers. */
 static const struct {
     const char *word;
     unsigned image, fewest, most, numbers;
@@ -38,20 +38,20 @@ static const struct {
 };
 
 static struct {
-    char line[LINE_BYTES];         /* the newest request, until it is answered; in small letters */
-    char first[24];                /* its first word as it was typed */
+    char line[LINE_BYTES];         /* the newest request in small letters, until it is answered */
+    char first[24];                /* its first word as typed */
     char *word[WORDS];
-    unsigned words;                /* its own one, and those behind it */
+    unsigned words;                /* including its own */
     uint32_t asked_tick;
-    uint32_t mixed_until;          /* one was asked before the other was answered */
-    char shape[LINE_BYTES];        /* a line of a person that changes the next, until it is answered */
+    uint32_t mixed_until;          /* a request was made before the last one was answered */
+    char shape[LINE_BYTES];        /* the user's line that changes the next values, until it is answered */
     uint32_t shape_tick;           /* when it was typed */
-    bool is_driven;                /* @drive, a remote or nobody knows what may have set these as well */
+    bool is_driven;                /* @drive, a remote or unknown input may have changed these values */
     int rate, blend, amplitude;    /* UNSET: not known */
-    uint8_t page[PAGE_BYTES];      /* the one that is open, if only a program has changed it */
+    uint8_t page[PAGE_BYTES];      /* the open page, if only a program has changed it */
     bool knows_page;
-    uint8_t saved[PAGE_BYTES];     /* must stand in `saved_as` once the save is over */
-    unsigned saved_as;             /* 0: nothing */
+    uint8_t saved[PAGE_BYTES];     /* must be in page `saved_as` once the save is over */
+    unsigned saved_as;             /* 0: none */
 } answers;
 
 #define UNSET 0x7FFF
@@ -69,7 +69,7 @@ static void split(void)
     }
 }
 
-/* A number as PROTOCOL.md has them. */
+/* Reads a number by PROTOCOL.md. */
 static bool is_number(const char *word, int *number)
 {
     char *end;
@@ -84,7 +84,7 @@ static int argument(unsigned at)
     return at < answers.words && at < WORDS && is_number(answers.word[at], &number) ? number : UNSET;
 }
 
-/* ---- what an answer must be ---- */
+/* ---- required answers ---- */
 
 static void wrong(const char *answer, const char *right)
 {
@@ -92,7 +92,7 @@ static void wrong(const char *answer, const char *right)
                  answer, right);
 }
 
-/* The error that these words must have; 0: none of the first three. -1: not known. */
+/* Returns the error that these words require; 0: none of the first three; -1: not known. */
 static int error_of_words(void)
 {
     for (unsigned i = 0; i < sizeof requests / sizeof requests[0]; i++) {
@@ -104,7 +104,7 @@ static int error_of_words(void)
             return ERR_COUNT;
         }
         if (requests[i].most == 2 && requests[i].numbers == 2 && behind == 1) {
-            return -1;   /* half a range: the page leaves it open */
+            return -1;   /* half a range: not specified */
         }
         int before = requests[i].low;
         for (unsigned at = 1; at <= behind && at <= requests[i].numbers; at++) {
@@ -112,7 +112,7 @@ static int error_of_words(void)
             if (number == UNSET || number < before || number > requests[i].high) {
                 return ERR_RANGE;
             }
-            before = number;   /* first and last */
+            before = number;   /* the last number must not be below the first */
         }
         return requests[i].numbers >= behind ? 0 : -1;
     }
@@ -126,7 +126,7 @@ static void must_be(const char *answer, const char *right)
     }
 }
 
-/* Looks for NAME=number. */
+/* Returns the number in NAME=number, or UNSET. */
 static int field(const char *answer, const char *name)
 {
     char text[24];
@@ -168,7 +168,7 @@ static void look_at_place(const char *answer)
             wrong(answer, "state=playing");
         }
         const int answered = field(answer, "step");
-        if (answered != 1 && answered != (int)step + 1) {   /* else the console is about to tell the next one */
+        if (answered != 1 && answered != (int)step + 1) {   /* otherwise the console is about to report the next step */
             must_have(answer, "step", (int)step);
             must_have(answer, "page", (int)page);
             must_have(answer, "repetition", (int)repetition);
@@ -176,7 +176,7 @@ static void look_at_place(const char *answer)
     }
 }
 
-/* ID:POSITION:TORQUE of each servo that is there. */
+/* Checks ID:POSITION:TORQUE of each present servo. */
 static void look_at_pose(const char *answer)
 {
     unsigned id, position, torque, there = 0, known = 0;
@@ -300,7 +300,7 @@ static void take_page_request(const char *answer)
     }
 }
 
-/* ---- what shapes a play ---- */
+/* ---- shaping values ---- */
 
 static void take_shape(const char *line)
 {
@@ -310,7 +310,7 @@ static void take_shape(const char *line)
     line += *line == '@' ? 1 : 0;
     answers.is_driven = answers.is_driven && strcmp(line, "shape reset") != 0;
     if (answers.is_driven) {
-        return;   /* what is set then ends with the play */
+        return;   /* such values end with the play */
     }
     if (sscanf(line, "rate %i%c", &a, &more) == 1) {
         answers.rate = a;
@@ -330,14 +330,14 @@ static void forget_shape(void)
     answers.is_driven = true;
 }
 
-/* ---- what happens ---- */
+/* ---- events ---- */
 
 static void look_at(const char *answer)
 {
     unsigned number = 0;
     char text[24];
     const char *word = answers.word[0];
-    /* Signs separate words as well, which PROTOCOL.md leaves open. */
+    /* Punctuation also separates words; PROTOCOL.md does not specify that. */
     const bool has_signs = strpbrk(answers.line, ",.:;") != NULL;
     const int right = has_signs ? -1 : error_of_words();
     const char *error = strstr(answer, " ERR ");
@@ -383,7 +383,7 @@ void answers_printed(const char *line)
         take_shape(answers.shape);
         answers.shape[0] = '\0';
     }
-    const bool is_echo = strcasecmp(line, answers.line) == 0;   /* after noise it may stand without a prompt */
+    const bool is_echo = strcasecmp(line, answers.line) == 0;   /* after noise it may appear without a prompt */
     if (answers.line[0] == '\0' || line[0] != '@' || strncmp(line, "@now ", 5) == 0 || is_echo) {
         return;
     }
@@ -403,7 +403,7 @@ void answers_printed(const char *line)
 void answers_typed(const char *line)
 {
     if (answers.line[0] != '\0' && session.tick - answers.asked_tick < SECOND) {
-        answers.mixed_until = session.tick + 2 * SECOND;   /* the answer of which one comes next? */
+        answers.mixed_until = session.tick + 2 * SECOND;   /* unclear which request is answered next */
         answers.knows_page = false;
         forget_shape();
     }
@@ -437,7 +437,7 @@ void answers_typed(const char *line)
     }
 }
 
-/* In Play an answer comes, whatever happens. (In Edit a question of a person's may have taken the line.) */
+/* In Play an answer always comes. In Edit a user's question may have taken the line. */
 void answers_tick(void)
 {
     if (answers.line[0] != '\0' && (session.is_edit || !rules_is_well() || strncmp(answers.line, "@reset", 6) == 0)) {
@@ -455,6 +455,6 @@ void answers_boot(void)
     answers.rate = answers.amplitude = 100;
     answers.blend = 0;
     if (is_open) {
-        forget_shape();   /* the new program may find the line that was typed when the power failed */
+        forget_shape();   /* the new program may find the line typed at the power cut */
     }
 }

@@ -1,29 +1,29 @@
 /* SPDX-License-Identifier: MIT
- * calls.c - what a play begins with, from firmware/common/REMOTE.md: the page that was named, or, by a press, the lowest one
- * with the code that is good and has an action (PAGE_FORMAT.md). No play begins without such a call. */
+ * calls.c - the page that a play begins with, by firmware/common/REMOTE.md: the named page, or, after a press, the
+ * lowest valid page with the code and an action (PAGE_FORMAT.md). No play begins without such a call. */
 #include "session.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define ANSWER (8u * SECOND)       /* a search for servos, and lines that wait behind it */
-#define LINE_BEHIND 32u            /* ticks: a play may be over, or a line answered, and not yet have said so */
+#define ANSWER (8u * SECOND)       /* a search for servos, with lines that wait for its end */
+#define LINE_BEHIND 32u            /* ticks: a play may be over, or a line answered, before the report */
 enum { STEPS_AT = 20, CODE_AT = 21, COUNT_AT = 15, SCHEDULE_AT = 16, SPEED_AT = 22, NEXT_AT = 25 };
 
 static struct {
     int asked;                     /* by the newest line, until it is answered */
-    int named;                     /* the play that comes begins with it; UNKNOWN: nobody has named one */
+    int named;                     /* the next play begins with it; UNKNOWN: no page was named */
     uint32_t named_tick;
-    uint32_t called_tick[PAGES];   /* the last time that a code has called it */
+    uint32_t called_tick[PAGES];   /* the last time that a code called the page */
     bool is_open;                  /* a line may have called any page */
     bool is_begun, is_quiet;
-    uint32_t over_tick;            /* the last play has said that it is over */
-    uint32_t going_tick;           /* the one that begins has said that it does; NEVER_TICK: it has not */
-    uint32_t open_tick;            /* the newest line was typed, and no OK has come since */
+    uint32_t over_tick;            /* the last report that a play is over */
+    uint32_t going_tick;           /* when the starting play was reported; NEVER_TICK: not reported */
+    uint32_t open_tick;            /* when the newest line was typed, until its OK */
 } calls;
 
-/* PAGE_FORMAT.md, the checks. */
+/* Checks a page by PAGE_FORMAT.md. */
 bool page_is_good(unsigned page)
 {
     const uint8_t *at = page_at(page);
@@ -41,7 +41,7 @@ bool page_is_good(unsigned page)
     return true;
 }
 
-/* Pages without repetitions are passed over. */
+/* Returns the page that plays. Pages without repetitions are passed over. */
 static int begun_with(unsigned page)
 {
     for (unsigned i = 0; i < PAGES && page != 0 && page_at(page)[COUNT_AT] == 0; i++) {
@@ -66,7 +66,7 @@ static int page_by_name(const char *name)
     return found;
 }
 
-/* The page that a code calls. 0: none. */
+/* Returns the page that a code calls; 0: none. */
 static unsigned page_of_code(unsigned code)
 {
     for (unsigned page = 1; page < PAGES; page++) {
@@ -78,7 +78,7 @@ static unsigned page_of_code(unsigned code)
     return 0;
 }
 
-/* Called since the play before was over, and before this one has said that it begins. */
+/* Returns whether a page was called after the last play was over and before this one was reported. */
 static bool is_called(unsigned page)
 {
     const uint32_t tick = calls.called_tick[page];
@@ -86,7 +86,7 @@ static bool is_called(unsigned page)
            (calls.going_tick == NEVER_TICK || tick <= calls.going_tick);
 }
 
-/* By a code: a press of the remote or the panel, or typed. The first one counts. */
+/* Handles a code: a press at the remote or the panel, or typed. The first call counts. */
 void calls_pressed(unsigned code)
 {
     const unsigned page = page_of_code(code);
@@ -95,7 +95,7 @@ void calls_pressed(unsigned code)
     }
 }
 
-/* A line that may begin a play. */
+/* Handles a line that may begin a play. */
 static void call_typed(const char *line)
 {
     char name[32], more;
@@ -115,10 +115,10 @@ static void call_typed(const char *line)
 
 void calls_typed(const char *line)
 {
-    const bool is_request = *line == '@';   /* it has another answer */
+    const bool is_request = *line == '@';   /* a request has another answer */
     line += is_request ? 1 : 0;
     const bool is_call = strncmp(line, "play", 4) == 0 || strncmp(line, "p ", 2) == 0 || strncmp(line, "code", 4) == 0;
-    /* Whose OK comes next? */
+    /* It is then unclear whose OK comes next. */
     const bool is_mixed = (is_call || calls.asked != UNKNOWN) && !long_ago(calls.open_tick, ANSWER);
     calls.is_open = calls.is_open || !session.typed_is_known || (is_call && is_request) || is_mixed;
     calls.is_quiet = calls.is_quiet || strncmp(line, "settings talk", 13) == 0;
@@ -186,7 +186,7 @@ void calls_printed(const char *line)
 
 void calls_boot(void)
 {
-    const bool is_quiet = calls.is_quiet;   /* kept without power */
+    const bool is_quiet = calls.is_quiet;   /* stored in EEPROM */
     memset(&calls, 0, sizeof calls);
     calls.is_quiet = is_quiet;
     calls.asked = calls.named = UNKNOWN;

@@ -6,9 +6,9 @@
 #include <string.h>
 #include <strings.h>
 
-#define HELD 12u                   /* ticks: less than the 150 ms of a held key; as long may a key take to be read */
-#define LEFT_OVER 88u              /* ticks: less than the 0.75 s after a list, a play, or a space without effect */
-#define LATER 16u                  /* ticks: a key so long after a question answers it */
+#define HELD 12u                   /* ticks: below the 150 ms of a held key; a key may take that long to be read */
+#define LEFT_OVER 88u              /* ticks: below the 0.75 s after a list, a play, or a space without effect */
+#define LATER 16u                  /* ticks: a key this long after a question answers it */
 
 editor_t editor;
 
@@ -113,7 +113,7 @@ static void add(int much)
     }
 }
 
-/* A space that comes too soon behind another, behind a list or a play, changes nothing. */
+/* A space too soon after another one, a list or a play has no effect. */
 static void space(uint32_t mute, uint32_t counts)
 {
     editor.mute_tick = session.tick + mute;
@@ -166,7 +166,7 @@ static void escape_ends(void)
     } else if (strcmp(sequence, "6~") == 0) {
         put_cursor(x, y + 8);
     } else if (sequence[strlen(sequence) - 1] == 'R') {
-        editor.has_cursor = false;   /* the terminal's size: joints may lose their rows, and the cursor goes on */
+        editor.has_cursor = false;   /* the terminal's size: joints may lose their rows, and the cursor moves on */
     }
     editor.mode = TABLE;
 }
@@ -260,13 +260,14 @@ void editor_typed(uint8_t key)
     }
 }
 
-/* A line has been typed, perhaps by somebody of whom the model knows nothing. */
+/* A line has been typed, possibly in a state that the model does not know. */
 void editor_line(const char *line)
 {
     if (strchr(line, '@') != NULL) {
         screen_put_away();
     }
-    editor.is_pose_copied = editor.is_pose_copied || strcasestr(line, "move") != NULL;   /* no servo is told of a copy */
+    editor.is_pose_copied = editor.is_pose_copied || strcasestr(line, "move") != NULL;   /* a copied pose is not sent
+                                                                                            to the servos */
     editor.is_play_line = strcasestr(line, "play") != NULL;
 }
 

@@ -15,7 +15,7 @@
 
 /* ---- edits ---- */
 
-static table_t old;   /* before the edit that is under way */
+static table_t old;   /* before the current edit */
 
 void editor_edit_begins(void)
 {
@@ -30,7 +30,7 @@ void editor_edit_ends(void)
         editor.can_undo = true;
         editor.can_redo = editor.is_key_edit = false;
     } else {
-        editor.can_undo = editor.can_redo = false;   /* whether that counts is left open */
+        editor.can_undo = editor.can_redo = false;   /* whether that counts as an edit is left open */
     }
 }
 
@@ -39,7 +39,7 @@ static int *steps_used(void)
     return &editor.now.field[FIELD_STEPS];
 }
 
-/* Columns: 0 is the work pose, k + 1 step k. What is stored of a joint that is not there is left open. */
+/* Column 0 is the work pose, column k + 1 is step k. The stored value of a missing joint is left open. */
 static void store_pose(unsigned to)
 {
     for (unsigned row = 0; row < TABLE_ROWS; row++) {
@@ -259,7 +259,7 @@ static void run_go(void)
 static void run_write(void)
 {
     const int step = editor.words > 1 ? editor.number[1] : *steps_used();
-    editor.message = ANY;   /* who is off */
+    editor.message = ANY;   /* names joints that are off */
     if (*steps_used() == UNKNOWN) {
         editor_lose();
     }
@@ -294,7 +294,7 @@ static void run_delete(void)
         return;
     }
     if (used == 0 || (editor.words > 1 && editor.number[1] >= used)) {
-        return;   /* it says so */
+        return;   /* a message says so */
     }
     editor_edit_begins();
     for (int each = editor.words > 1 ? editor.number[1] : STEPS_MOST; each < STEP_LAST; each++) {
@@ -331,14 +331,14 @@ static void run_swap(void)
     editor_edit_ends();
 }
 
-/* The nearest whole number; between two of them nobody has said which. */
+/* Returns the nearest integer; UNKNOWN near a half, because the rounding there is not specified. */
 static int nearest(double number)
 {
     const double part = number - floor(number);
     return fabs(part - 0.5) < 0.01 ? UNKNOWN : (int)floor(number + 0.5);
 }
 
-/* A new step between two that follow each other, at so many percent of the way and of the time. */
+/* INT: inserts a step between two consecutive ones, at this percentage of distance and time. */
 static void run_int(void)
 {
     const int a = editor.number[1], b = editor.number[2], percent = editor.words > 3 ? editor.number[3] : 50;
@@ -406,7 +406,7 @@ static void run_paste(void)
     editor_edit_ends();
 }
 
-/* About 512, in pairs 1-2 .. 17-18. */
+/* Mirrors about 512, in pairs 1-2 .. 17-18. */
 static void run_mirror(void)
 {
     const unsigned column = (unsigned)editor.number[1] + 1;
@@ -425,7 +425,7 @@ static void run_mirror(void)
     }
 }
 
-/* What the cell under the cursor takes; -1: it is not there. */
+/* Returns the largest value of the cell under the cursor. */
 static int most_of_cell(void)
 {
     const unsigned x = editor.now.x, y = editor.now.y;
@@ -461,12 +461,12 @@ static void run_set(void)
     } else if (editor.number[1] > most_of_cell()) {
         editor.message = BAD_RANGE;
     } else {
-        editor.message = ANY;   /* a servo that is not there */
+        editor.message = ANY;   /* possibly a missing servo */
         editor_put(editor.number[1]);
     }
 }
 
-/* A low terminal leaves rows out, which the cursor passes over. */
+/* On a low terminal some rows are missing, and the cursor skips them. */
 bool editor_has_all_rows(void)
 {
     bool has_all = true;
@@ -530,7 +530,7 @@ static void run_redo(void)
     editor.can_redo = false;
 }
 
-/* ON and OFF. Without IDs: all that are there. */
+/* ON and OFF. Without IDs: all present servos. */
 static void run_torque(void)
 {
     const bool is_on = strcasecmp(editor.word[0], "on") == 0;
@@ -553,12 +553,13 @@ static void run_torque(void)
             editor.now.cell[0][id] = is_on ? UNKNOWN : OFF;
             editor.torque[id] = is_on;
         } else if (editor.is_pose_copied || session.trouble_tick > session.boot_tick) {
-            editor.now.cell[0][id] = UNKNOWN;   /* the pose is read anew; the last goals may have been lost on the line */
+            editor.now.cell[0][id] = UNKNOWN;   /* the pose is read again; the last goals may have been lost on the
+                                                   line */
         }
     }
 }
 
-/* Where a play ends: at the targets of the steps of the page and of those that follow it. */
+/* Finds where a play ends: the targets of the steps of this page and of the pages that follow. */
 static bool find_end(unsigned page)
 {
     table_t of = editor.now;
@@ -578,7 +579,8 @@ static bool find_end(unsigned page)
         for (int column = 1; column <= of.field[FIELD_STEPS] && of.field[COUNT_FIELD] > 0; column++) {
             for (unsigned id = 0; id < JOINTS; id++) {
                 const int to = of.cell[column][id];
-                editor.played[id] = to >= 0 && start.cell[0][id] >= 0 ? to : editor.played[id];   /* those that hold */
+                editor.played[id] = to >= 0 && start.cell[0][id] >= 0 ? to : editor.played[id];   /* only joints that
+                                                                                                     hold */
             }
         }
         if (of.field[NEXT_FIELD] < 0 || of.field[COUNT_FIELD] < 0 || of.field[FIELD_STEPS] <= 0) {
@@ -633,11 +635,11 @@ static void run_unsure(void)
     editor_lose();
 }
 
-/* The words, how many follow them, and the range of each number that does. */
+/* The commands, how many words may follow, and the range of the numbers among them. */
 static const struct {
     const char *word, *other;
     unsigned fewest, most;
-    int high;                      /* of every number; ANY_NUMBER: it is no number, or its range is not known */
+    int high;                      /* of every number; ANY_NUMBER: not a number, or range unknown */
     void (*run)(void);
 } commands[] = {
 #define ANY_NUMBER (-1)

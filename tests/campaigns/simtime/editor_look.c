@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
- * editor_look.c - the model of Edit and its screen compared; see editor.h. */
+ * editor_look.c - compares the model of Edit with its screen; see editor.h. */
 #include "editor.h"
 
 #include <math.h>
 #include <string.h>
 
-#define QUIET 96u                  /* ticks without a key and without a byte: all is painted */
-#define SLOWER 100u                 /* half microseconds of latency for each tick more: all servos are asked twice */
-#define AT_REST (3u * SECOND)      /* after the last goal a joint has come there */
+#define QUIET 96u                  /* ticks without a key and without output: everything is painted */
+#define SLOWER 100u                 /* half microseconds of latency per additional tick: all servos are asked twice */
+#define AT_REST (3u * SECOND)      /* a joint has arrived this long after its last goal */
 
 static void look_at_flash(const table_t *shown)
 {
@@ -24,7 +24,7 @@ static void look_at_flash(const table_t *shown)
     table_compare("without `* unsaved` the table shows what flash holds", shown, &stored);
 }
 
-/* Page 0 has numbers: goals are sent with the robot's trim. */
+/* Page 0 has positions: goals include the robot's trim. */
 static bool has_trim(void)
 {
     table_t trim;
@@ -37,7 +37,7 @@ static bool has_trim(void)
     return false;
 }
 
-/* The work pose is what the servos hold. */
+/* The work pose must be what the servos hold. */
 static void look_at_servos(const table_t *shown)
 {
     const uint32_t since = session.tick - AT_REST;
@@ -49,7 +49,7 @@ static void look_at_servos(const table_t *shown)
     for (unsigned id = 0; id < JOINTS; id++) {
         const int is = shown->cell[0][id];
         if (!editor_is_there(id) || is == UNKNOWN || session.joint[id].fault_tick > session.boot_tick) {
-            continue;   /* one that has failed may not have heard what was sent */
+            continue;   /* a failed servo may not have received everything */
         }
         const servo_t *servo = session.joint[id].servo;
         const bool has_torque = servo->table[TORQUE_AT] != 0;
@@ -69,7 +69,7 @@ static void look_at_servos(const table_t *shown)
     }
 }
 
-/* What stands behind the line. */
+/* Checks the message after the line. */
 static void look_at_message(const table_t *shown)
 {
     const size_t length = strlen(editor.line);
@@ -103,7 +103,7 @@ static void look_at_save(const table_t *shown)
     for (unsigned column = 1; column < TABLE_STEPS; column++) {
         for (unsigned id = 0; id < JOINTS; id++) {
             int *is = &editor.now.cell[column][id];
-            *is = *is == OFF ? UNKNOWN : *is;   /* it is saved as not used */
+            *is = *is == OFF ? UNKNOWN : *is;   /* it is saved as unused */
         }
     }
     stored.page = editor.now.page;

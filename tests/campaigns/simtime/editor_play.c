@@ -1,24 +1,24 @@
 /* SPDX-License-Identifier: MIT
- * editor_play.c - the keys of a play in Edit, by edit/ORIGINAL.md section 10, edit/DIFFERENCES.md and edit/keys.h: what is
- * said of each, and that [Exit] ends it after this repetition. */
+ * editor_play.c - the keys of a play in Edit, by edit/ORIGINAL.md section 10, edit/DIFFERENCES.md and edit/keys.h:
+ * the message for each key, and that [Exit] ends the play after this repetition. */
 #include "session.h"
 
 #include <string.h>
 
 #define ON 2u                      /* ticks: goals were sent */
-#define ROWS 36u                   /* of the screen: the command line is in one of them */
-#define LONE 7u                    /* ticks: an ESC without anything behind it was the key */
+#define ROWS 36u                   /* of the screen; one of them is the command line */
+#define LONE 7u                    /* ticks: an ESC followed by nothing was the ESC key */
 #define SAID (SECOND / 4u)
-#define SLOW (2u * SECOND)         /* an adapter or a computer that is late delays what is said */
-#define REPETITION (40u * SECOND)  /* seven steps and their pauses, or an approach and a break */
+#define SLOW (2u * SECOND)         /* a late adapter or computer delays messages */
+#define REPETITION (40u * SECOND)  /* seven steps with pauses, or an approach and a break */
 
 static struct {
-    bool is_play;                  /* by the line that was typed last */
-    bool breaks;                   /* a break has been asked for: a stop behind it changes nothing */
+    bool is_play;                  /* by the last typed line */
+    bool breaks;                   /* a break was requested: a stop after it has no effect */
     char sequence[4];
     unsigned count;
     uint32_t key_tick, exit_tick;
-    const char *said;              /* must be in the command row soon */
+    const char *said;              /* must soon appear in the command row */
 } play;
 
 static bool is_on(void)
@@ -39,7 +39,7 @@ static bool is_plain(void)
     return rules_is_well() && session.tick - session.late_tick > SLOW && session.latency == 0;
 }
 
-/* A byte from the person, when the program has read it. */
+/* The program has read a byte from the user. */
 void editor_play_key(uint8_t key)
 {
     play.said = NULL;
@@ -76,7 +76,7 @@ void editor_play_tick(void)
         expect("[Exit]");
     }
     if (play.said != NULL && (!is_on() || !is_plain())) {
-        play.said = NULL;   /* it was over before the key, or something has happened */
+        play.said = NULL;   /* the play was over before the key, or something has happened */
     } else if (play.said != NULL && session.tick - play.key_tick > SAID) {
         bool is_said = false;
         for (unsigned row = 0; row < ROWS; row++) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * handed.c - when the program hands packets to the bus, by hal/bus.h. Goals, slopes and ACTION, the packets of a tick that
- * nobody answers, go when the bus is free: the one before has left (bus_wait_free). No packet at all begins while a servo
- * that is well answers. Others may be handed over behind one without an answer: the adapter sends them one after the other,
- * and the time of an answer begins when its packet has left (hal/host/bus.c). */
+ * handed.c - when the program hands packets to the bus, by hal/bus.h. Goals, slopes and ACTION are the unanswered
+ * packets of a tick. They are sent only when the bus is free: the packet before has left (bus_wait_free). No packet
+ * at all begins while a well servo answers. Other packets may be handed over after an unanswered one. The adapter
+ * sends them in order, and the time for an answer begins when its packet has left (hal/host/bus.c). */
 #include "session.h"
 
 #include <stddef.h>
@@ -12,11 +12,11 @@
 enum { SLOPES_AT = 28 };
 
 void machine_bus_write(const uint8_t *bytes, uint16_t count);
-void simtime_bus_write(const uint8_t *bytes, uint16_t count);   /* what simtime.c has for it */
+void simtime_bus_write(const uint8_t *bytes, uint16_t count);   /* the original in simtime.c */
 
 static unsigned under_way;
 
-/* A servo of which nothing but good answers is to be expected, and that answers now or is about to. */
+/* True if the servo has no fault and answers now or is about to. */
 static bool answers_now(const joint_t *joint)
 {
     return joint->servo != NULL && !rules_has_fault(joint) && servo_wire_is_talking(&joint->servo->talk);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * kept.c - the settings that are kept, from firmware/common/settings.h and firmware/play/README.md: two copies in EEPROM,
- * each with a sequence number and a CRC, written in turn. A save is the other copy, one number later. After a power cut
- * the settings are old or new. What Play shows is what the newest copy holds, and that is what was set. */
+ * kept.c - the stored settings, by firmware/common/settings.h and firmware/play/README.md: two copies in EEPROM,
+ * each with a sequence number and a CRC, written in turn. A save writes the other copy with the next number. After a
+ * power cut the settings are old or new. Play must show the newest copy, and that must be what was set. */
 #include "session.h"
 
 #include <stdio.h>
@@ -10,17 +10,17 @@
 #include "linker/memory_map.h"
 
 #define COPY_BYTES 64u
-#define HEAD_BYTES 4u              /* S, layout, sequence number, bytes of the settings */
+#define HEAD_BYTES 4u              /* S, layout, sequence number, length of the settings */
 #define CRC_BYTES 2u
-#define SURE (2u * SECOND)         /* half a second behind the OK */
-#define SETTLED 64u                /* ticks without a write, or at rest: a save is over, and sure */
-#define BEGUN (4u * SECOND)        /* a play that was asked for has said so */
-#define LONG_PAUSE (20u * SECOND)  /* of a page; no goals go out in it */
+#define SURE (2u * SECOND)         /* the program saves within half a second after the OK */
+#define SETTLED 64u                /* ticks without a write, or at rest: the save is over and certain */
+#define BEGUN (4u * SECOND)        /* a requested play has reported its start */
+#define LONG_PAUSE (20u * SECOND)  /* of a page; no goals are sent in it */
 
-/* In the order of their bytes. Behind `talk` stand the partners of 31 joints. */
+/* In the order of their bytes. The partners of 31 joints follow `talk`. */
 static const struct {
     const char *name;
-    unsigned at, first;            /* its byte; what it is in the beginning */
+    unsigned at, first;            /* its byte; its default */
 } items[] = {
     {"law", 0, 0},     {"remote", 1, 0},  {"approach", 2, 60},    {"fault", 3, 0},
     {"low", 4, 90},    {"hot", 5, 70},    {"neutral", 6, 0},      {"flow", 7, 1},
@@ -29,18 +29,18 @@ static const struct {
 #define ITEMS (sizeof items / sizeof items[0])
 
 static struct {
-    uint8_t copy[2][COPY_BYTES];   /* as they were when they were whole last */
+    uint8_t copy[2][COPY_BYTES];   /* as they were when last valid */
     bool was_whole[2];
-    int newest;                    /* of those; -1: none */
-    uint8_t sure[COPY_BYTES];      /* the newest that a power cut cannot take back */
-    bool is_sure;                  /* there is one */
+    int newest;                    /* of the valid copies; -1: none */
+    uint8_t sure[COPY_BYTES];      /* the newest copy that a power cut cannot revert */
+    bool is_sure;                  /* `sure` is valid */
     bool is_started;
     uint32_t write_tick;
     bool has_changed;
-    int item, value;               /* was set by the newest line; -1: nothing */
-    bool is_set;                   /* and answered */
+    int item, value;               /* set by the newest line; -1: none */
+    bool is_set;                   /* the line has been answered */
     uint32_t line_tick;            /* the last line that may set something */
-    bool is_view;                  /* `settings`, until it is answered */
+    bool is_view;                  /* `settings` was typed and is not yet answered */
 } kept;
 
 static const uint8_t *copy_at(unsigned copy)
@@ -58,7 +58,7 @@ static bool is_whole(const uint8_t *at)
     return at[end] == (uint8_t)crc && at[end + 1] == crc >> 8;
 }
 
-/* Numbers wrap at 256. */
+/* Sequence numbers wrap at 256. */
 static int newest_copy(void)
 {
     const bool first = is_whole(copy_at(0)), second = is_whole(copy_at(1));
@@ -86,7 +86,7 @@ static void note_copies(void)
     kept.newest = newest_copy();
 }
 
-/* A copy has become whole: a save is done. */
+/* A copy has become valid: a save is done. */
 static void look_at_save(unsigned copy)
 {
     const uint8_t *at = copy_at(copy);
@@ -118,8 +118,8 @@ void kept_write(void)
     kept.write_tick = session.tick;
 }
 
-/* The program prints for the first time behind a start: the settings are the ones that were sure, or those of a save
- * that was under way. */
+/* Called when the program first prints after a start. The settings must be the certain ones, or those of a save that
+ * was in progress. */
 void kept_started(void)
 {
     const int newest = newest_copy();
@@ -135,7 +135,7 @@ void kept_started(void)
     kept.is_started = true;
 }
 
-/* ---- what is set and shown ---- */
+/* ---- settings typed and shown ---- */
 
 static int item_of(const char *name)
 {
@@ -168,7 +168,7 @@ void kept_printed(const char *line)
         kept.is_set = kept.item >= 0;
         kept.is_view = false;
     } else if (strstr(line, "settings were damaged") != NULL && kept.is_sure) {
-        /* A first save that is cut off leaves the defaults, which were in force, and the program says so in these words. */
+        /* An interrupted first save leaves the defaults, which were in force. The program then reports damage. */
         session_fail("settings are old or new", "\"%s\"", line);
     } else if (kept.is_view && sscanf(line, "%11[a-z] %d  (", name, &value) == 2) {
         const int item = item_of(name);
@@ -179,7 +179,7 @@ void kept_printed(const char *line)
             }
         }
     } else if (kept.item >= 0 && !kept.is_set && line[0] != ']') {
-        kept.item = -1;   /* refused, or something else was said meanwhile */
+        kept.item = -1;   /* refused, or another message came first */
     }
 }
 
@@ -197,7 +197,7 @@ void kept_tick(void)
         }
         kept.item = -1;
     }
-    /* The program has had time to make them sure. */
+    /* By then the program has had time to complete the save. */
     const uint32_t stands = presses_are_at_rest() && long_ago(session.asked_tick, BEGUN) ? SETTLED : LONG_PAUSE;
     if (kept.is_started && long_ago(kept.write_tick, SETTLED) && long_ago(session.goals_tick, stands) && kept.newest >= 0) {
         kept.is_sure = true;

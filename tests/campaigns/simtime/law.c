@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * law.c - where each joint must be in each tick of a play, and which step comes next: motion/LAWS.md 2 and PAGE_FORMAT.md
- * worked out again, in plain numbers, from the stored pages and the lines that name the steps.
+ * law.c - the position of each joint in each tick of a play, and the next step: motion/LAWS.md 2 and PAGE_FORMAT.md
+ * computed again in plain numbers, from the stored pages and the lines that name the steps.
  *
- * Nothing here knows the moment at which a play begins, only the line that says so. So a few moments are possible, and each
- * step drops those that do not fit. If none is left, the goals are not those of the law. */
+ * The exact start of a play is not known, only the line that reports it. So several start ticks are possible, and
+ * each step rules out those that do not fit. If none remains, the goals are not those of the law. */
 #include "session.h"
 
 #include <math.h>
@@ -11,20 +11,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define KEPT 8192u                 /* ticks; a step that is longer is not looked at */
+#define KEPT 8192u                 /* ticks; longer steps are not checked */
 #define STEPS_KEPT 4u
-#define EARLIEST 8u                /* ticks before the line; as many after it */
+#define EARLIEST 8u                /* ticks before the line, and as many after it */
 #define MOMENTS 16u
-#define BETWEEN 0.05               /* ticks: what rounding of lengths may add up to */
-#define NEAR 0.75                  /* units: half of one is rounding */
-#define NO_APPROACH 3              /* units: joints that are so near to the first pose have no approach (motion/player.h) */
+#define BETWEEN 0.05               /* ticks: the sum of rounding errors of lengths */
+#define NEAR 0.75                  /* units: half a unit is rounding */
+#define NO_APPROACH 3              /* units: joints this close to the first pose make no approach (motion/player.h) */
 #define UNUSED 0x4000u
-#define LAST_COMES (4u + MOMENTS)  /* ticks after the line that says that a play is over; nothing moves any more */
+#define LAST_COMES (4u + MOMENTS)  /* ticks after the report that a play is over; nothing moves any more */
 #define DEGREES (1023.0 / 300.0)
-#define NEAR_TICKS 64u             /* a code that comes so near to the beginning of a step may count or not */
+#define NEAR_TICKS 64u             /* a code this close to the start of a step may or may not count */
 #define ANY_CODE 0xFFFFu
-#define SILENT 60u                 /* ticks without a packet: the buttons may count as let go */
-#define SLOWEST 30u                /* degrees/s, of the settings that chance makes */
+#define SILENT 60u                 /* ticks without a packet: the buttons may count as released */
+#define SLOWEST 30u                /* degrees/s, in the random settings */
 
 enum { COUNT_AT = 15, SCHEDULE_AT = 16, STEPS_AT = 20, SPEED_AT = 22, ACCEL_AT = 24, NEXT_AT = 25,
        EXIT_AT = 26, LINK1_AT = 27, LINK2_AT = 29, PAUSE_AT = 62, TIME_AT = 63 };
@@ -35,51 +35,51 @@ typedef struct {
 
 typedef struct {
     place_t place;
-    uint32_t begin;                /* the tick before its first one, if the play begins at the earliest moment */
+    uint32_t begin;                /* the tick before its first one, for a play with the earliest start */
     unsigned ticks, hold, ramp;
-    bool is_first;                 /* the joints come from somewhere near its target */
+    bool is_first;                 /* the joints come from near its target */
     bool uses[JOINTS];
-    double start[JOINTS], distance[JOINTS], in[JOINTS];   /* units, the speed at its beginning in units a tick */
+    double start[JOINTS], distance[JOINTS], in[JOINTS];   /* in: speed at its start in units per tick; else units */
 } step_t;
 
 static struct {
     uint16_t now[JOINTS];
     uint16_t goal[KEPT][JOINTS];   /* at the end of each tick */
     uint32_t now_tick[JOINTS];
-    int twice[JOINTS];             /* a late tick sends two: the first of them, the last time that there were two */
+    int twice[JOINTS];             /* a late tick sends two goals: the first of the last such pair */
     uint32_t ticks;
-    uint32_t present;              /* joints of the last frame, a bit each */
+    uint32_t present;              /* joints of the last frame, one bit each */
     step_t step[STEPS_KEPT];
     unsigned head, tail;
     double rest;                   /* the fraction of a tick that is carried on */
-    bool is_sure;                  /* of all lengths since then */
-    uint32_t moments;              /* those that still fit, a bit each */
+    bool is_sure;                  /* all lengths since then are certain */
+    uint32_t moments;              /* start ticks that still fit, one bit each */
     place_t last;
-    uint32_t ended_tick;           /* the play has said that it is over; NEVER_TICK: it has not */
+    uint32_t ended_tick;           /* when the play was reported over; NEVER_TICK: not yet */
     bool knows_place;
-    bool is_judged;                /* nothing but the pages decides about this play */
+    bool is_judged;                /* only the pages decide about this play */
     bool is_first;                 /* its first step has not come */
-    bool is_called, is_stopped;    /* a code, a stop since the play was asked for */
-    bool is_shaped, is_classic, is_quiet, has_modes;       /* what was typed in this session, or since the start */
-    bool was_classic, was_quiet;   /* ever: after a power cut a setting may be the one before */
+    bool is_called, is_stopped;    /* a code, a stop since the play was requested */
+    bool is_shaped, is_classic, is_quiet, has_modes;       /* by typed lines of this session, or since the start */
+    bool was_classic, was_quiet;   /* ever: after a power cut the old setting may be back */
     bool is_aimed;
-    uint32_t approach_tick;        /* the first frame of an approach; NEVER_TICK: there is none */
-    unsigned buttons;              /* of the newest packet, or at the panel */
+    uint32_t approach_tick;        /* the first frame of an approach; NEVER_TICK: none */
+    unsigned buttons;              /* by the newest packet, or at the panel */
     uint32_t buttons_tick;
-    unsigned code, code_before;    /* in force now, and before it changed; ANY_CODE: not known */
+    unsigned code, code_before;    /* in force now, and before the last change; ANY_CODE: not known */
     uint32_t code_tick, code_before_tick;   /* when they came into force */
-    uint32_t step_tick, step_before_tick;   /* when the newest step was named, and the one before */
+    uint32_t step_tick, step_before_tick;   /* when the newest step and the one before were named */
     bool is_under_way;             /* from the approach to the end */
-    bool was_paused;               /* since it began: then joints that code moves rest as well */
-    double approach;               /* degrees/s, the fastest that was ever set */
+    bool was_paused;               /* since its start; then joints moved by code rest as well */
+    double approach;               /* degrees/s, the highest value ever set */
     struct {
-        uint32_t due;              /* the tick at which it must have come there; NEVER_TICK: none */
-        uint32_t period;           /* ticks of a swing about there, from then on; an aim: 0 */
+        uint32_t due;              /* the tick at which it must have arrived; NEVER_TICK: none */
+        uint32_t period;           /* ticks of a swing from then on; an aim: 0 */
         unsigned to, amplitude, lowest, highest;
     } aim[JOINTS];
     char asked[LINE_BYTES];        /* the newest line, until it is answered */
     uint32_t asked_tick;
-    bool is_mixed;                 /* it was typed before the other was answered: which answer comes next? */
+    bool is_mixed;                 /* typed before the last line was answered: unclear whose answer comes next */
 } law;
 
 static unsigned position(unsigned page, unsigned step, unsigned id)
@@ -117,9 +117,9 @@ static void judge_no_more(void)
     law.head = law.tail = 0;
 }
 
-/* ---- which step comes ---- */
+/* ---- the next step ---- */
 
-/* Pages without repetitions are passed over. 0: the end. */
+/* Returns the page that plays; 0: the end. Pages without repetitions are passed over. */
 static unsigned resolved(unsigned page)
 {
     for (unsigned i = 0; i < PAGES && page != 0 && page_at(page)[COUNT_AT] == 0; i++) {
@@ -138,7 +138,7 @@ static void put_code(unsigned code)
     }
 }
 
-/* The code in force when the newest step, a page's last one, began. */
+/* Returns the code in force when the newest step began, which is a page's last one. */
 static unsigned code_of_step(void)
 {
     if (law.code_tick + NEAR_TICKS < law.step_before_tick) {
@@ -148,7 +148,7 @@ static unsigned code_of_step(void)
     return is_later && law.code_before_tick + NEAR_TICKS < law.step_before_tick ? law.code_before : ANY_CODE;
 }
 
-/* Whether a page may come after the last step of another one. */
+/* Returns whether a page may follow the last step of another one. */
 static bool may_follow(place_t last, unsigned next)
 {
     const uint8_t *at = page_at(last.page);
@@ -184,7 +184,7 @@ static void must_come(place_t next)
     }
 }
 
-/* A play is over: nothing may follow. (A chain of exit links that comes back to itself ends as well.) */
+/* A play is over: no page may follow. A chain of exit links that returns to itself also ends. */
 static void must_be_over(unsigned page)
 {
     const place_t last = law.last;
@@ -201,8 +201,8 @@ static uint16_t goal_at(uint32_t tick, unsigned id)
     return law.goal[tick % KEPT][id];
 }
 
-/* The whole ticks of a time; its fraction is carried on. A page's length is right to one tick: the nearest tick is taken.
- * Of a time between two ticks nobody can say which one is the nearest. */
+/* Returns the whole ticks of a time and carries its fraction on. The nearest tick is taken: a page's length is right
+ * to one tick. For a time about midway between two ticks the nearest one is uncertain. */
 static unsigned whole(double ideal)
 {
     const double all = ideal + law.rest;
@@ -225,7 +225,7 @@ static void plan(step_t *step, const step_t *before)
         if (before != NULL) {
             step->start[id] = before->start[id] + before->distance[id];
         } else {
-            step->start[id] = step->uses[id] ? to : law.now[id];   /* the approach has come there */
+            step->start[id] = step->uses[id] ? to : law.now[id];   /* the approach has arrived there */
         }
         step->distance[id] = step->uses[id] ? to - step->start[id] : 0;
         most = fmax(most, fabs(step->distance[id]));
@@ -243,7 +243,7 @@ static void plan(step_t *step, const step_t *before)
     step->ramp = page[ACCEL_AT] < step->ticks / 2 ? page[ACCEL_AT] : step->ticks / 2;
 }
 
-/* The speed at which the joint passes from one step into the next one. */
+/* Returns the speed at which the joint passes from one step into the next. */
 static double through(const step_t *step, const step_t *next, unsigned id)
 {
     if (next == NULL || step->hold > 0 || step->distance[id] * next->distance[id] <= 0) {
@@ -253,7 +253,7 @@ static double through(const step_t *step, const step_t *next, unsigned id)
     return fabs(here) < fabs(there) ? here : there;
 }
 
-/* Where a joint is `tick` ticks after the beginning of a step. */
+/* Returns the position of a joint `tick` ticks after the start of a step. */
 static double place_in(const step_t *step, unsigned id, double out, unsigned tick)
 {
     const double ramp = step->ramp, in = step->in[id], distance = step->distance[id];
@@ -306,7 +306,7 @@ static void judge(const step_t *step, const step_t *next)
     law.moments = fit;
 }
 
-/* Looks at the oldest steps that are over. */
+/* Checks the oldest steps that are over. */
 static void judge_done(bool is_end)
 {
     while (law.tail != law.head && rules_is_well()) {
@@ -353,9 +353,9 @@ static void step_comes(place_t place)
     judge_done(false);
 }
 
-/* ---- what happens ---- */
+/* ---- events ---- */
 
-/* A frame of goals. */
+/* Handles a frame of goals. */
 void law_frame(const uint8_t *ids_and_goals, unsigned count, unsigned bytes_each)
 {
     uint32_t present = 0;
@@ -400,8 +400,8 @@ static void take_answer(void)
     unsigned id = JOINTS, to = 0, speed = SLOWEST, amplitude = 0, period_ms = 0;
     const bool is_swing = sscanf(law.asked, "swing %u %u %u %u", &id, &to, &amplitude, &period_ms) == 4;
     const bool is_aim = is_swing || sscanf(law.asked, "aim %u %u %u", &id, &to, &speed) >= 2;
-    law.was_paused = law.was_paused || begins(law.asked, "pause");   /* "Paused" comes when all joints rest */
-    /* The end of a play that is stopped ends it too. */
+    law.was_paused = law.was_paused || begins(law.asked, "pause");   /* "Paused" comes only when all joints rest */
+    /* A stopped play also ends the aim. */
     if (is_aim && !law.is_mixed && id < JOINTS && speed > 0 && !law.is_stopped && !law.was_paused) {
         const double is = session.joint[id].servo == NULL ? to : session.joint[id].servo->position;
         const double way = fabs(is - to) + amplitude + SECOND;
@@ -427,12 +427,13 @@ void law_printed(const char *line)
         law.is_under_way = true;
         law.step_tick = law.step_before_tick = session.tick;
         play_begins();
-        law.approach_tick = law.is_aimed ? NEVER_TICK : UINT32_MAX;   /* the next frame; it begins where the joints are */
+        law.approach_tick = law.is_aimed ? NEVER_TICK : UINT32_MAX;   /* the next frame; it begins at the joints'
+                                                                         positions */
     } else if ((sscanf(line, "Playing page %u", &place.page) == 1 || sscanf(line, "Page %u step", &place.page) == 1) &&
                step != NULL && sscanf(step, " step %u repetition %u", &place.number, &place.repetition) == 2) {
         law.approach_tick = NEVER_TICK;
         if (law.ended_tick != NEVER_TICK) {
-            play_begins();   /* without an approach, right behind the end of another */
+            play_begins();   /* without an approach, directly after the end of another play */
         }
         if (law.is_judged) {
             step_comes(place);
@@ -444,13 +445,13 @@ void law_printed(const char *line)
         }
         law.knows_place = law.is_called = law.is_stopped = false;
         if (line[0] == 'S') {
-            forget_aims();   /* PROTOCOL.md: a stop ends them behind the exit page, also one that nobody has typed */
+            forget_aims();   /* PROTOCOL.md: a stop ends them after the exit page, even if it was not typed */
         }
     } else if (strncmp(line, "Broken", 6) == 0 || strncmp(line, "Ended", 5) == 0 || strncmp(line, "The pose", 8) == 0) {
         judge_no_more();
         law.is_called = law.is_stopped = false;
         if (strncmp(line, "Ended", 5) == 0) {
-            forget_aims();   /* a damaged page ends them, too */
+            forget_aims();   /* a damaged page also ends them */
         }
     } else if (strcmp(line, " OK") == 0) {
         take_answer();
@@ -463,7 +464,7 @@ void law_printed(const char *line)
     }
 }
 
-/* A line has been typed. Unless it only asks, the pages do not decide alone from now on. */
+/* Handles a typed line. Unless it only asks, the pages are no longer the only influence. */
 void law_typed(const char *line)
 {
     static const char *const asks[] = {"where", "pose", "ver", "version", "crcs", "list", "page", "dense", "help",
@@ -472,7 +473,7 @@ void law_typed(const char *line)
     unsigned number, code;
     law.is_mixed = law.asked[0] != '\0' && session.tick - law.asked_tick < SECOND;
     if (law.is_mixed) {
-        forget_aims();   /* either line may send a joint elsewhere, and which OK is whose? */
+        forget_aims();   /* either line may send a joint elsewhere, and it is unclear whose OK comes */
     }
     law.asked_tick = session.tick;
     snprintf(law.asked, sizeof law.asked, "%s", line);
@@ -518,7 +519,7 @@ void law_typed(const char *line)
     }
 }
 
-/* Buttons of the remote or the panel: 256 pauses, 512 stops, the others are codes. */
+/* Handles buttons of the remote or the panel: 256 pauses, 512 stops, the others are codes. */
 void law_remote(unsigned buttons)
 {
     const bool is_stop = buttons >= 512 && (law.buttons < 512 || session.tick - law.buttons_tick > SILENT);
@@ -573,7 +574,7 @@ bool law_was_goal(unsigned id, unsigned goal, unsigned ticks)
     return was;
 }
 
-/* A step was named a moment ago at the earliest: the program may be in the next one already. */
+/* Gets the last named step. The program may already be in the next one. */
 bool law_place(unsigned *page, unsigned *step, unsigned *repetition)
 {
     *page = law.last.page;
@@ -582,7 +583,7 @@ bool law_place(unsigned *page, unsigned *step, unsigned *repetition)
     return law.is_judged && law.knows_place && law.ended_tick == NEVER_TICK;
 }
 
-/* A joint has come to where it was sent, or swings about there. */
+/* The joint must have arrived, or swing about its target. */
 static void look_at_aim(unsigned id)
 {
     const unsigned is = law.now[id], to = law.aim[id].to, amplitude = law.aim[id].amplitude;
@@ -593,7 +594,7 @@ static void look_at_aim(unsigned id)
     }
     law.aim[id].due = NEVER_TICK;
     reached(law.aim[id].period == 0 ? "aim arrived" : "swing swung");
-    const int most = law.aim[id].period == 0 ? 0 : 1;   /* of a sine the ticks may miss the peak */
+    const int most = law.aim[id].period == 0 ? 0 : 1;   /* the ticks may miss the peak of a sine */
     const int below = (int)law.aim[id].lowest - (int)(to - amplitude);
     const int above = (int)law.aim[id].highest - (int)(to + amplitude);
     if (abs(below) > most || abs(above) > most) {
@@ -602,7 +603,7 @@ static void look_at_aim(unsigned id)
     }
 }
 
-/* The last frame has come, and joints have come to where they were aimed. */
+/* Records the goals of this tick and checks ended plays and due aims. */
 void law_tick(void)
 {
     law.ticks++;

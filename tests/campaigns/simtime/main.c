@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * main.c - runs one session in simulated time: simtime_session FOLDER [--show] < actions
  *
- * FOLDER holds the programs (libsimtime-play.so, libsimtime-edit.so). A line of the list is "TICK VERB WORDS"; README.md
- * lists the verbs. Prints "ticks N", a line "mark COUNT NAME" for each place that was reached, and "fault RULE: what
- * happened" if a rule was broken; the exit status is then 1. */
+ * FOLDER holds the programs (libsimtime-play.so, libsimtime-edit.so). A line of the list is "TICK VERB WORDS";
+ * README.md lists the verbs. Prints "ticks N", a line "mark COUNT NAME" for each place reached, and "fault RULE:
+ * what happened" for a broken rule; the exit status is then 1. */
 #include "session.h"
 
 #include <signal.h>
@@ -27,7 +27,7 @@ static struct {
     action_t *action;
     unsigned count, next;
     bool switch_image;
-    bool waits;                    /* for a goal: what follows is late by as much */
+    bool waits;                    /* for a goal; delays the actions after it */
     uint32_t late, waits_since;
 } list;
 
@@ -109,7 +109,7 @@ static void take(char *words)
     }
 }
 
-/* Carries out what is due. */
+/* Carries out the actions that are due. */
 static void take_due(void)
 {
     const bool came = session.frame_tick > list.waits_since || session.tick - list.waits_since >= GOAL_COMES;
@@ -156,7 +156,7 @@ static void start_once(const char *folder)
         session_fail("answers", "the watchdog was not kicked for a second");
     }
     if (end != SIMTIME_ENDED) {
-        world_power(false);   /* a restart leaves the servos as they are */
+        world_power(false);   /* a restart leaves the power of the servos on */
     }
     if (++session.boots > STARTS_MAX) {
         session_fail("answers", "the program starts again and again");
@@ -176,7 +176,7 @@ int main(int argc, char **argv)
     signal(SIGFPE, on_signal);
     signal(SIGBUS, on_signal);
     signal(SIGILL, on_signal);
-    /* Of its own time: a busy computer is no fault. */
+    /* CPU time of this process: a busy computer is no fault. */
     setitimer(ITIMER_VIRTUAL, &(struct itimerval){.it_value = {.tv_sec = HANG_S}}, NULL);
     world_init();
     callbacks = world_callbacks;

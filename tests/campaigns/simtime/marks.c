@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * marks.c - places that a campaign must have reached, by what the console says and what was typed before. */
+ * marks.c - places that a campaign must reach, by the console's reports and the typed lines. */
 #include "session.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* What the console says, and the place that is reached by it. */
+/* Texts of the console and the places that they mark. */
 static const struct {
     const char *text, *place;
 } texts[] = {
@@ -40,15 +40,15 @@ static const struct {
 };
 
 #define PLACES_MAX 128u
-#define PRESSED 128u               /* ticks in which a stop is fresh */
+#define PRESSED 128u               /* ticks in which a stop is recent */
 
 static struct {
     const char *place[PLACES_MAX];
     unsigned count[PLACES_MAX];
     unsigned places;
     bool approach, playing, paused, stopping, layer, aim;
-    bool is_line_typed;            /* somebody is in the middle of a line */
-    char last[LINE_BYTES];         /* the newest line that was typed, until it is answered */
+    bool is_line_typed;            /* the user is in the middle of a line */
+    char last[LINE_BYTES];         /* the newest typed line, until it is answered */
 } marks;
 
 void reached(const char *place)

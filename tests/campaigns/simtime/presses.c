@@ -1,32 +1,33 @@
 /* SPDX-License-Identifier: MIT
- * presses.c - what a press is, from firmware/common/REMOTE.md: another code than before, or one behind 500 ms of silence,
- * with a button that was not down during a play or a stop. calls.c hears of each, and asks at every start of a play.
- * A button is called spent when that is sure. So what is no press here is none. */
+ * presses.c - what a press is, by firmware/common/REMOTE.md: a code that differs from the last one, or one after 500
+ * ms of silence, with a button that was not down during a play or a stop. calls.c gets each press and checks every
+ * start of a play against them. A button counts as spent only if that is certain. So a press that this file rejects
+ * is none. */
 #include "session.h"
 
 #include <string.h>
 
-#define SILENT 60u                 /* ticks without a packet: 500 ms are 64 */
-#define LINE_BEHIND 32u            /* ticks: a play may be over and not yet have said so */
+#define SILENT 60u                 /* ticks without a packet; 500 ms are 64 ticks */
+#define LINE_BEHIND 32u            /* ticks: a play may be over before its report */
 #define SURELY_SILENT SECOND
-#define BUTTONS 0xFFu              /* that make codes */
-#define ANSWERED (4u * SECOND)     /* what a press begins, or why it begins nothing, is said by then */
-#define QUICK 8000u                /* half microseconds: an adapter with which that is so */
+#define BUTTONS 0xFFu              /* buttons that make codes */
+#define ANSWERED (4u * SECOND)     /* by then the result of a press, or the reason for none, is reported */
+#define QUICK 8000u                /* half microseconds; adapters up to this latency keep to ANSWERED */
 enum { BUTTON_PAUSE = 256, BUTTON_STOP = 512, CODE_STOP = 255, NO_CODE = 256, ARROWS = 15, START = 16 };
 
 typedef struct {
     unsigned down, code;           /* by the newest packet */
-    unsigned spent;                /* buttons that are down and were so during a play or a stop */
+    unsigned spent;                /* buttons that are down and were down during a play or a stop */
     uint32_t tick;
-    uint32_t press_tick;           /* the last press, if nothing was playing then */
+    uint32_t press_tick;           /* the last press while nothing was playing */
 } hand_t;
 
 static struct {
     hand_t remote, panel;
     bool has_start;                /* Start is down */
-    bool is_playing;               /* the console says so */
+    bool is_playing;               /* by the console's reports */
     uint32_t over_tick, line_tick;
-    uint32_t press_tick;           /* one that must have an answer; NEVER_TICK: none */
+    uint32_t press_tick;           /* a press that needs an answer; NEVER_TICK: none */
 } presses;
 
 static bool must_be_answered(const hand_t *hand, uint32_t silence)
@@ -37,7 +38,7 @@ static bool must_be_answered(const hand_t *hand, uint32_t silence)
            long_ago(session.late_tick, TROUBLE) && session.latency <= QUICK && calls_are_said();
 }
 
-/* A play is over. What came down a moment ago may have come down behind its end. */
+/* Called when a play is over. A button pressed just before may have come after its end. */
 static void forgive(hand_t *hand)
 {
     if (session.tick - hand->press_tick <= LINE_BEHIND) {
@@ -45,7 +46,7 @@ static void forgive(hand_t *hand)
     }
 }
 
-/* What a hand holds now, by a packet or at the panel. */
+/* Handles the buttons that are down now, by a packet or at the panel. */
 static void holds(hand_t *hand, unsigned buttons)
 {
     const unsigned down = buttons & BUTTONS;
@@ -75,7 +76,7 @@ void presses_remote(unsigned buttons)
     holds(&presses.remote, buttons);
 }
 
-/* Its arrows are codes. Start stops when it comes down, and is no part of a code. */
+/* The arrows are codes. Start stops when it is pressed, and is not part of a code. */
 void presses_panel(unsigned buttons)
 {
     const unsigned arrows = buttons & ARROWS, start = buttons & START;
@@ -95,7 +96,7 @@ void presses_printed(const char *line)
 {
     static const char *const over[] = {"Ended", "Stopped", "Broken", "The pose", "The servo adapter", NULL};
     static const char *const begun[] = {"Going to", "Playing", NULL};
-    const bool is_over = begins_with_one_of(line, over) || strstr(line, "dropped") != NULL;   /* perhaps */
+    const bool is_over = begins_with_one_of(line, over) || strstr(line, "dropped") != NULL;   /* possibly */
     const bool begins = begins_with_one_of(line, begun);
     presses.is_playing = (presses.is_playing || begins) && !is_over;
     presses.over_tick = is_over ? session.tick : presses.over_tick;
@@ -124,7 +125,7 @@ bool presses_are_at_rest(void)
     return !presses.is_playing && calls_are_said();
 }
 
-/* Every button counts as down until a packet, or the panel, shows otherwise. */
+/* Every button counts as down until a packet or the panel shows otherwise. */
 void presses_boot(void)
 {
     const unsigned down = presses.panel.down;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * replies.c - the whole of what Play answers, from firmware/play/README.md, firmware/common/PROTOCOL.md and the words of
- * `help`. Between the line and the next prompt stand what was asked for, if anything was, and one line that ends it: " OK",
- * or a sentence that says why not. A request has one line. */
+ * replies.c - complete replies of Play, by firmware/play/README.md, firmware/common/PROTOCOL.md and the words of
+ * `help`. Between a line and the next prompt comes the requested output, if any, and one final line: " OK", or a
+ * sentence with the reason for a refusal. A request is answered by one line. */
 #include "session.h"
 
 #include <stdio.h>
@@ -10,13 +10,13 @@
 
 #define ANY 99u
 #define PAGE_STEPS_AT 20u
-enum { JUST_OK, A_WORD, FIELDS, A_LINE, LINES };   /* what stands before or beside the OK */
+enum { JUST_OK, A_WORD, FIELDS, A_LINE, LINES };   /* the output before or beside the OK */
 
-/* The words that a person can say, how many may follow, and what they show when they are right. */
+/* The words that a user can type, how many words may follow, and the output of a correct line. */
 static const struct {
     const char *word, *other;
     unsigned fewest, most;
-    int alone, with;               /* what it shows by itself, and with words behind it */
+    int alone, with;               /* output without and with words after it */
 } words[] = {
     {"play", "p", 1, ANY, JUST_OK, JUST_OK}, {"stop", "s", 0, 0, JUST_OK, 0},     {"break", "b", 0, 0, JUST_OK, 0},
     {"pause", "", 0, 0, JUST_OK, 0},         {"resume", "", 0, 0, JUST_OK, 0},    {"rate", "", 1, 1, JUST_OK, JUST_OK},
@@ -31,12 +31,12 @@ static const struct {
 #define WORDS (sizeof words / sizeof words[0])
 
 static struct {
-    char asked[LINE_BYTES];        /* the newest line, until it is answered; in small letters */
-    char shown[LINE_BYTES];        /* as the console shows it */
-    bool is_asked, is_open;        /* its answer has begun */
+    char asked[LINE_BYTES];        /* the newest line in small letters, until it is answered */
+    char shown[LINE_BYTES];        /* the line as the console shows it */
+    bool is_asked, is_open;        /* is_open: its answer has begun */
     unsigned lines;
     char first[LINE_BYTES], last[LINE_BYTES];
-    unsigned servos, helped;       /* lines of that kind */
+    unsigned servos, helped;       /* lines of this kind */
 } replies;
 
 static void wrong(const char *right)
@@ -61,7 +61,7 @@ static bool is_number(const char *word, int *number)
     return *word != '\0' && *end == '\0' && strlen(word) <= 5;
 }
 
-/* Whether a line that has these words must be refused for its numbers. */
+/* Returns whether a line with these words must be refused for its numbers. */
 static bool is_out_of_range(const char *word, unsigned behind, const char *const *at)
 {
     static const struct {
@@ -83,9 +83,9 @@ static bool is_out_of_range(const char *word, unsigned behind, const char *const
     return false;
 }
 
-/* ---- what each must say ---- */
+/* ---- checks of single words ---- */
 
-/* Without servos nothing plays; a page that is damaged or has no steps does not. */
+/* Without servos nothing plays, nor does a page that is damaged or has no steps. */
 static void look_at_play(const char *page_word, bool is_ok)
 {
     int page;
@@ -104,7 +104,7 @@ static void look_at_play(const char *page_word, bool is_ok)
     must_be(!is_ok || (page_is_good((unsigned)page) && page_at((unsigned)page)[PAGE_STEPS_AT] > 0), "a refusal");
 }
 
-/* "18 servos: 1-18": those that are there. */
+/* Checks "18 servos: 1-18" against the present servos. */
 static void look_at_count(const char *line)
 {
     unsigned count, right = 0;
@@ -189,12 +189,12 @@ static void look(void)
     must_be(!is_ok && replies.lines == 1, "a refusal of an unknown word");
 }
 
-/* ---- what happens ---- */
+/* ---- events ---- */
 
-/* typed: as it was; line: in small letters. */
+/* typed: as it was. line: in small letters. */
 void replies_typed(const char *typed, const char *line)
 {
-    const bool is_mixed = replies.is_asked || !session.typed_is_known;   /* whose answer comes next? */
+    const bool is_mixed = replies.is_asked || !session.typed_is_known;   /* unclear whose answer comes next */
     replies.is_asked = !is_mixed && line[0] != '\0';
     replies.is_open = false;
     snprintf(replies.asked, sizeof replies.asked, "%s", line);
@@ -211,7 +211,7 @@ void replies_printed(const char *line)
         replies.lines = replies.servos = replies.helped = 0;
         return;
     }
-    if (strncmp(line, "@now ", 5) == 0) {   /* it has broken the line that was typed; that comes again */
+    if (strncmp(line, "@now ", 5) == 0) {   /* it interrupted the typed line, which is shown again */
         replies.is_open = false;
         return;
     }
@@ -226,7 +226,7 @@ void replies_printed(const char *line)
     }
 }
 
-/* The line is "] ": a prompt. */
+/* The console's line is "] ", a prompt. */
 void replies_prompt(void)
 {
     if (replies.is_open) {

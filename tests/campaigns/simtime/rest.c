@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: MIT
- * rest.c - what must rest: all joints after a break, and all joints in a pause, those of a layer and those that code moves,
- * too (motion/LAWS.md 7, motion/SHAPING.md, firmware/play/README.md "Joints moved by code"). */
+ * rest.c - what must not move: all joints after a break, and all joints in a pause, including those of a layer and
+ * those moved by code (motion/LAWS.md 7, motion/SHAPING.md, firmware/play/README.md "Joints moved by code"). */
 #include "session.h"
 
 #include <stdio.h>
 #include <string.h>
 
-#define SLOWED 300u                /* ticks: a joint slows down within a ramp, 255 at most */
-#define LINE_BEHIND 32u            /* ticks: what has ended a pause may have been read before the line that tells of it */
+#define SLOWED 300u                /* ticks: a joint slows down within a ramp of at most 255 */
+#define LINE_BEHIND 32u            /* ticks: the cause of a pause's end may be read before the line that reports it */
 
 static struct {
     enum { NOTHING, BREAK, PAUSE } what;
     uint32_t since;
-    uint32_t moved_tick;           /* the last time that something came that may end a pause */
-    uint32_t line_tick;            /* the newest line was typed */
-    bool is_layer_asked;           /* by it, in a pause */
-    bool may_hold;                 /* letting go of the remote may be a stop: the setting `remote` was changed */
+    uint32_t moved_tick;           /* the last event that may end a pause */
+    uint32_t line_tick;            /* when the newest line was typed */
+    bool is_layer_asked;           /* by the newest line, in a pause */
+    bool may_hold;                 /* release of the remote may be a stop: the setting `remote` was changed */
 } rest;
 
 static bool is_one_of(const char *line, const char *const *words)
@@ -36,15 +36,15 @@ void rest_may_end(void)
     rest.moved_tick = session.tick;
 }
 
-/* A break has been asked for. */
+/* A break was requested. */
 void rest_break(void)
 {
     rest.what = BREAK;
     rest.since = session.tick;
 }
 
-/* A line has been typed. A break lasts until something may move; in a pause `aim`, `swing`, `free`, codes and what shapes a
- * motion move nothing, `play` and `layer` are refused. */
+/* Handles a typed line. A break lasts until something may move. In a pause, `aim`, `swing`, `free`, codes and
+ * shaping move nothing; `play` and `layer` are refused. */
 void rest_typed(const char *line)
 {
     static const char *const after_break[] = {"play", "p", "on", "aim", "swing", "layer", "resume", "code", "free",
@@ -64,8 +64,8 @@ void rest_typed(const char *line)
     }
 }
 
-/* Codes only come into force in a pause; buttons 5 and 6, and all of the first eight, end it, and so does letting go in
- * `hold`. */
+/* In a pause, codes only come into force. Buttons 5 and 6 end it, as do the first eight buttons together, and
+ * release in `hold`. */
 void rest_remote(unsigned buttons)
 {
     if (rest.what == PAUSE ? rest.may_hold || buttons >= 256 || buttons == 255 : buttons != 0) {
@@ -92,7 +92,7 @@ void rest_printed(const char *line)
     }
 }
 
-/* A goal of a joint that has had one before. */
+/* Checks a goal of a joint that has had one before. */
 void rest_goal(unsigned id, unsigned goal)
 {
     const joint_t *joint = &session.joint[id];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * rules.c - what must be so at every tick, whatever happens: goals, torque, text, pages, settings, news of servos. */
+ * rules.c - what must hold at every tick in any case: goals, torque, text, pages, settings, reports about servos. */
 #include "session.h"
 
 #include <ctype.h>
@@ -10,42 +10,44 @@
 #include "linker/memory_map.h"
 
 #define POSITIONS 1024u
-#define STEP_MAX 19                /* units a tick: a shaped step's mean is 8.7 at 11.1 V, its peak twice that */
-#define START_MAX 24               /* units from where the joint is to its first goal: what a servo that holds gives way */
+#define STEP_MAX 19                /* units per tick: the mean of a shaped step is 8.7 at 11.1 V, its peak twice that */
+#define START_MAX 24               /* units from the joint's position to its first goal: a servo yields that much
+                                      while it holds */
 #define FORGOTTEN (4u * SECOND)    /* asking 18 servos before a play takes less */
-#define SLOW_PAUSE (20u * SECOND)  /* no goals go out in a page's pause: 2 s at most, ten times as long at `rate 10` */
-#define NEWS (6u * SECOND)         /* a servo that has fallen silent is named by then */
-#define QUIET SECOND               /* asking a servo that is silent takes a part of that, and nothing is printed meanwhile */
+#define SLOW_PAUSE (20u * SECOND)  /* a page's pause has no goals: 2 s at most, ten times as long at `rate 10` */
+#define NEWS (6u * SECOND)         /* a servo that became silent is reported by then */
+#define QUIET SECOND               /* longer than a request to a silent servo; meanwhile nothing is printed */
 #define PROMPT_BACK (8u * SECOND)
-#define SEARCHED (60u * SECOND)    /* a port that has answered late is waited for at each ID */
+#define SEARCHED (60u * SECOND)    /* the search waits at each ID for a port that has answered late */
 #define LINE_WAY 20u               /* ticks from a typed line to its first packet */
 #define LAST_FRAME 2u              /* ticks */
 #define SETTLED 64u                /* ticks without a write: a save is over */
 #define STEPS_AT 20u
 
 static struct {
-    uint8_t page[0x20000];         /* the pages as they were when the last save was over */
+    uint8_t page[0x20000];         /* the pages after the last completed save */
     uint32_t write_tick;
-    uint32_t silent_tick[IDS];     /* it was named as silent: no goals, until asked */
+    uint32_t silent_tick[IDS];     /* when it was reported silent: no goals until it is requested */
     uint32_t off_tick[IDS];
-    uint32_t ended_tick;           /* a play has said that it is over, and its last frame may come after that; NEVER_TICK */
+    uint32_t ended_tick;           /* a play was reported over; its last frame may follow; NEVER_TICK: none */
     unsigned ended_page;
-    uint32_t over_tick;            /* the last time that a play has said that it is over */
-    bool is_slow;                  /* a rate may be in force, since the last start: pauses are longer as well (SHAPING.md) */
-    bool is_shaped;                /* something but the pages may decide where joints go, since the last start */
-    bool is_playing;               /* by what the console says */
+    uint32_t over_tick;            /* the last report that a play is over */
+    bool is_slow;                  /* a rate may have been in force since the last start: pauses are longer as well
+                                      (SHAPING.md) */
+    bool is_shaped;                /* since the last start, other things than the pages may decide where joints go */
+    bool is_playing;               /* by the console's reports */
     bool is_starting;              /* the program has not printed yet */
-    bool is_searching;             /* `servos find` has been typed, and what it found has not been printed */
+    bool is_searching;             /* `servos find` was typed and its result is not printed yet */
     bool pages_are_edited;
     bool checks_pages;
 } rules;
 
-/* ---- what was asked ---- */
+/* ---- requests ---- */
 
 static bool may_move(const char *line)
 {
     static const char *const words[] = {"play", "p", "on", "aim", "swing", "layer", "resume", "code", "free",
-                                        "move", "torque", "drive"};   /* whose end is a stop, which ends a pause */
+                                        "move", "torque", "drive"};   /* at its end is a stop, which ends a pause */
     char word[16] = "";
     line += *line == '@' ? 1 : 0;
     (void)sscanf(line, "%15[^ ,.:;]", word);
@@ -60,7 +62,7 @@ static bool may_move(const char *line)
     return false;
 }
 
-/* Whether after this line something but the pages decides where joints go. */
+/* Returns whether other things than the pages may decide where joints go after this line. */
 static bool may_shape(const char *line)
 {
     static const char *const words[] = {"amplitude", "blend", "drive", "layer", "aim", "swing", "settings", "remote"};
@@ -73,14 +75,14 @@ static bool may_shape(const char *line)
     return false;
 }
 
-/* Whether after this line steps and pauses may take longer. */
+/* Returns whether steps and pauses may take longer after this line. */
 static bool may_slow(const char *line)
 {
     line += *line == '@' ? 1 : 0;
     return strncmp(line, "rate", 4) == 0 || strncmp(line, "drive", 5) == 0;
 }
 
-/* Case does not matter (edit/ORIGINAL.md section 5): who judges a line gets it in small letters. */
+/* Case does not matter (edit/ORIGINAL.md section 5): the models get the line in small letters. */
 static void line_typed(void)
 {
     char line[LINE_BYTES];
@@ -118,7 +120,7 @@ static void line_typed(void)
     session.typed_is_known = true;
 }
 
-/* A byte from the person has been read by the program. */
+/* The program has read a byte from the user. */
 void rules_typed(uint8_t byte)
 {
     session.typed_tick = session.tick;
@@ -158,7 +160,7 @@ void rules_remote(unsigned buttons)
 
 /* ---- goals and torque ---- */
 
-/* A fault for so many answers ends by itself, also long after it was asked for. */
+/* A fault for a number of answers ends by itself, possibly long after it was set. */
 static void note_faults(void)
 {
     for (unsigned id = 0; id < JOINTS; id++) {
@@ -206,7 +208,8 @@ static void must_not_be_out(uint8_t id)
     }
 }
 
-/* Nothing has been asked since its last goal. A page that a person has written may then ask for any speed. */
+/* True if nothing was requested since the joint's last goal. A page that the user has edited may then demand any
+   speed. */
 static bool goes_on_behind_a_pause(const joint_t *joint)
 {
     return joint->goal_tick > session.boot_tick && session.asked_tick < joint->goal_tick;
@@ -219,7 +222,8 @@ static void must_not_leap(uint8_t id, uint16_t goal)
     const bool goes_on = joint->goal_tick > session.boot_tick && since <= 2;
     if (goes_on && long_ago(session.late_tick, SECOND)) {
         const int most = STEP_MAX * (int)(since == 0 ? 1 : since);
-        const bool waits = session.has_deaf && session.latency != 0;   /* REG WRITEs for one tick take several, then */
+        const bool waits = session.has_deaf && session.latency != 0;   /* the REG WRITEs for one tick then take
+                                                                          several ticks */
         if (!rules.pages_are_edited && !waits && abs(goal - joint->goal) > most) {
             session_fail("no goal leaps", "servo %u from %u to %u within %u ticks", id, joint->goal, goal, since);
         }
@@ -244,7 +248,7 @@ static void take_goal(uint8_t id, uint16_t goal)
     must_not_be_out(id);
     rest_goal(id, goal);
     if (!session.is_edit) {
-        must_not_leap(id, goal);   /* Edit moves joints at a speed of their own, and plays pages that chance has made */
+        must_not_leap(id, goal);   /* Edit moves joints at its own speed and plays random pages */
     }
     session.joint[id].goal = goal;
     session.joint[id].goal_tick = session.tick;
@@ -265,7 +269,7 @@ static void take_torque(uint8_t id, uint8_t on)
     }
 }
 
-/* `count` bytes of a servo's table from `address` on. */
+/* Checks a write of `count` bytes to a servo's table from `address` on. */
 static void take_write(uint8_t id, uint8_t address, const uint8_t *bytes, unsigned count)
 {
     if (address < TORQUE_AT && !session.is_edit) {
@@ -305,9 +309,9 @@ void rules_packet(const uint8_t *packet, uint16_t count)
     }
 }
 
-/* ---- news of servos ---- */
+/* ---- reports about servos ---- */
 
-/* A servo that answers late talks into the answers of others. */
+/* A late answer of one servo collides with those of others. */
 static bool somebody_is_late(void)
 {
     for (unsigned id = 0; id < JOINTS; id++) {
@@ -333,7 +337,7 @@ static void named_silent(unsigned id)
     rules.silent_tick[id] = session.tick;
 }
 
-/* "No answer from servos 3, 5-7": the answer to what a person asked of them. */
+/* Handles "No answer from servos 3, 5-7", the answer to a user's request. */
 static void silent_ones_named(const char *list)
 {
     unsigned first, last;
@@ -350,8 +354,8 @@ static void silent_ones_named(const char *list)
     }
 }
 
-/* Servos that were well when they were searched for are known. has_searched: the program has asked every ID; else it lists
- * those that it knew before. */
+/* Servos that were well during the search become known. has_searched: the program has asked every ID; otherwise it
+ * lists the servos it already knew. */
 static void servos_are_listed(bool has_searched)
 {
     for (unsigned id = 0; id < JOINTS; id++) {
@@ -361,7 +365,7 @@ static void servos_are_listed(bool has_searched)
     }
 }
 
-/* A play is over: joints that it has moved have come to the last step of its last page, as the page says. */
+/* Called when a play is over. Joints that it has moved must be at the last step of its last page. */
 static void pose_must_be_there(unsigned page)
 {
     const uint8_t *at = page_at(page);
@@ -371,7 +375,7 @@ static void pose_must_be_there(unsigned page)
         return;
     }
     for (unsigned id = 0; id < JOINTS; id++) {
-        const uint8_t *word = at + STEP_BYTES * steps + 2 * id;   /* the steps lie behind as much of a header */
+        const uint8_t *word = at + STEP_BYTES * steps + 2 * id;   /* the steps follow a header of the same length */
         const unsigned to = word[0] | (unsigned)word[1] << 8;
         const joint_t *joint = &session.joint[id];
         if (joint->goal_tick != session.frame_tick || to >= POSITIONS || rules_has_fault(joint)) {
@@ -425,7 +429,7 @@ void rules_printed(const char *line)
     }
 }
 
-/* ---- the person's text ---- */
+/* ---- the user's text ---- */
 
 static void text_must_stand(void)
 {
@@ -451,7 +455,7 @@ static void text_must_stand(void)
 
 /* ---- pages ---- */
 
-/* A page is as it was, or whole. */
+/* Every page must be unchanged or valid. */
 static void pages_must_be_whole(void)
 {
     const uint8_t *now = simtime_memory(MACHINE_PAGES);
@@ -527,7 +531,7 @@ void rules_boot(void)
     }
 }
 
-/* The program prints for the first time: what was cut off has been completed. */
+/* Called at each output. At the first one, interrupted saves must have been completed. */
 void rules_started(void)
 {
     if (rules.is_starting) {
@@ -538,7 +542,7 @@ void rules_started(void)
     }
 }
 
-/* Such a servo takes the line of a PC for itself: hal/host/README.md. */
+/* A silent deaf servo takes the line of a PC for itself (hal/host/README.md). */
 static bool has_silent_deaf(void)
 {
     for (unsigned id = 0; id < JOINTS; id++) {

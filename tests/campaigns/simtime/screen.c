@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * screen.c - a terminal for Edit, and the table read off it. The places are those of firmware/edit/ORIGINAL.md 3; rows are
- * found by their labels, because a low terminal has fewer. */
+ * screen.c - a terminal for Edit, and the table read from it. The columns are those of firmware/edit/ORIGINAL.md 3.
+ * Rows are found by their labels, because a low terminal has fewer. */
 #include "session.h"
 
 #include <stdio.h>
@@ -15,7 +15,7 @@ static struct {
     unsigned row, column;
     int argument[ARGUMENTS];
     unsigned arguments;
-    bool is_table;                 /* the table has not been put away since the screen was cleared */
+    bool is_table;                 /* the table was not hidden since the screen was cleared */
     enum { PLAIN, ESCAPE, SEQUENCE } state;
 } screen;
 
@@ -99,13 +99,13 @@ void screen_byte(uint8_t byte)
 
 /* ---- the table ---- */
 
-/* A number of so many digits, or UNKNOWN. */
+/* Returns a number of `digits` digits, or UNKNOWN. */
 static int number_at(const char *text, unsigned digits, bool is_hex)
 {
     char copy[8] = "", *end;
     memcpy(copy, text, digits);
     if (is_hex && copy[digits - 1] == ' ') {
-        copy[digits - 1] = '\0';   /* a byte has two hexadecimal digits and a blank */
+        copy[digits - 1] = '\0';   /* a byte has two hexadecimal digits and a space */
     }
     const long number = strtol(copy, &end, is_hex ? 16 : 10);
     return end != copy && *end == '\0' && copy[0] != ' ' ? (int)number : UNKNOWN;
@@ -149,7 +149,7 @@ static void read_row(table_t *table, const char *text, bool is_hex)
     }
 }
 
-/* X, Y and A belong together; all three are decimal or hexadecimal. */
+/* X, Y and A must match; all three are decimal or hexadecimal. */
 static bool read_cursor(table_t *table, const char *text, bool *is_hex)
 {
     unsigned x, y, a;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * slopes.c - how soft a joint is that a play moves: its slope registers are those of the page that plays, and, for joints
- * of a layer, those of the layer's page (motion/PAGE_FORMAT.md bytes 32 to 62, hal/DYNAMIXEL.md, and the headers
- * servo_link.h and performer_shape.h in firmware/common). Also behind a fault, a loss of power or a search. */
+ * slopes.c - the softness of a joint in a play. Its slope registers are those of the page that plays, or of the
+ * layer's page for joints of a layer (motion/PAGE_FORMAT.md bytes 32 to 62, hal/DYNAMIXEL.md, and the headers
+ * servo_link.h and performer_shape.h in firmware/common). This also holds after a fault, a loss of power or a
+ * search. */
 #include "session.h"
 
 #include <stdio.h>
@@ -10,24 +11,25 @@
 
 #include "servo_fault.h"
 
-#define SETTLED 16u                /* ticks from the line that names a page until its slopes are there */
-#define WRONG_MOST 48u             /* goals: the line that names the next page may come late, a poll of 31 servos takes 31 */
-#define PAGE_CHAIN 16u             /* pages that a layer goes through */
+#define SETTLED 16u                /* ticks from the line that names a page until its slopes are set */
+#define WRONG_MOST 48u             /* goals: the line that names the next page may come late; a poll of 31 servos
+                                      takes 31 ticks */
+#define PAGE_CHAIN 16u             /* pages that a layer plays in a chain */
 enum { CW_SLOPE_AT = 28, CCW_SLOPE_AT = 29, COMPLIANCE_AT = 32, NEXT_AT = 25 };
 
 static struct {
-    unsigned page;                 /* that plays; 0: none, or it is not known */
-    uint32_t page_tick;            /* since then */
-    bool is_lost;                  /* somebody may have asked for anything, or lines are missing, until this play ends */
-    unsigned layer;                /* the page that a layer began with; 0: none */
+    unsigned page;                 /* the page that plays; 0: none or unknown */
+    uint32_t page_tick;            /* since when it plays */
+    bool is_lost;                  /* unknown requests were possible, or lines are missing, until this play ends */
+    unsigned layer;                /* first page of the layer; 0: none */
     uint32_t layer_joints;
-    bool is_layer_sure;            /* else they may be the layer's or not */
-    bool is_asked;                 /* for another layer, or none, by the newest line, until it is answered */
+    bool is_layer_sure;            /* false: joints may or may not be the layer's */
+    bool is_asked;                 /* the newest line, not yet answered, requests another layer or none */
     unsigned asked_layer;
     uint32_t asked_joints;
-    uint32_t code_joints;          /* perhaps moved by code: they leave a layer */
-    unsigned wrong[JOINTS];        /* goals in a row with other slopes */
-    uint32_t goal_tick[JOINTS];    /* of the last one that was looked at */
+    uint32_t code_joints;          /* possibly moved by code: they leave a layer */
+    unsigned wrong[JOINTS];        /* goals in a row with wrong slopes */
+    uint32_t goal_tick[JOINTS];    /* of the last goal that was checked */
 } slopes;
 
 static uint32_t bit(unsigned id)
@@ -35,7 +37,7 @@ static uint32_t bit(unsigned id)
     return (uint32_t)1 << id;
 }
 
-/* Whether the servo has the slopes of the page. A nibble that the page's format does not know allows all. */
+/* Returns whether the servo has the slopes of the page. A nibble outside of the page format allows any. */
 static bool has_slopes(unsigned id, unsigned page)
 {
     const uint8_t byte = page_at(page)[COMPLIANCE_AT + id], *table = session.joint[id].servo->table;
@@ -44,7 +46,7 @@ static bool has_slopes(unsigned id, unsigned page)
     return has_cw && (ccw == 0 || ccw > 7 || table[CCW_SLOPE_AT] == 1u << ccw);
 }
 
-/* The same for a layer, which follows its own links and does not say where it is. */
+/* The same for a layer. It follows its own links and does not report its page. */
 static bool has_slopes_of_layer(unsigned id)
 {
     unsigned page = slopes.layer;
@@ -67,7 +69,7 @@ static bool is_right(unsigned id)
     return !is_of_layer && has_slopes(id, slopes.page);
 }
 
-/* A servo does not hear before it has answered. */
+/* A servo that has not answered yet does not receive. */
 static bool hears(unsigned id)
 {
     const servo_t *servo = session.joint[id].servo;
@@ -101,7 +103,7 @@ void slopes_tick(void)
     }
 }
 
-/* ---- what plays ---- */
+/* ---- plays and layers ---- */
 
 static void plays(unsigned page)
 {
@@ -121,7 +123,7 @@ static uint32_t joints_of_first_step(unsigned page)
     return joints;
 }
 
-/* The joints that a line names. */
+/* Returns the joints that a line names. */
 static uint32_t joints_named(const char *words)
 {
     uint32_t joints = 0;
@@ -140,7 +142,7 @@ static void asks_for_layer(unsigned page, uint32_t joints)
     slopes.asked_layer = page;
     slopes.asked_joints = joints;
     slopes.is_layer_sure = false;
-    if (slopes.layer == 0) {   /* it may begin before it is answered */
+    if (slopes.layer == 0) {   /* the layer may begin before the answer */
         slopes.layer = page;
         slopes.layer_joints = joints;
     }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * table.c - tables of Edit: a page of flash as a table shows it (firmware/edit/ORIGINAL.md 1), and two tables compared. */
+ * table.c - tables of Edit: a page of flash as the table shows it (firmware/edit/ORIGINAL.md 1), and the comparison
+ * of two tables. */
 #include "session.h"
 
 #include <stdio.h>
@@ -59,7 +60,7 @@ void table_load(table_t *table, unsigned page)
     for (unsigned i = 0; i < NAME_BYTES; i++) {
         table->name[i] = (char)(table->name[i] == '\0' ? ' ' : table->name[i]);
         if (memchr(at, '\0', i + 1) != NULL) {
-            table->name[i] = ' ';   /* old data behind the end */
+            table->name[i] = ' ';   /* old data after the end of the name */
         }
     }
     table->page = (int)page;
@@ -72,7 +73,7 @@ static bool is_other(int a, int b)
     return a != UNKNOWN && b != UNKNOWN && a != b;
 }
 
-/* Where two pages, and the work poses from `first` step on, differ first; NULL: nowhere. */
+/* Returns the first difference of two pages from column `first` on (0: with the work pose), or NULL. */
 static const char *difference(const table_t *a, const table_t *b, unsigned first)
 {
     static char text[80];

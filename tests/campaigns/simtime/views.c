@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * views.c - what Play lists: pages as flash holds them, servos; and the `@list` and `@now` of
- * firmware/common/PROTOCOL.md. */
+ * views.c - Play's lists of pages and servos, and the `@list` and `@now` of firmware/common/PROTOCOL.md. */
 #include "session.h"
 
 #include <math.h>
@@ -10,12 +9,12 @@
 
 #define STILL SECOND
 #define NOW_LATER 4u               /* ticks: the goals of this moment have been sent */
-#define NOW_AGE 32u                /* since they were, the line has taken its time */
+#define NOW_AGE 32u                /* ticks since they were sent, including the time on the line */
 enum { STEPS_AT = 20, COUNT_AT = 15, CODE_AT = 21, NEXT_AT = 25, LINK1_AT = 27, LINK2_AT = 29 };
 
 static struct {
-    bool is_list, is_servos;       /* the view that was asked for, until it is answered */
-    unsigned listed;               /* pages of the list so far */
+    bool is_list, is_servos;       /* the requested list, until it is answered */
+    unsigned listed;               /* last listed page */
     int goal_now[JOINTS];          /* by the newest @now */
     uint32_t now_tick;
 } views;
@@ -33,7 +32,7 @@ static bool is_erased(unsigned page)
     return true;
 }
 
-/* Without a name and without steps. */
+/* A page without name and steps counts as empty. */
 static bool is_empty(unsigned page)
 {
     return is_erased(page) || (page_is_good(page) && page_at(page)[0] == '\0' && page_at(page)[STEPS_AT] == 0);
@@ -86,7 +85,7 @@ static void look_at_page(const char *line, unsigned page)
     reached("list of pages");
 }
 
-/* ` number:steps:"name"` or ` number:!:"what is wrong"` of each page that is not empty. */
+/* Checks ` number:steps:"name"` or ` number:!:"what is wrong"` for each page that is not empty. */
 void views_list(const char *answer, int first, int last)
 {
     const char *at = answer + strlen("@list");
@@ -128,7 +127,7 @@ static void look_at_servo(const char *line)
     reached("list of servos");
 }
 
-/* `@now 5 2 0007FFFE` and six digits for each servo that is there: goal and position. */
+/* Checks `@now 5 2 0007FFFE`, followed by six digits for each present servo: goal and position. */
 static void look_at_now(const char *line)
 {
     unsigned page, step, there;
@@ -171,14 +170,14 @@ static void look_at_now(const char *line)
     reached("goals and positions by @watch");
 }
 
-/* Torque is switched on where a joint stands, by a WRITE to it alone, of which the law knows nothing. */
+/* Torque is switched on at a joint's position by a WRITE to this joint alone. The law does not see that. */
 static bool has_goal(unsigned id)
 {
     const uint8_t *goal = &session.joint[id].servo->table[GOAL_AT];
     return (goal[0] | goal[1] << 8) == views.goal_now[id];
 }
 
-/* The goals of that line have been sent, or are sent in the ticks that follow. */
+/* The shown goals have been sent, or are sent in the next ticks. */
 static void look_at_goals(void)
 {
     for (unsigned id = 0; id < JOINTS; id++) {
@@ -189,7 +188,7 @@ static void look_at_goals(void)
     views.now_tick = NEVER_TICK;
 }
 
-/* ---- what happens ---- */
+/* ---- events ---- */
 
 void views_typed(const char *line)
 {

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT
- * world.c - what surrounds the program: servos on their wire, the line to it, memory, and the actions of a session. */
+ * world.c - the program's environment: servos on their bus, the line to it, memory, and the actions of a session. */
 #include "session.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define CYCLES 8u                  /* of the servos' clock in half a microsecond */
+#define CYCLES 8u                  /* of the servos' clock per half microsecond */
 #define BYTE_TIME 347u             /* of the console's line at 57,600 8N1, half microseconds */
 
 static struct {
-    uint32_t latency, lump;        /* of the adapter: half microseconds until it passes a byte on; it does so in lumps */
+    uint32_t latency, lump;        /* of the adapter, half microseconds: delay of a byte, and the period of lumps */
     uint32_t lose, damage;         /* answer bytes still to lose, to change */
 } line;
 
@@ -44,7 +44,7 @@ static void on_byte(void *context, uint64_t now_cycles, uint8_t byte, uint32_t r
     simtime_hear(byte, (uint32_t)(at - simtime_now()));
 }
 
-/* What servos make of a SYNC WRITE of which some of them take no notice: the words of the others. */
+/* Removes the words for deaf servos from a SYNC WRITE. Returns the length of the packet for the others. */
 static uint8_t heard_of(const uint8_t *packet, uint16_t count, uint8_t *heard)
 {
     uint8_t length = 7, sum = 0;
@@ -126,7 +126,7 @@ void world_power(bool on)
 
 /* ---- the console ---- */
 
-/* The newest line as a terminal shows it. */
+/* Keeps the newest line as a terminal shows it. */
 static void show(uint8_t byte)
 {
     if (byte == '\n') {
@@ -174,8 +174,7 @@ static bool toss(void)
     return (session_random() & 1u) != 0;
 }
 
-/* The power fails while these bytes are being written. On the chip they would change one after the other; a computer's disk
- * may take them in any order. */
+/* Cuts the power while these bytes are written. The chip changes them in order; a computer's disk may use any order. */
 static void cut_write(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uint32_t count)
 {
     static const char *const names[MACHINE_MEMORIES] = {
@@ -204,7 +203,8 @@ static bool keep(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uin
 
 /* ---- actions ---- */
 
-/* What is under way on the console's line: a byte of a person, or the buttons that a packet of the remote ends with. */
+/* Bytes in transit on the console's line: a byte from the user, or a remote packet with its buttons at the last
+   byte. */
 #define UNDER_WAY 65536u
 #define REMOTE 0x10000u
 #define NOTHING 0x20000u           /* a byte of a packet, not its last */
@@ -245,7 +245,7 @@ static void send_remote(unsigned buttons)
     }
 }
 
-/* The panel. */
+/* Presses buttons of the panel. */
 static void press(unsigned buttons)
 {
     simtime_press((uint8_t)buttons);
@@ -259,7 +259,7 @@ static void press(unsigned buttons)
     }
 }
 
-/* Bytes as hexadecimal digits. */
+/* Types bytes given as hexadecimal digits. */
 static bool type_hex(const char *hex)
 {
     unsigned byte;
@@ -304,7 +304,7 @@ static bool clear_faults(unsigned id)
     return true;
 }
 
-/* What is kept without power, to a file: pages, journal, settings. */
+/* Writes the non-volatile memories to a file: pages, journal, settings. */
 static bool write_memories(const char *path)
 {
     FILE *file = fopen(path, "wb");
@@ -317,7 +317,7 @@ static bool write_memories(const char *path)
     return fclose(file) == 0;
 }
 
-/* Motion pages from a file, before the first start. */
+/* Loads motion pages from a file, before the first start. */
 static bool load_motions(const char *path)
 {
     FILE *file = fopen(path, "rb");
@@ -389,7 +389,7 @@ bool world_do(char *words)
     return true;
 }
 
-/* ---- the machine's questions ---- */
+/* ---- callbacks of the machine ---- */
 
 static void tick(void)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The loader's pins on a PC: a button that a harness presses, lamps that nobody sees. */
+ * The loader's pins on a PC: a button pressed by the harness, LEDs without effect. */
 #ifndef PORTS_H
 #define PORTS_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Fuses and lock bits for the loader built on a PC: a programmed chip's. */
+ * Fuses and lock bits of a programmed chip, for the loader built on a PC. */
 #ifndef LOADER_BOOT_H
 #define LOADER_BOOT_H
 

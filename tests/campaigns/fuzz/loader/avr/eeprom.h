@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * EEPROM of the ATmega128 for the loader built on a PC. Addresses come as pointers that point nowhere. */
+ * EEPROM of the ATmega128 for the loader built on a PC. Pointers carry EEPROM addresses; do not dereference them. */
 #ifndef LOADER_EEPROM_H
 #define LOADER_EEPROM_H
 

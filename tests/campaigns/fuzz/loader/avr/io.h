@@ -1,2 +1,2 @@
 /* SPDX-License-Identifier: MIT
- * No registers: what is built here uses none of them. */
+ * No registers: the code built here uses none. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Flash of the ATmega128 for the loader built on a PC: constants are plain constants, far reads see loader_flash. */
+ * Flash of the ATmega128 for the loader built on a PC: constants are plain constants; far reads use
+ * loader_flash_byte. */
 #ifndef LOADER_PGMSPACE_H
 #define LOADER_PGMSPACE_H
 
@@ -9,7 +10,7 @@
 #define PROGMEM
 #define PSTR(text) (text)
 
-/* The chip's byte `addr`; ASSERTs that there is one. */
+/* Returns the chip's byte `addr`; ASSERTs that it exists. */
 uint8_t loader_flash_byte(uint32_t addr);
 
 static inline uint16_t loader_flash_word(uint32_t addr)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The watchdog for the loader built on a PC: a kick is where a harness sees the main loop turn. */
+ * The watchdog for the loader built on a PC: the harness gets each kick. */
 #ifndef LOADER_WDT_H
 #define LOADER_WDT_H
 
