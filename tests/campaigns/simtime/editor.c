@@ -266,8 +266,7 @@ void editor_line(const char *line)
     if (strchr(line, '@') != NULL) {
         screen_put_away();
     }
-    editor.is_pose_copied = editor.is_pose_copied || strcasestr(line, "move") != NULL;   /* a copied pose is not sent
-                                                                                            to the servos */
+    editor.is_pose_copied = editor.is_pose_copied || strcasestr(line, "move") != NULL;   /* servos do not get a copy */
     editor.is_play_line = strcasestr(line, "play") != NULL;
 }
 

@@ -553,8 +553,7 @@ static void run_torque(void)
             editor.now.cell[0][id] = is_on ? UNKNOWN : OFF;
             editor.torque[id] = is_on;
         } else if (editor.is_pose_copied || session.trouble_tick > session.boot_tick) {
-            editor.now.cell[0][id] = UNKNOWN;   /* the pose is read again; the last goals may have been lost on the
-                                                   line */
+            editor.now.cell[0][id] = UNKNOWN;   /* the pose is read again; the last goals may be lost */
         }
     }
 }
@@ -579,8 +578,7 @@ static bool find_end(unsigned page)
         for (int column = 1; column <= of.field[FIELD_STEPS] && of.field[COUNT_FIELD] > 0; column++) {
             for (unsigned id = 0; id < JOINTS; id++) {
                 const int to = of.cell[column][id];
-                editor.played[id] = to >= 0 && start.cell[0][id] >= 0 ? to : editor.played[id];   /* only joints that
-                                                                                                     hold */
+                editor.played[id] = to >= 0 && start.cell[0][id] >= 0 ? to : editor.played[id];   /* those that hold */
             }
         }
         if (of.field[NEXT_FIELD] < 0 || of.field[COUNT_FIELD] < 0 || of.field[FIELD_STEPS] <= 0) {

@@ -427,8 +427,7 @@ void law_printed(const char *line)
         law.is_under_way = true;
         law.step_tick = law.step_before_tick = session.tick;
         play_begins();
-        law.approach_tick = law.is_aimed ? NEVER_TICK : UINT32_MAX;   /* the next frame; it begins at the joints'
-                                                                         positions */
+        law.approach_tick = law.is_aimed ? NEVER_TICK : UINT32_MAX;   /* the next frame; starts where the joints are */
     } else if ((sscanf(line, "Playing page %u", &place.page) == 1 || sscanf(line, "Page %u step", &place.page) == 1) &&
                step != NULL && sscanf(step, " step %u repetition %u", &place.number, &place.repetition) == 2) {
         law.approach_tick = NEVER_TICK;

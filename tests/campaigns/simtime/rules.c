@@ -11,8 +11,7 @@
 
 #define POSITIONS 1024u
 #define STEP_MAX 19                /* units per tick: the mean of a shaped step is 8.7 at 11.1 V, its peak twice that */
-#define START_MAX 24               /* units from the joint's position to its first goal: a servo yields that much
-                                      while it holds */
+#define START_MAX 24               /* units from a joint's position to its first goal: a holding servo yields so far */
 #define FORGOTTEN (4u * SECOND)    /* asking 18 servos before a play takes less */
 #define SLOW_PAUSE (20u * SECOND)  /* a page's pause has no goals: 2 s at most, ten times as long at `rate 10` */
 #define NEWS (6u * SECOND)         /* a servo that became silent is reported by then */
@@ -32,9 +31,8 @@ static struct {
     uint32_t ended_tick;           /* a play was reported over; its last frame may follow; NEVER_TICK: none */
     unsigned ended_page;
     uint32_t over_tick;            /* the last report that a play is over */
-    bool is_slow;                  /* a rate may have been in force since the last start: pauses are longer as well
-                                      (SHAPING.md) */
-    bool is_shaped;                /* since the last start, other things than the pages may decide where joints go */
+    bool is_slow;                  /* since the last start a rate may be in force; pauses are then longer (SHAPING.md) */
+    bool is_shaped;                /* since the last start something other than the pages may decide where joints go */
     bool is_playing;               /* by the console's reports */
     bool is_starting;              /* the program has not printed yet */
     bool is_searching;             /* `servos find` was typed and its result is not printed yet */
@@ -62,7 +60,7 @@ static bool may_move(const char *line)
     return false;
 }
 
-/* Returns whether other things than the pages may decide where joints go after this line. */
+/* Returns whether something other than the pages may decide where joints go after this line. */
 static bool may_shape(const char *line)
 {
     static const char *const words[] = {"amplitude", "blend", "drive", "layer", "aim", "swing", "settings", "remote"};
@@ -222,8 +220,7 @@ static void must_not_leap(uint8_t id, uint16_t goal)
     const bool goes_on = joint->goal_tick > session.boot_tick && since <= 2;
     if (goes_on && long_ago(session.late_tick, SECOND)) {
         const int most = STEP_MAX * (int)(since == 0 ? 1 : since);
-        const bool waits = session.has_deaf && session.latency != 0;   /* the REG WRITEs for one tick then take
-                                                                          several ticks */
+        const bool waits = session.has_deaf && session.latency != 0;   /* a tick's REG WRITEs take several ticks */
         if (!rules.pages_are_edited && !waits && abs(goal - joint->goal) > most) {
             session_fail("no goal leaps", "servo %u from %u to %u within %u ticks", id, joint->goal, goal, since);
         }

@@ -12,8 +12,7 @@
 #include "servo_fault.h"
 
 #define SETTLED 16u                /* ticks from the line that names a page until its slopes are set */
-#define WRONG_MOST 48u             /* goals: the line that names the next page may come late; a poll of 31 servos
-                                      takes 31 ticks */
+#define WRONG_MOST 48u             /* goals: the line of the next page may be late; polling 31 servos takes 31 ticks */
 #define PAGE_CHAIN 16u             /* pages that a layer plays in a chain */
 enum { CW_SLOPE_AT = 28, CCW_SLOPE_AT = 29, COMPLIANCE_AT = 32, NEXT_AT = 25 };
 
