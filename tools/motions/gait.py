@@ -30,36 +30,36 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 @dataclass(frozen=True)
 class Gait:
-    """One way of going. mm and degrees; ticks of 1/128 s."""
+    """One kind of gait. mm and degrees; ticks of 1/128 s."""
 
-    ticks: int = 10  # from pose to pose
-    accel: int = 3  # ACCEL_TIME of its pages
+    ticks: int = 10  # between two poses
+    accel: int = 3  # ACCEL_TIME of the pages
     slope: int = 5  # compliance of the legs
-    hip_slope: int = 5  # of the hips' pitch, on which the trunk stands: stiff
-    ankle_slope: int = 5  # of the ankles' pitch: soft, soles find the floor where zeros are wrong
-    roll_slope: int = 5  # of hips and ankles to the side: stiff where the robot stands on one foot for long
-    stride: float = 0.0  # a foot is this far before and behind its middle
-    side: float = 0.0  # the same to the right
-    turn: float = 0.0  # the same as an angle: the body turns to the right
+    hip_slope: int = 5  # of the hips' pitch, which carries the trunk: stiff
+    ankle_slope: int = 5  # of the ankles' pitch: soft, so that soles find the floor despite wrong zeros
+    roll_slope: int = 5  # of the roll of hips and ankles: stiff where the robot stands on one foot for long
+    stride: float = 0.0  # a foot moves this far to the front and back of its middle
+    side: float = 0.0  # likewise, to the right
+    turn: float = 0.0  # likewise, as an angle: the body turns to the right
     sway: float = 20.0  # of the body, to either side
-    sway_lead: float = 0.0  # cycles that the sway is ahead of the feet
-    step_lead: float = 0.0  # cycles that the feet's way is ahead of the middle of the four poses
-    swing: float = 0.4  # part of the cycle that a foot is in the air
+    sway_lead: float = 0.0  # lead of the sway over the feet, in cycles
+    step_lead: float = 0.0  # lead of the feet over the middle of the four poses, in cycles
+    swing: float = 0.4  # fraction of the cycle that a foot is in the air
     lift: float = 15.0
-    square: float = 0.7  # shape of the lift: 0 a plateau, 1 a sine's square
-    height: float = 138.0  # hip above ankle
-    lean: float = 0.0  # of the body, to the front
-    ahead: float = 0.0  # of the feet before the hips
-    apart: float = 0.0  # of the feet, beyond the hips' distance
-    spread: float = 5.0  # of the standing leg's hip while it stands alone
+    square: float = 0.7  # shape of the lift: 0 is a plateau, 1 a squared sine
+    height: float = 138.0  # of the hip above the ankle
+    lean: float = 0.0  # of the body, forward
+    ahead: float = 0.0  # feet in front of the hips
+    apart: float = 0.0  # feet, in addition to the distance of the hips
+    spread: float = 5.0  # of the supporting leg's hip while it stands alone
     toes: float = 0.0  # up, in the air
-    arms: float = 0.4  # degrees of an arm for each mm of the other side's foot
-    brace: float = 0.5  # of the stride: at a stop the feet stand this much further on
-    crouch: int = 0  # ticks in which a start first comes down to the gait's height; 0: on the way into the first step
+    arms: float = 0.4  # degrees of an arm per mm of the opposite foot
+    brace: float = 0.5  # fraction of the stride: at a stop the feet are this much further forward
+    crouch: int = 0  # ticks in which a start first lowers the body to the gait's height; 0: during the first step
 
     @property
     def slopes(self):
-        """{joints, as the text format names them: compliance}."""
+        """{joints, as in the text format: compliance}."""
         return {
             "7..8": self.slope,
             "9..10": self.roll_slope,
@@ -71,14 +71,14 @@ class Gait:
 
 
 READY_ARM = {1: 12.0, 3: 12.0, 5: -20.0}  # shoulder swing, lift, elbow
-KICK_SWAY = 39.0  # on one leg for long: the body right above the foot
-KICK_LAND = 20.0  # the foot comes down further inward, where the body is on its way to
-KICK_SPREAD = 6.0  # what the hip of that leg gives way under the load
-KICK_ARMS_OUT = 15.0  # degrees: hands pass beside hips and knees
+KICK_SWAY = 39.0  # on one leg for long: the body exactly above the foot
+KICK_LAND = 20.0  # the foot lands further inward, where the body is going
+KICK_SPREAD = 6.0  # how far the hip of that leg yields under the load
+KICK_ARMS_OUT = 15.0  # degrees; lets the hands pass hips and knees
 
 
 def numbers():
-    """{name: Gait} of gait.json."""
+    """Reads {name: Gait} from gait.json."""
     return {name: Gait(**values) for name, values in json.loads((HERE / "gait.json").read_text()).items()}
 
 
@@ -88,8 +88,8 @@ def arm(side, swing=0.0, out=0.0):
 
 
 def stand(gait, sway=0.0, right=None, left=None, arms=(0.0, 0.0), arms_out=0.0):
-    """Positions of all joints: feet side by side, the body `sway` mm to the left; right, left: what differs of a foot. arms: degrees
-    that they swing forward; arms_out: that they are lifted to the side."""
+    """Positions of all joints: feet side by side, the body `sway` mm to the left. right, left: changes of that foot. arms: degrees forward.
+    arms_out: degrees to the side."""
     row = {}
     for side, change, swing in ((1, right, arms[0]), (-1, left, arms[1])):
         foot = Foot(gait.ahead, -side * gait.apart / 2 - sway, height=gait.height)
@@ -102,7 +102,7 @@ def mirrored(row):
 
 
 def way(gait, phase):
-    """Where a foot is in its cycle, which begins in the middle of its time in the air: (-1 behind .. 1 ahead, 0 down .. 1 up)."""
+    """Place of a foot in its cycle, which begins in the middle of the air phase: (-1 back .. 1 front, 0 down .. 1 up)."""
     phase = (phase + 0.5) % 1 - 0.5
     if abs(phase) < gait.swing / 2:
         part = phase / gait.swing + 0.5
@@ -111,11 +111,11 @@ def way(gait, phase):
 
 
 def foot(gait, side, phase, sway):
-    """One foot at a phase of its own cycle."""
+    """Returns one foot at a phase of its own cycle."""
     ahead, up = way(gait, phase + gait.step_lead)
     other_up = way(gait, phase + gait.step_lead + 0.5)[1]
-    yaw = -gait.turn * ahead  # to the left, of the foot below the turning body
-    curve = side * HIP_MM * sin(radians(yaw))  # the outer foot goes further
+    yaw = -gait.turn * ahead  # to the left, relative to the turning body
+    curve = side * HIP_MM * sin(radians(yaw))  # the outer foot travels further
     return Foot(
         gait.ahead + gait.stride * ahead + curve,
         -side * gait.apart / 2 - gait.side * ahead - sway,
@@ -127,7 +127,7 @@ def foot(gait, side, phase, sway):
 
 
 def cycle(gait):
-    """The eight poses."""
+    """Returns the eight poses."""
     rows = []
     for number in range(POSES):
         phase = (number + 0.5) / POSES - 0.25
@@ -141,12 +141,13 @@ def cycle(gait):
 
 
 def half(gait):
-    """The same gait with half its ways."""
+    """The same gait with half the stride, side step and turn."""
     return replace(gait, stride=gait.stride / 2, side=gait.side / 2, turn=gait.turn / 2)
 
 
 def start(gait, ready, first=-1):
-    """From ready, half a way: onto one foot, the other (`first`: +1 right, -1 left) goes; ends where that half of the cycle ends."""
+    """From ready with half a step: onto one foot, while the other one (`first`: +1 right, -1 left) moves. Ends at the end of that half
+    cycle."""
     whole, part = cycle(gait), cycle(half(gait))
     at = 0 if first > 0 else 4
     down = [(gait.crouch, stand(gait))] if gait.crouch else []
@@ -161,8 +162,8 @@ def start(gait, ready, first=-1):
 
 
 def end(gait, ready):
-    """From where the left foot's half ends: the right foot closes up. Both end up further on than under a body that stands, and
-    so hold up what is still on its way; then it comes up to ready."""
+    """From the end of the left foot's half cycle: the right foot closes up. Both feet end further forward than under a standing body, to
+    catch the body's remaining motion. Then the body rises to ready."""
     whole, braced = cycle(gait), replace(gait, ahead=gait.ahead + gait.brace * gait.stride)
     part = cycle(half(braced))
     return [
@@ -175,8 +176,8 @@ def end(gait, ready):
 
 
 def kick(ready_gait):
-    """With the right foot: weight onto the left one, back, forward fast, and down again. Most falls were to the left, and began to
-    the right: the hip gave way, the right foot met the floor too early and pushed the body over the other one."""
+    """A kick with the right foot: weight onto the left one, back, fast forward, and down again. Most falls were to the left but began to
+    the right: the hip gave way, the right foot touched the floor too early and pushed the body over the other one."""
 
     def leg(x, lift):
         return stand(
@@ -202,7 +203,7 @@ def kick(ready_gait):
 
 @dataclass(frozen=True)
 class Sheet:
-    """One page of walk.m512: number, name, statements ("; " between them), what it is, steps (ticks, positions)."""
+    """One page of walk.m512: number, name, statements (separated by "; "), description, steps (ticks, positions)."""
 
     number: int
     name: str
@@ -212,7 +213,7 @@ class Sheet:
     gait: Gait
 
     def other(self, number, name, words, remark):
-        """The page whose steps are the mirror image of this one's."""
+        """The page with the mirror image of these steps."""
         return replace(self, number=number, name=name, words=words, remark=remark, steps=tuple((ticks, mirrored(row)) for ticks, row in self.steps))
 
 
@@ -221,8 +222,8 @@ def beats(gait, rows):
 
 
 def walking(gait, turn, ready):
-    """The walk, and its curves: partners of its two pages, and pages of their own."""
-    loop, curve = cycle(gait), cycle(replace(gait, turn=turn, stride=0.94 * gait.stride))  # the outer foot's way is longer
+    """The walk and its curves: partners of its two pages, and pages of their own."""
+    loop, curve = cycle(gait), cycle(replace(gait, turn=turn, stride=0.94 * gait.stride))  # the outer foot travels further
     right = Sheet(
         21,
         "walk_r",
@@ -277,8 +278,8 @@ def backing(gait, ready):
 
 
 def aside(gait, ready, numbers_of, names, keys, remark):
-    """A way that has a right and a left: start, loop of two pages, end, and the same mirrored. Begun by the foot on its side.
-    numbers_of, names, keys: (right, left); the pages are name, name_a, name_b, name_end."""
+    """A gait with a right and a left version: start, loop of two pages, end, and their mirror images. The foot on that side moves first.
+    numbers_of, names, keys: (right, left). The pages are name, name_a, name_b, name_end."""
     loop = cycle(gait)
     steps = [
         start(gait, ready, 1),
@@ -310,7 +311,7 @@ def aside(gait, ready, numbers_of, names, keys, remark):
 
 
 def sheets(gaits):
-    """All pages, by number."""
+    """All pages, in order of number."""
     ready = stand(gaits["ready"])
     kick_r = Sheet(
         36,
@@ -346,7 +347,7 @@ pose ready | """
 
 
 def poses(gait):
-    """Poses of the legs that the hand-written motions use."""
+    """Leg poses for the hand-written motions."""
     low, deep, seat = (Gait(height=height) for height in (120.0, 115.0, 101.5))  # upright, feet below the hips
     return [
         ("left", stand(gait, 26.0), "the body swayed to the left, feet where they are; `mirror @left` is the other side"),

@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""The legs of the robot of these motions, as geometry: where a foot is, and which joint positions bring it there.
+"""Leg geometry of the robot of these motions: foot positions and the joint positions that reach them.
 
-Lengths come from the body (../body/humanoid.xml). Joints from the hip down: yaw, roll, pitch, knee (pitch), ankle pitch,
-ankle roll. At 512 the knee stands behind the line from hip to ankle, so the angles of thigh and shank are not those of their
-servos: SET is the difference.
+Lengths come from the body (../body/humanoid.xml). Joints from the hip down: yaw, roll, pitch, knee (pitch), ankle pitch, ankle roll. At 512
+the knee is behind the line from hip to ankle, so the angles of thigh and shank differ from those of their servos by SET.
 
-Coordinates of the body, in mm: x forward, y to the left, z down; a foot is told by its ankle, seen from where its own hip
-stands above the ground, with its yaw in degrees, to the left. Angles of joints are told as for the right leg. The left leg is
-the mirror image.
+Coordinates of the body, in mm: x forward, y to the left, z down. The position of a foot is that of its ankle, relative to the point on the
+ground below its hip; its yaw is in degrees to the left. Joint angles are those of the right leg. The left leg is the mirror image.
 """
 
 from dataclasses import dataclass
@@ -18,19 +16,19 @@ from body.description import load
 LEG = load("humanoid").leg("right")
 THIGH_MM, SHANK_MM = LEG.thigh_mm, LEG.shank_mm
 HIP_MM = LEG.hip_to_side  # from the middle of the body to the hip
-SET = degrees(atan2(LEG.thigh_back, LEG.thigh_down))  # of the thigh; the shank's has the same size
+SET = degrees(atan2(LEG.thigh_back, LEG.thigh_down))  # of the thigh; the shank's is as large
 UNITS_PER_DEGREE = 1024 / 300
 CENTRE = 512
 
-# IDs of the right leg; the left leg's are one higher. Right leg, above 512: yaw turns the toes outward, roll spreads the leg
-# (the ankle's turns the sole the same way round), pitch brings forward what hangs below: thigh, shank, toes.
+# IDs of the right leg; those of the left leg are one higher. Right leg, above 512: yaw turns the toes outward, roll spreads the leg (ankle
+# roll turns the sole in the same direction), pitch moves the link below forward: thigh, shank, toes.
 YAW, ROLL, HIP, KNEE, ANKLE, ANKLE_ROLL = 7, 9, 11, 13, 15, 17
 
 
 @dataclass(frozen=True)
 class Foot:
-    """A foot below its hip. x, y, yaw: to the front, to the left, turned to the left. height: hip above the ankle. toes: degrees
-    that they point up. spread: degrees that the hip's servo turns the leg outward beyond that, to hold the body up on one leg."""
+    """A foot below its hip. x, y, yaw: forward, left, turned left. height: hip above the ankle. toes: degrees up. spread: extra degrees of
+    the hip servo outward, to hold the body up on one leg."""
 
     x: float = 0.0
     y: float = 0.0
@@ -41,14 +39,14 @@ class Foot:
 
 
 def units(angle: float) -> int:
-    """Degrees as servo units, rounded away from 0 at the half, so that left and right stay mirrored."""
+    """Converts degrees to servo units. Halves are rounded away from 0, so that left and right stay mirrored."""
     size = int(abs(angle) * UNITS_PER_DEGREE + 0.5)
     return size if angle >= 0 else -size
 
 
 def reach(foot: Foot, side: int, lean: float = 0.0):
-    """{ID: position} of one leg; side +1 right, -1 left; lean: degrees that the body leans forward above the legs.
-    ValueError: the foot is out of reach."""
+    """{ID: position} of one leg. side: +1 right, -1 left; lean: degrees that the body leans forward above the legs. ValueError: the foot is
+    out of reach."""
     turn = radians(foot.yaw)
     forward = foot.x * cos(turn) + foot.y * sin(turn)
     outward = -side * (foot.y * cos(turn) - foot.x * sin(turn))
@@ -57,8 +55,8 @@ def reach(foot: Foot, side: int, lean: float = 0.0):
     length = hypot(forward, down)
     if length > THIGH_MM + SHANK_MM:
         raise ValueError(f"{foot} is out of reach")
-    bend = degrees(acos(length / (THIGH_MM + SHANK_MM)))  # thigh and shank are equal: half the angle between them
-    line = degrees(atan2(forward, down))  # of the line from hip to ankle
+    bend = degrees(acos(length / (THIGH_MM + SHANK_MM)))  # thigh and shank are equally long: half the angle between them
+    line = degrees(atan2(forward, down))  # angle of the line from hip to ankle
     thigh, shank = units(line + bend + SET), units(line - bend - SET)
     angles = {
         YAW: -side * units(foot.yaw),
@@ -72,8 +70,8 @@ def reach(foot: Foot, side: int, lean: float = 0.0):
 
 
 def foot_of(position, side: int) -> Foot:
-    """The way back: where the positions of one leg put its ankle, for a body that stands upright ({ID: position} of at least that
-    leg). toes: against that body's floor."""
+    """Inverse of reach(), for an upright body: the foot from the positions of one leg ({ID: position} of at least that leg). toes: against
+    the floor of that body."""
     angle = {joint: side * (position[joint + (side < 0)] - CENTRE) / UNITS_PER_DEGREE for joint in (YAW, ROLL, HIP, KNEE, ANKLE)}
     thigh = radians(angle[HIP] - SET)
     shank = radians(angle[HIP] + angle[KNEE] + SET)

@@ -24,7 +24,7 @@ from motions.search import FIRST_PAGE, UP, image_of
 
 LEAN = 3.0  # degrees
 MOST_NEWTON_S = 0.9
-HALVINGS = 5  # of 0..MOST_NEWTON_S: to 0.03 N s
+HALVINGS = 5  # of 0..MOST_NEWTON_S: resolution 0.03 N s
 MOMENTS_S = (3.0, 3.2)
 FALLS_WITHIN_S = 2.3
 LEFT = 4
@@ -33,8 +33,8 @@ FORWARD, BACKWARDS = 0, 180  # towards, in degrees
 
 @dataclass(frozen=True)
 class Case:
-    """A body and a way. keys: of the remote, besides those that it goes with; differ: degrees that the right ankle is off more than
-    the left one."""
+    """A body and a manner of going. keys: of the remote, in addition to those that start the gait. differ: degrees between the errors of
+    the right and the left ankle."""
 
     name: str
     body: Variation = NOMINAL
@@ -53,7 +53,7 @@ OF_THE_WALK = [Case("curve", keys=((1.0, LEFT),))]
 
 
 def leaning(body, degrees, differ=0.0):
-    """The same body, its ankles off so that it leans forward by this much."""
+    """The same body with its ankles off, so that it leans forward by this much."""
     right, left = degrees + differ / 2, degrees - differ / 2
     zeros = dict(body.zero_units)
     zeros[15] = zeros.get(15, 0.0) - right * DEGREE
@@ -67,8 +67,8 @@ def stands(image, page, body, keys, at_s, newton_s, towards):
 
 
 def least_push(item):
-    """N s: between what it stands and what fells it. A body that stands a push is taken to stand all smaller ones.
-    item: (image, page, body, keys, at_s, towards)"""
+    """The push in N s between one that it survives and one that fells it. Assumes that a body that survives a push survives all smaller
+    ones. item: (image, page, body, keys, at_s, towards)"""
     image, page, body, keys, at_s, towards = item
     if not stands(image, page, body, keys, at_s, 0.0, towards):
         return 0.0
@@ -83,7 +83,7 @@ def least_push(item):
 
 
 def items_of(kind, gaits):
-    """[(case, direction)], and for each of them an item for every moment."""
+    """[(case, direction)], and one item for each of them and each moment."""
     image, page = image_of(gaits), FIRST_PAGE[kind]
     first = ((0, UP),) if kind == "walk" else ()
     asked = [(case, towards) for case in CASES + (OF_THE_WALK if kind == "walk" else []) for towards in (FORWARD, BACKWARDS)]

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""What the library's motions promise in physics: on the nominal body in figures, on bodies by chance that they end as they should.
+"""What the library's motions promise in physics: figures on the nominal body, and a good end on random bodies.
 
-`tools/prove physics` asks them all; a search for better motions asks those that it works on (`bodies()`, `nominal()`).
-The bodies of `walk` are pushed, tilted, slippery, off their zeros (../body/src/body/chance.py); so are all others.
+`tools/prove physics` checks all promises.
+All bodies are tilted, slippery and off their zeros (../body/src/body/chance.py). They are also pushed, except on the floor.
 """
 
 import itertools
@@ -29,13 +29,13 @@ NOTHING = bytes(IMAGE_BYTES)  # an image without motions
 
 @dataclass(frozen=True)
 class Stands:
-    """A motion that ends on the robot's feet on at least `share` of the bodies."""
+    """A motion that ends on the robot's feet on at least the fraction `share` of the bodies."""
 
     page: str
     seconds: float
     keys: tuple = ()  # of the remote: (second, code)
-    how: str = ""  # what tells it from another promise of the same page
-    lie: str = None  # begins on its "face" or "back", arms by chance
+    how: str = ""  # distinguishes two promises of the same page
+    lie: str = None  # starts on its "face" or "back", with random arms
     floor: bool = False  # goes to the floor on the way
     share: float = 0.99
     bodies: int = 200  # in a whole campaign
@@ -43,20 +43,20 @@ class Stands:
 
 @dataclass(frozen=True)
 class Goes:
-    """Figures of a motion on the nominal body at 11.1 V: (least, most), None: any."""
+    """Figures of a motion on the nominal body at 11.1 V: (lowest, highest), None: no limit."""
 
     page: str
     seconds: float
     keys: tuple = ()
     forward_mm_s: tuple = (None, None)
     turn_deg_s: tuple = (None, None)
-    degrees_per_metre: float = None  # heading, at most
+    degrees_per_metre: float = None  # heading error, upper limit
     drift_mm_a_turn: float = None
     sideways_mm_s: tuple = (None, None)  # to the left
 
 
 def round_trip(code, turn_codes, seconds):
-    """A remote that walks, turns now to one side and now to the other, and stops in time."""
+    """A remote that walks, turns alternately to each side, and stops in time."""
     keys, at, turns = [], 0.0, itertools.cycle(turn_codes)
     while at < seconds - 8:
         keys += [(at, code), (at + 5, next(turns)), (at + 7, code)]
@@ -65,7 +65,7 @@ def round_trip(code, turn_codes, seconds):
 
 
 def a_minute(page, code, bodies):
-    """One way of going for a minute, and a stop."""
+    """One gait for a minute, then a stop."""
     return Stands(page, 60, ((0, code), (56, STOP)), bodies=bodies)
 
 
@@ -99,21 +99,21 @@ GOES = [
     Goes("back", 12, ((0, DOWN),), forward_mm_s=(None, -60)),
     Goes("right", 12, ((0, RIGHT),), turn_deg_s=(None, -30), drift_mm_a_turn=50),
     Goes("left", 12, ((0, LEFT),), turn_deg_s=(30, None), drift_mm_a_turn=50),
-    # A cycle to the side takes 64 ticks: 26 mm a step and less than 9 forward. A curve's takes 56: 20 degrees a cycle.
+    # A cycle to the side takes 64 ticks: 26 mm a step and less than 9 forward. A cycle of a curve takes 56: 20 degrees a cycle.
     Goes("side_r", 12, ((0, RIGHT + 16),), sideways_mm_s=(None, -53), forward_mm_s=(-17, 17)),
     Goes("side_l", 12, ((0, LEFT + 16),), sideways_mm_s=(53, None), forward_mm_s=(-17, 17)),
     Goes("turn_r", 12, turn_deg_s=(None, -46)),
     Goes("turn_l", 12, turn_deg_s=(46, None)),
 ]
 BEARS_S = 600  # of walking
-BEARS_NM = 1.5 * 11.1 / 12 / 3  # mean torque of a servo: a third of what stalls it at 11.1 V
+BEARS_NM = 1.5 * 11.1 / 12 / 3  # mean torque of a servo: a third of its stall torque at 11.1 V
 EASES_UNITS_PER_TICK = 0.9 * 59 * 11.1 / 12 * 6 / 128 * 1024 / 300 + 1  # 90 % of an AX-12's speed; goals are whole units
 BEARS_DEGREES_C = 70  # the limit in an AX-12's address 11
 EASY = ("ready", "bow", "wave", "clap", "cheer", "sit", "stand")  # a sample of these must never fail
 
 
 def number_of(library, page):
-    """The number of a page by its name. KeyError: the library has none."""
+    """Number of a page by its name. KeyError: the library has no such page."""
     for number, made in library.items():
         if number and made.title == page:
             return number
@@ -126,9 +126,9 @@ def body_of(promise, seed):
 
 
 def lying_by_chance(promise, seed):
-    """{servo: position} in which this body lies on its face or back: each arm anywhere between its stops, each on its own; the legs
-    anywhere between straight and `ready`, each joint off by up to 9 degrees. Not taken: poses in which limbs go through each
-    other, and those that do not lie: after a second with torque on the trunk is tilted by more than LYING_DEGREES."""
+    """{servo: position} in which this body lies on its face or back: each arm joint anywhere between its stops, independently; the legs
+    anywhere between straight and `ready`, each joint off by up to 9 degrees. Rejects poses in which links overlap, or in which the robot
+    does not lie: after a second with torque on, the trunk is tilted by more than LYING_DEGREES."""
     chance, body = random.Random(f"lying {promise.lie} {seed}"), body_of(promise, seed)
     for _ in range(1000):
         pose = _arms_and_legs(chance)
@@ -155,19 +155,19 @@ def _arms_and_legs(chance):
 
 
 def _through_itself(physics):
-    """Whether links of the robot are more than 2 mm inside each other; the floor does not count."""
+    """Whether links of the robot overlap by more than 2 mm; the floor does not count."""
     floor = physics.model.geom("floor").id
     return any(contact.dist < -0.002 and floor not in (contact.geom1, contact.geom2) for contact in physics.data.contact[: physics.data.ncon])
 
 
 def _lies(physics, side):
-    """The trunk's front, or back, points down."""
+    """Whether the trunk's front, or back, points down."""
     front = physics.data.xmat[physics.root].reshape(3, 3)[2, 0]
     return (-front if side == "face" else front) > math.cos(math.radians(LYING_DEGREES))
 
 
 def stands(image, number, promise, seed):
-    """One body: (kept, what happened)."""
+    """Tries one body: (promise kept, what happened)."""
     outcome = try_motion(
         image,
         number,
@@ -183,7 +183,7 @@ def stands(image, number, promise, seed):
 
 
 def goes(image, number, promise):
-    """The nominal body: (what is missing, what happened)."""
+    """Tries the nominal body: (failures, what happened)."""
     outcome = try_motion(image, number, promise.seconds, robot=ROBOT, keys=promise.keys)
     missing = [] if outcome.fell_s is None else ["it falls"]
     for name in ("forward_mm_s", "turn_deg_s", "sideways_mm_s"):
@@ -203,7 +203,7 @@ def goes(image, number, promise):
 
 
 def eases(image, number, promise):
-    """The nominal body: (what its servos do that they should not, what happened). Slow enough, and not too heavy on average."""
+    """Tries the nominal body: (excesses of its servos, what happened). Checks the speed and the mean torque."""
     outcome = try_motion(image, number, promise.seconds, robot=ROBOT, keys=promise.keys, lie=promise.lie, falls=not promise.floor)
     missing = [f"mean torque {outcome.most_torque_nm:.2f} N m"] if outcome.most_torque_nm >= BEARS_NM else []
     if outcome.most_units_per_tick > EASES_UNITS_PER_TICK:
@@ -212,7 +212,7 @@ def eases(image, number, promise):
 
 
 def bears(image, number):
-    """Ten minutes of walking on the nominal body: (what is missing, what happened)."""
+    """Ten minutes of walking on the nominal body: (failures, what happened)."""
     outcome = try_motion(image, number, BEARS_S, robot=ROBOT, keys=((0, UP),))
     hottest = max(load.most_degrees_c for load in outcome.loads.values())
     missing = [] if outcome.fell_s is None else [f"it falls after {outcome.fell_s:.0f} s"]

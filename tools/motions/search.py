@@ -28,7 +28,7 @@ from motions import gait
 
 HERE = pathlib.Path(__file__).resolve().parent
 
-# What may vary, and between what.
+# Numbers that may vary, and their ranges.
 RANGES = {
     "stride": (-50, 50),
     "side": (-5, 40),
@@ -52,13 +52,13 @@ FIRST_PAGE = {"walk": 20, "back": 27, "spin": 32, "side": 34}
 TARGETS = {"walk": 165.0, "back": 80.0, "spin": 36.0, "side": 60.0}  # mm/s, degrees/s
 SECONDS, STOP_S, NOMINAL_S = 8.0, 5.8, 6.0
 PUSHES = 2
-ZEROS = 1.7  # times as wrong as on a body by chance
-FALL = 100.0  # what a fall at once costs, in degrees of tilt
-TILT_RANK = 0.97  # of the tilts of a trial, the one that counts
+ZEROS = 1.7  # factor on the zero errors of a random body
+FALL = 100.0  # cost of an immediate fall, in degrees of tilt
+TILT_RANK = 0.97  # quantile of the tilts of a trial that counts
 MOST_UNITS_PER_TICK = 8  # of a single goal, in whole units; the mean is 90 % of what an AX-12 does at 11.1 V
 MOST_NM = 0.4
 UP, RIGHT = 1, 8
-KEYS = {"walk": ((0, UP), (3, RIGHT), (5.2, UP))}  # the others go on by themselves
+KEYS = {"walk": ((0, UP), (3, RIGHT), (5.2, UP))}  # the others continue without keys
 
 
 def image_of(gaits):
@@ -67,7 +67,7 @@ def image_of(gaits):
 
 
 def short_of(kind, outcome, target):
-    """What the nominal body lacks, in degrees of tilt that weigh as much."""
+    """Cost of the nominal body's deficits, in degrees of tilt."""
     ways = {"walk": outcome.forward_mm_s, "back": -outcome.forward_mm_s, "spin": -outcome.turn_deg_s, "side": -outcome.sideways_mm_s}
     astray = {
         "walk": 3 * abs(outcome.turn_deg_s),
@@ -84,7 +84,7 @@ def short_of(kind, outcome, target):
 
 
 def shaken(outcome):
-    """How bad it was for a body, in degrees of tilt."""
+    """Cost of a body's trial, in degrees of tilt."""
     if outcome.fell_s is not None:
         return FALL * (1 - 0.4 * min(1.0, outcome.fell_s / SECONDS))
     tilts = sorted(math.degrees(math.acos(min(1.0, look.upright))) for look in outcome.track)
@@ -97,7 +97,7 @@ def worse_body(robot, seed):
 
 
 def trial(work):
-    """(cost, the bodies that fell) of one set of numbers: (kind, gaits, target, seeds)."""
+    """(cost, bodies that fell) of one set of numbers: (kind, gaits, target, seeds)."""
     kind, gaits, target, seeds = work
     robot = load("humanoid")
     try:
@@ -105,7 +105,7 @@ def trial(work):
     except ValueError:  # a foot is out of reach
         return 4 * FALL, ()
     outcome = try_motion(image, FIRST_PAGE[kind], NOMINAL_S, robot)
-    if outcome.fell_s is not None:  # not worth the others
+    if outcome.fell_s is not None:  # skips the other bodies
         return 3 * FALL, ()
     total, fell = 0.0, []
     for seed in seeds:
@@ -117,7 +117,7 @@ def trial(work):
 
 
 class Numbers:
-    """Between a set of numbers and the vector that the optimiser moves: each number a logistic of its place in its range."""
+    """Converts between a set of numbers and the optimiser's vector: each number is a logistic function within its range."""
 
     def __init__(self, kind, start):
         self.start = start
@@ -137,8 +137,8 @@ def write(gaits, path):
 
 
 def search(options):
-    """Writes options.output whenever it has found better numbers than those it began with; returns the best. Numbers are compared on
-    the same bodies: when these change, the best so far is tried again."""
+    """Writes options.output whenever it finds better numbers than those at the start. Returns the best. Compares numbers on the same
+    bodies: when these change, it tries the best so far again."""
     import cma
 
     gaits = gait.numbers()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The least push: found where a body of the test begins to fall; and the body that leans does lean, to the side that is told."""
+"""The least push is where a body of the test begins to fall; and the leaning body does lean, to the stated side."""
 
 import math
 import types
@@ -13,7 +13,7 @@ from motions import gait, margins
 
 @pytest.fixture(name="felled_by")
 def _felled_by(monkeypatch):
-    """Bodies that fall by a push of this size, 0: without one. Returns what was tried, as it is tried."""
+    """Makes bodies fall at a push of this size (0: without one). Returns a list that records each trial."""
 
     def set_up(newton_s):
         tried = []

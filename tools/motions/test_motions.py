@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The motion library is sound: as pages, as poses of a body, and as movements that servos can follow. Bounds are told in
-README.md. That the shipped Play image plays it all is shown by tests/sim/test_motions.py."""
+"""The motion library is sound: as pages, as poses of a body, and as movements that servos can follow. README.md gives the bounds.
+tests/sim/test_motions.py shows that the shipped Play image plays all of it."""
 
 import os
 import pathlib
@@ -24,7 +24,7 @@ JOINTS = range(1, 19)
 READY = gait.stand(gait.numbers()["ready"])
 LIBRARY = load(HERE / "motions.m512")
 ALL_PAGES = {number: page for number, page in LIBRARY.items() if number and page.is_playable}
-# Pages that are laid over others use joints of their own.
+# Pages played as layers over others, with joints of their own.
 LAYERS = {"wave_over": (1, 3, 5), "look": (19, 20), "look_ahead": (19, 20)}
 PAGES = {number: page for number, page in ALL_PAGES.items() if page.title not in LAYERS}
 NUMBER = {page.title: number for number, page in PAGES.items()}
@@ -47,7 +47,7 @@ BODY = {  # degrees of the right side, see README.md; the left side is its mirro
 HEAD_TILT = -40, 40
 KEYS = {"U": 1, "D": 2, "L": 4, "R": 8, "1": 16, "2": 32, "3": 64, "4": 128}
 ON_THE_FLOOR = {"pushups", "pushups_do", "pushups_up", "get_up", "up_on_arms", "get_up_back", "up_on_elbows", "up_to_seat", "up_from_seat"}
-LEFT_ALONE = {("get_up", 0): {1, 2}, ("get_up_back", 0): {1, 2, 5, 6}}  # joints that a step does not use: they stay where they are
+LEFT_ALONE = {("get_up", 0): {1, 2}, ("get_up_back", 0): {1, 2, 5, 6}}  # joints that a step does not use; they keep their position
 LEANING = {"bow", "dance_end", "sit"} | ON_THE_FLOOR
 CHAINS = [
     "walk walk_r walk_l walk_r walk_l end_r",
@@ -63,13 +63,13 @@ CHAINS = [
 
 
 def left_of(name):
-    """The page of the left side for one of the right; none: it has none."""
+    """Name of the left page for a right one; None: there is none."""
     left = re.sub("^right|(?<=_)r(?=_|2?$)", lambda side: "left" if side[0] == "right" else "l", name)
     return left if left != name and left in NUMBER else None
 
 
 def pose(page, step):
-    """{joint: position} of those that the step uses."""
+    """{joint: position} of the joints that the step uses."""
     return {joint: page.word(step, joint) for joint in JOINTS if page.word(step, joint) < 1024}
 
 
@@ -94,7 +94,7 @@ def body_degrees(joint, position):
 
 
 def played(names):
-    """(page, step, positions) of every tick in which something is sent, page after page from the pose `ready`."""
+    """(page, step, positions) of every tick with output, page after page from the pose `ready`."""
     positions = [512] * 31
     for joint, position in READY.items():
         positions[joint] = position
@@ -150,7 +150,7 @@ def test_a_layer_uses_its_own_joints_alone_and_keeps_to_what_they_can(name):
 
 
 def test_no_page_is_without_a_way_to_it_and_every_stop_ends():
-    """Each page has a code, or a page leads to it; from any page the exit links come to an end."""
+    """Each page has a code or a page that leads to it. From any page the exit links come to an end."""
     led_to = set().union(*(links(page) for page in PAGES.values()))
     for number, page in PAGES.items():
         assert page.code or number in led_to, page.title
@@ -172,7 +172,7 @@ def test_walk_is_what_the_generator_makes():
 
 
 def test_table_of_the_readme_is_true():
-    """Number, name, keys and links of every page, as the table says them."""
+    """Number, name, keys and links of every page are as in the table."""
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in (HERE / "README.md").read_text().splitlines()]
     layers = {row[1].strip("`"): (int(row[0]), [int(joint) for joint in row[2].split(",")]) for row in rows if len(row) == 4 and row[0].isdigit()}
     assert layers == {name: (LIBRARY.find(name), list(joints)) for name, joints in LAYERS.items()}
@@ -198,7 +198,7 @@ def test_poses_keep_within_servo_and_body(name):
 
 
 def test_poses_of_both_sides_are_mirror_images():
-    """ready and what does the same with both sides is its own mirror image; what has a side has a page or step for each."""
+    """Pages that do the same on both sides, such as ready, are their own mirror image. Others have a page or step for each side."""
     for name in ("ready", "bow", "clap", "cheer", "sit", "stand", *sorted(ON_THE_FLOOR), "dance", "dance_arms", "dance_end"):
         page = PAGES[NUMBER[name]]
         assert all(mirrored(pose(page, step)) == pose(page, step) for step in range(page.steps)), name
@@ -218,8 +218,8 @@ def test_pages_of_the_other_side_are_mirror_images(name):
 
 
 def over_soles(row):
-    """Where the weight is in a symmetric pose that stands on its right sole's plane: mm that it is ahead of the rearmost and
-    behind the foremost corner of the soles."""
+    """Position of the centre of mass in a symmetric pose on the plane of its right sole: mm in front of the rearmost corner of the soles,
+    and mm behind the foremost."""
     robot = load_body("humanoid")
     found = places(robot, row)
     origin, turned = found["right_foot"]
@@ -234,7 +234,7 @@ def over_soles(row):
 
 
 def hand_above_floor(row):
-    """mm that the right hand is above the plane of the right sole."""
+    """Height of the right hand above the plane of the right sole, in mm."""
     robot = load_body("humanoid")
     found = places(robot, row)
     (sole, flat), (elbow, turned) = found["right_foot"], found["right_forearm"]
@@ -253,7 +253,7 @@ def test_hands_reach_the_floor_while_the_weight_is_above_the_feet_already(name, 
 
 @pytest.mark.parametrize("name, first_step", [("pushups_up", 2), ("up_to_seat", 3), ("up_from_seat", 0)])
 def test_the_weight_is_above_the_feet_before_the_hands_leave_the_floor(name, first_step):
-    """From this step on a robot whose zeros, floor and masses are a little off still stands."""
+    """From this step on, a robot whose zeros, floor and masses are a little off still stands."""
     page = PAGES[NUMBER[name]]
     for step in range(first_step, page.steps):
         behind, ahead = over_soles(pose(page, step))
@@ -305,7 +305,7 @@ def mean_speed(before, after, ticks):
 
 @pytest.mark.parametrize("names", CHAINS + [name for name in NUMBER if PAGES[NUMBER[name]].code])
 def test_no_joint_is_asked_more_than_the_servo_has(names):
-    """Goals are whole units: speeds are means of four ticks. `classic` overshoots by its nature, and is not held to this."""
+    """Goals are whole units, so speeds are means of four ticks. `classic` overshoots by design and is exempt."""
     rows = [now for _, _, now in played(names.split())]
     for before, now in zip(rows, rows[4:]):
         assert max(abs(now[joint] - before[joint]) for joint in JOINTS) / 4 <= MOST_UNITS_PER_TICK

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The gait's search: what it writes is better than what it began with. Optimiser and physics are played by the test."""
+"""The search for a gait writes only better numbers than those at the start. The test simulates optimiser and physics."""
 
 import argparse
 import json
@@ -14,7 +14,7 @@ STRIDE = gait.numbers()["walk"].stride
 
 
 class Strategy:
-    """Asks for two sets of numbers a generation, the strides that the test names."""
+    """Asks for two sets of numbers per generation: the strides that the test names."""
 
     strides = []
 
@@ -34,7 +34,7 @@ def _run(monkeypatch, tmp_path):
     monkeypatch.setattr(search.Numbers, "of", lambda self, stride: search.replace(self.start, stride=stride))
 
     def run(strides, cost, keep=1):
-        """cost(stride, bodies) -> (cost, bodies that fell). Returns the stride written, None: nothing."""
+        """cost(stride, bodies) -> (cost, bodies that fell). Returns the stride written; None: nothing was written."""
         Strategy.strides = strides
         monkeypatch.setattr(search, "each", lambda _, items, *rest: [cost(one["walk"].stride, seeds) for _, one, _, seeds in items])
         output = tmp_path / "gait.json"
@@ -67,7 +67,7 @@ def test_the_better_one_is_written(run):
 
 
 def test_luck_on_easy_bodies_does_not_count_on_the_next(run):
-    """20 is best on the first bodies alone; on the next it is worse than 25."""
+    """20 is best only on the first bodies; on the next ones it is worse than 25."""
     first = []
 
     def cost(stride, seeds):
@@ -92,7 +92,7 @@ def test_bodies_that_fell_stay_up_to_half(run):
 
 @pytest.mark.parametrize("kind", list(search.TARGETS))
 def test_the_search_begins_with_the_numbers_that_stand(kind):
-    """A number outside its range would be moved before the search begins."""
+    """A number outside its range would be changed before the search begins."""
     numbers = gait.numbers()[kind]
     space = search.Numbers(kind, numbers)
     assert vars(space.of(space.vector())) == pytest.approx(vars(numbers), abs=0.001)

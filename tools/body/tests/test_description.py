@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The body files say what is known of the robots. Expected values are those of public descriptions (README.md), worked out by
-hand where a pose is asked for."""
+"""The body files match what is known of the robots. Expected values come from public descriptions (README.md), calculated by hand for
+poses."""
 
 import math
 
@@ -25,7 +25,7 @@ RIGHT = {
 
 
 def at(robot, body, positions, root="trunk"):
-    """Where a body's origin is, in mm seen from the root body, with these servo positions."""
+    """Origin of a body in mm, in the frame of the root body, at these servo positions; and MuJoCo's data."""
     model = mujoco.MjModel.from_xml_string(robot.xml())
     data = mujoco.MjData(model)
     for servo, position in positions.items():
@@ -80,7 +80,7 @@ def test_lengths_and_masses_of_the_gp_robot():
     assert at(GP, "right_foot", {}, "right_ankle")[0] == pytest.approx((0, -12.1, 0))
     assert at(GP, "right_upper_arm", {})[0] == pytest.approx((4, -79, -18))
     assert at(GP, "right_forearm", {}, "right_upper_arm")[0] == pytest.approx((18, 0, -57))
-    outside = GP.leg("right").sole  # seen from the ankle's middle; the roll axis is 12.1 further out
+    outside = GP.leg("right").sole  # from the ankle's centre; the roll axis is 12.1 mm further out
     assert (outside[1], outside[0], outside[2] - 12.1, outside[3] - 12.1) == pytest.approx((50.3, -46.7, -25, 36))
     masses = {"trunk": 430, "hip": 66, "thigh": 131, "shank": 21, "ankle": 127, "foot": 30, "shoulder": 12, "upper_arm": 130, "forearm": 30}
     for link, grams in masses.items():
@@ -111,7 +111,7 @@ def test_it_stands_on_its_soles_at_512_and_touches_nothing_else(robot, soles):
     ],
 )
 def test_right_side_goes_the_way_the_table_says_above_512(servo, above_512):
-    """Table "Joints" of the motions' README, right side, for what moves a foot or a hand."""
+    """Table "Joints" of the motions' README, right side, for joints that move a foot or a hand."""
     end = "right_hand" if servo < 7 else "right_foot"
     moved = {servo: 512 + 100 if servo != 13 else 512 - 100}
     model = mujoco.MjModel.from_xml_string(HUMANOID.xml())
@@ -135,7 +135,7 @@ def test_yaw_and_ankles_go_the_way_the_table_says():
     assert toes(7)[:, 0] == pytest.approx((math.cos(angle), -math.sin(angle), 0))  # toes outward: to the right
     assert toes(15)[:, 0] == pytest.approx((math.cos(angle), 0, math.sin(angle)))  # toes up
     hip, ankle = toes(9), toes(17)
-    assert hip == pytest.approx(ankle)  # the same way round as the hip's
+    assert hip == pytest.approx(ankle)  # same direction as the hip
 
 
 @pytest.mark.parametrize("robot", [HUMANOID, GP])
@@ -149,13 +149,13 @@ def test_left_is_the_mirror_image_of_right(robot):
 
 
 def test_a_bent_leg_is_as_long_as_brackets_make_it():
-    """Hip 50, knee 80 degrees: 134 mm from ankle to hip; straight parts of 75 mm would make it 115."""
+    """Hip 50, knee 80 degrees: 134 mm from ankle to hip. Straight links of 75 mm would give 115."""
     pose = {11: HUMANOID.position(11, math.radians(50)), 13: HUMANOID.position(13, math.radians(-80))}
     assert numpy.linalg.norm(at(HUMANOID, "right_ankle", pose, "right_thigh")[0]) == pytest.approx(134, abs=0.5)
 
 
 def apart(model, positions, first, second):
-    """Distance of two geoms in mm, below 0: they are inside each other. positions: {servo: degrees}"""
+    """Distance of two geoms in mm; negative if they overlap. positions: {servo: degrees}"""
     data = mujoco.MjData(model)
     for servo, degrees in positions.items():
         data.joint(HUMANOID.joints[servo].name).qpos[0] = math.radians(degrees)
@@ -181,7 +181,7 @@ def test_an_arm_can_turn_through_its_whole_range_beside_the_body():
 def test_servo_units():
     assert HUMANOID.angle(13, 512) == 0 and HUMANOID.angle(13, 0) == pytest.approx(math.radians(-150))
     assert HUMANOID.angle(14, 0) == pytest.approx(math.radians(150))
-    assert GP.angle(13, 857) == pytest.approx(math.radians(-345 * 300 / 1024))  # its knees turn the other way round
+    assert GP.angle(13, 857) == pytest.approx(math.radians(-345 * 300 / 1024))  # its knees turn in the opposite direction
     assert all(HUMANOID.position(servo, HUMANOID.angle(servo, 300)) == pytest.approx(300) for servo in HUMANOID.servos)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The library's motions stand on bodies on which earlier versions of them fell, each for a reason of its own."""
+"""The library's motions end on the feet on bodies on which earlier versions fell, each for a different reason."""
 
 import pathlib
 
@@ -16,7 +16,7 @@ MOTIONS = pathlib.Path(__file__).resolve().parents[2] / "motions"
 
 LIBRARY = load_motions(MOTIONS / "motions.m512")
 IMAGE = LIBRARY.to_bytes()
-THROUGH_MM = 10  # goals so deep in another link only press a hand against a hip
+THROUGH_MM = 10  # a depth that only presses a hand against a hip
 AIRBORNE_TICKS = 72  # a kick holds its foot up for longer than this
 
 
@@ -28,17 +28,17 @@ def promise_of(page):
     "page, seed",
     [
         ("kick_r", 30),
-        ("kick_r", 52),  # fell while it stood on two feet still, too far to the side
+        ("kick_r", 52),  # fell while still on two feet, too far to the side
         ("kick_r", 189),
-        ("kick_r", 206),  # its hip gave way, the foot met the floor too early and pushed the body over the other one
-        ("cheer", 13),  # was pushed forward as its arms came down
-        ("get_up", 39),  # could not draw its feet to its hands: 9.2 V, a rough floor
+        ("kick_r", 206),  # its hip gave way; the foot touched the floor too early and pushed the body over the other one
+        ("cheer", 13),  # its arms pushed it forward as they came down
+        ("get_up", 39),  # could not pull its feet to its hands: 9.2 V, a rough floor
         ("get_up", 130),
         ("get_up", 1095),  # rolled onto its back as an arm came out from below
         ("get_up", 1070),  # a hand caught below the belly, until its servo was overloaded
         ("get_up_back", 31),
         ("get_up_back", 1081),  # rolled onto its face
-        ("back", 394),  # leaned back by its soles and its trunk, and was pushed: hips too high, steps too long
+        ("back", 394),  # leaned back because of its soles and trunk, and was pushed: hips too high, steps too long
         ("back", 758),
         ("side_l", 394),
         ("right", 773),  # sagged backwards on soft ankles, without a push
@@ -52,7 +52,7 @@ def test_stands_on_a_body_on_which_it_fell(page, seed):
 
 @pytest.mark.parametrize("page, side", [("kick_r", "right"), ("kick_l", "left")])
 def test_a_kick_is_a_kick(page, side):
-    """What stands because it hardly moves is no kick: the foot is off the floor, goes back and comes 40 mm forward from there."""
+    """Rules out a kick that stands because it hardly moves: the foot leaves the floor, goes back, then 40 mm forward."""
     physics, number = Physics(promises.ROBOT), promises.number_of(LIBRARY, page)
     physics.stand(first_pose(IMAGE, number, promises.ROBOT))
     quick = Quick(IMAGE, physics)
@@ -66,7 +66,7 @@ def test_a_kick_is_a_kick(page, side):
 
 
 def deepest_mm(number):
-    """How deep the goals of a play drive the robot's links into each other: mm, and which geoms."""
+    """The deepest overlap of the robot's links under the goals of a play: mm, and the two geoms."""
     physics, deepest = Physics(promises.ROBOT), (0.0, ())
     floor = physics.model.geom("floor").id
     begin = first_pose(IMAGE, number, promises.ROBOT)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Pictures: links stand where MuJoCo has them, the robot stands on the floor, and a command makes a file without a display."""
+"""Pictures: links are where MuJoCo puts them, the robot stands on the floor, and the command makes a file without a display."""
 
 import pathlib
 import subprocess
@@ -17,7 +17,7 @@ PICTURE = pathlib.Path(__file__).resolve().parents[1] / "picture"
 
 
 def poses(name, seed, count):
-    """(robot, pose, MuJoCo's state in it) for poses by chance."""
+    """(robot, pose, MuJoCo's data in it) for random poses."""
     robot, chance = load(name), numpy.random.default_rng(seed)
     model = mujoco.MjModel.from_xml_string(robot.xml())
     data = mujoco.MjData(model)
@@ -44,7 +44,7 @@ def test_weight_is_where_mujoco_has_it(name):
 
 
 def test_shapes_are_as_large_as_their_geoms():
-    """The sole 100 x 60 x 6 mm, on the floor; the hand reaches 110 mm below the elbow."""
+    """The sole is 100 x 60 x 6 mm, on the floor. The hand ends 110 mm below the elbow."""
     robot = load("humanoid")
     faces = scene(robot, {})
     corners = numpy.concatenate([face.corners for face in faces])

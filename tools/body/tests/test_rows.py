@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A row of tests/proofs/ that is not run again stays there, also in a fresh clone, where build/prove/ is empty."""
+"""A row of tests/proofs/ stays if it is not run again, even in a fresh clone, where build/prove/ is empty."""
 
 import argparse
 import pathlib
@@ -28,7 +28,7 @@ def rows(name):
 
 
 def run_shape(monkeypatch, **asked):
-    """tools/prove shape, with rows that find one figure without any work."""
+    """Runs tools/prove shape with rows that return one figure without any work."""
     for row in shape.ROWS:
         monkeypatch.setitem(shape.ROWS, row, lambda walk, seeds, options, row=row: [proof.Figure(f"{row} holds.", "new", "1 of 1", True)])
     options = {"only": None, "bodies": None, "seed_of": None, "hard": False, "sample": False, "seed": 1, "jobs": 1, "keep": True}
@@ -50,7 +50,7 @@ def test_after_a_whole_run_of_shape_a_row_runs_alone(monkeypatch):
 
 
 def test_bodies_of_another_clone_stay_on_the_page():
-    """--add-up where no body was tried: the rows of bodies are those of the page, and tell their commit."""
+    """--add-up where no body was tried: the rows of bodies are those of the page, with their commit."""
     library = physics.library_image()
     options = argparse.Namespace(sample=False, seed_of=None, add_up=True, jobs=1, first=1000, only=None, bodies=None, on_board=100)
     campaign, before = physics.Campaign(options, library), proof.commit_on_page("physics")

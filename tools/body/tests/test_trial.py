@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Trials: the player in them is the firmware's law, the body obeys what is plain in physics, and results can be had again."""
+"""Trials: the player follows the firmware's law, the body obeys simple physics, and results are reproducible."""
 
 import pathlib
 
@@ -27,7 +27,7 @@ def upright_with(pushes=(), **how):
 
 @pytest.mark.parametrize("name", ["walk", "right", "bow"])
 def test_goals_are_those_of_the_law(name):
-    """Tick by tick those of m512's player, an independent telling of the law; it computes the exact law in fractions."""
+    """At each tick the goals match m512's player, an independent implementation that computes the exact law in fractions."""
     physics = Physics(HUMANOID)
     begin = first_pose(IMAGE, NUMBER[name], HUMANOID)
     physics.stand(begin)
@@ -42,7 +42,7 @@ def test_goals_are_those_of_the_law(name):
 
 
 def test_slopes_are_those_of_the_page():
-    """A soft page lets the knees give way more than a stiff one: high nibble clockwise, low nibble counterclockwise."""
+    """Knees give way more on a soft page than on a stiff one. High nibble: clockwise, low nibble: counterclockwise."""
     height = {}
     for nibbles in (0x22, 0x77):
         image, page = Image.empty(), LIBRARY[NUMBER["ready"]].copy()
@@ -118,7 +118,7 @@ def test_random_bodies_keep_to_their_ranges():
     assert all(0.85 <= factor <= 1.155 for body in bodies for factor in body.mass.values())
     zeros = [zero for body in bodies for zero in body.zero_units.values()]
     spread = (sum(zero * zero for zero in zeros) / len(zeros)) ** 0.5
-    assert spread == pytest.approx((3.413**2 + 2 * 2 / 3) ** 0.5, rel=0.05)  # 1 degree sigma, and +-2 units
+    assert spread == pytest.approx((3.413**2 + 2 * 2 / 3) ** 0.5, rel=0.05)  # sigma of 1 degree, and +-2 units
     assert all(0 <= push.at_s <= 10 and 0 <= push.newton_s <= 0.3 for body in bodies for push in body.pushes)
     assert random_body(HUMANOID, 5) == random_body(HUMANOID, 5) != random_body(HUMANOID, 6)
 
@@ -131,7 +131,7 @@ def test_servo_zeros_tilt_the_body_that_they_belong_to():
 
 
 def test_a_servo_with_a_wrong_zero_does_not_know_it():
-    """It reads the position that it was put to, as seen from its own zero."""
+    """It reads the position that it was set to, relative to its own zero."""
     physics = Physics(HUMANOID, Variation(zero_units={13: 30}))
     physics.pose({13: 400, 14: 624})
     quick = Quick(IMAGE, physics)
@@ -166,8 +166,8 @@ def test_nominal_is_the_file():
 
 
 def test_walk_stands_on_bodies_on_which_a_worse_walk_fell():
-    """Zeros 1.6 times as wrong as they may be, two pushes, a turn and a stop: a walk of 182 mm/s with one slope for all joints fell on
-    each of these bodies within 8 s. They are harder than any that the walk is promised for, so one may fell it."""
+    """Zeros 1.6 times as wrong as allowed, two pushes, a turn and a stop: a walk of 182 mm/s with one slope for all joints fell on each of
+    these bodies within 8 s. They are harder than any body that the walk is promised for, so one fall is allowed."""
     fell = []
     for seed in (5055, 5087, 5132, 5145, 5155):
         body = random_body(HUMANOID, seed, 11, pushes=2)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""A campaign of bodies can be interrupted and done in parts (tests/campaigns/bodies.py): no body is lost, none is tried twice, none counts
-for a motion that it was not tried with."""
+"""A campaign of bodies can be interrupted and run in parts (tests/campaigns/bodies.py): no body is lost or tried twice, and none counts for
+a motion that it was not tried with."""
 
 import argparse
 import pathlib
@@ -89,7 +89,7 @@ def changed(library, page):
 
 
 def test_a_result_counts_for_its_motion_alone(library):
-    """A walk can come to its turns; it never comes to a bow."""
+    """A walk can lead to its turns, but never to a bow."""
     walk = promises.STANDS[0]
     number = {name: promises.number_of(library, name) for name in ("walk", "turn_l2", "bow")}
 

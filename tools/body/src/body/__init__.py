@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""The robot's body: what it is made of (description), and how it moves (physics). See ../../README.md."""
+"""The robot's body: its parts (description) and its motion (physics). See ../../README.md."""

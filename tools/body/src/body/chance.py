@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Bodies as they may be: what is not known of a robot, made by chance from a seed. The nominal body is Variation()."""
+"""Random bodies: the unknown properties of a robot, drawn from a seed. The nominal body is Variation()."""
 
 import dataclasses
 import math
@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class Push:
-    """A push against the trunk: N s, to a direction in degrees (0 forward, 90 to the left), within 1/32 s."""
+    """A push against the trunk, spread over 1/32 s: N s, direction in degrees (0 forward, 90 left)."""
 
     at_s: float
     newton_s: float
@@ -18,24 +18,24 @@ class Push:
 
 @dataclass(frozen=True)
 class Variation:
-    """How one body differs from its file. Lengths in mm, angles in degrees."""
+    """Differences of one body from its file. Lengths in mm, angles in degrees."""
 
     seed: int = 0
     volts: float = 11.1
     floor_friction: float = 0.8
-    tilt: float = 0.0  # of the floor, and where it goes down to (0: forward)
+    tilt: float = 0.0  # of the floor; tilt_towards: downhill direction (0: forward)
     tilt_towards: float = 0.0
     gear_friction_nm: float = 0.05
     rotor_kgm2: float = 0.003
-    mass: dict = field(default_factory=dict)  # body -> factor; a body that is not named keeps its mass
-    trunk_forward_mm: float = 0.0  # its middle of mass
+    mass: dict = field(default_factory=dict)  # body -> factor; other bodies keep their mass
+    trunk_forward_mm: float = 0.0  # position of its centre of mass
     sole_forward_mm: float = 0.0
-    hand_mm: float = 0.0  # longer
-    zero_units: dict = field(default_factory=dict)  # servo -> how far its 512 is off
+    hand_mm: float = 0.0  # added to the length of the hand
+    zero_units: dict = field(default_factory=dict)  # servo -> error of its zero (512)
     pushes: tuple = ()
 
     def said(self):
-        """In one line."""
+        """The main values, on one line."""
         return (
             f"seed {self.seed}: {self.volts:.1f} V, floor {self.floor_friction:.2f}, tilt {self.tilt:.1f} towards "
             f"{self.tilt_towards:.0f}, gears {self.gear_friction_nm:.3f} N m, rotor {self.rotor_kgm2:.4f} kg m2, "
@@ -49,9 +49,9 @@ PUSH_NEWTON_S = 0.3
 
 
 def random_body(robot, seed, seconds=0.0, zero_sigma_degrees=1.0, joint_units=2.0, pushes=0, volts=(9.0, 12.0)):
-    """A body by chance: friction 0.4..1.2, the given supply, masses +-15 %, servo zeros off by sigma and joints by +-units, the
-    floor tilted 0..2 degrees, servo friction 0.03..0.1, rotor 0.001..0.01 (both even in their logarithm), pushes of up to
-    0.3 N s at any moment of `seconds`. The same robot, seed and arguments give the same body, whatever machine asks."""
+    """Returns a random body: friction 0.4..1.2, volts in the given range, masses +-15 %, servo zeros off by sigma and joints by +-units,
+    the floor tilted 0..2 degrees, servo friction 0.03..0.1, rotor 0.001..0.01 (both uniform in their logarithm), pushes of up to 0.3 N s at
+    random times within `seconds`. The same robot, seed and arguments give the same body on every machine."""
     chance = random.Random(f"{robot.name} {seed}")
     everything = chance.uniform(0.95, 1.05)
     return Variation(
@@ -72,8 +72,8 @@ def random_body(robot, seed, seconds=0.0, zero_sigma_degrees=1.0, joint_units=2.
 
 
 def body_of_the_bench(robot, seed):
-    """A milder body by chance: a robot on a good floor with its servos' zeros set: friction 0.5..1.1, 9.6..12 V, masses +-15 %, the floor
-    tilted by up to 2 degrees, joints off by +-1.5 units, servo friction and rotor as above."""
+    """Returns a milder random body, for a robot on a good floor with its servo zeros set: friction 0.5..1.1, 9.6..12 V, masses +-15 %, the
+    floor tilted by up to 2 degrees, joints off by +-1.5 units, servo friction and rotor as above."""
     body = random_body(robot, seed, zero_sigma_degrees=0.0, joint_units=1.5, volts=(9.6, 12.0))
     return dataclasses.replace(body, floor_friction=0.5 + 0.75 * (body.floor_friction - 0.4))
 

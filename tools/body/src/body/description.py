@@ -6,8 +6,8 @@
     robot.position(13, -0.99)                 # and back, with fractions
     robot.leg("right").thigh_mm
 
-Angles are those of the body file: 0 is straight, and positive is what the table of README.md says, on both sides. Servo
-positions are 0..1023 for 300 degrees; direction and zero of each servo come from the file.
+Angles are those of the body file: 0 is straight, and the table in README.md gives the positive direction for both sides. Servo positions
+are 0..1023 for 300 degrees. Direction and zero of each servo come from the file.
 """
 
 import pathlib
@@ -21,12 +21,12 @@ UNITS_PER_RADIAN = UNITS_PER_TURN / (2 * pi)
 
 
 class BodyError(ValueError):
-    """A body file cannot be used; the text names the file and what to do."""
+    """A body file cannot be used. The text names the file and the remedy."""
 
 
 @dataclass(frozen=True)
 class Joint:
-    """A joint with a servo. low, high: radians the body allows; zero: servo position of angle 0; direction: +1 or -1."""
+    """A joint with a servo. low, high: limits of the body in radians; zero: servo position at angle 0; direction: +1 or -1."""
 
     servo: int
     name: str
@@ -45,17 +45,17 @@ class Joint:
 
 @dataclass(frozen=True)
 class Leg:
-    """Lengths of a leg in mm, measured at angle 0. The knee stands `back` behind the line from hip to ankle."""
+    """Lengths of a leg in mm, at angle 0. The knee is `back` mm behind the line from hip to ankle."""
 
     hip_to_side: float  # from the middle of the body to the hip
-    shoulder_to_yaw: float  # from the shoulders' height down to the yaw axis; 0 where there is none
+    shoulder_to_yaw: float  # from shoulder height down to the yaw axis; 0 without a yaw axis
     yaw_to_hip: float
     thigh_down: float
     thigh_back: float
     shank_down: float
     shank_forward: float
     ankle_to_sole: float
-    sole: tuple  # behind and before the ankle, inside and outside of it: (-58, 42, -30, 30)
+    sole: tuple  # extent from the ankle: back and front, inside and outside, such as (-58, 42, -30, 30)
 
     @property
     def thigh_mm(self):
@@ -72,7 +72,7 @@ class Description:
     def __init__(self, path, root):
         self.path, self.root = path, root
         self.name = root.get("model", path.stem)
-        self.parent = {}  # body -> body that carries it, None: the trunk
+        self.parent = {}  # body -> body that carries it; None: the trunk
         self.bodies = {}  # name -> element
         self._collect(root.find("worldbody"), None)
         self.joints = {joint.servo: joint for joint in self._joints()}
@@ -101,7 +101,7 @@ class Description:
 
     @property
     def servos(self):
-        """IDs, in rising order."""
+        """IDs in ascending order."""
         return sorted(self.joints)
 
     def angle(self, servo, position):
@@ -115,11 +115,11 @@ class Description:
         return ElementTree.tostring(self.root, encoding="unicode")
 
     def place_mm(self, body):
-        """Where a body hangs in the one that carries it: (x, y, z) in mm at angle 0."""
+        """Origin of a body in its parent: (x, y, z) in mm at angle 0."""
         return tuple(1000 * value for value in numbers(self.bodies[body].get("pos", "0 0 0")))
 
     def mass_g(self, body):
-        """Grams of one link, without what hangs on it."""
+        """Mass of one link in g, without its children."""
         return 1000 * sum(float(geom.get("mass", 0)) for geom in self.bodies[body].findall("geom"))
 
     @property
@@ -127,14 +127,14 @@ class Description:
         return sum(self.mass_g(body) for body in self.bodies)
 
     def geom(self, name):
-        """A geom's attributes. KeyError: no such geom."""
+        """Attributes of a geom. KeyError: no such geom."""
         for element in self.root.iter("geom"):
             if element.get("name") == name:
                 return element.attrib
         raise KeyError(f"{self.path} has no geom {name}")
 
     def _chain_mm(self, body):
-        """Sum of the places from the trunk down to a body."""
+        """Origin of a body relative to the trunk, in mm at angle 0."""
         at = (0.0, 0.0, 0.0)
         while self.parent[body] is not None:
             at = tuple(a + b for a, b in zip(at, self.place_mm(body)))
@@ -142,7 +142,7 @@ class Description:
         return at
 
     def leg(self, side):
-        """Lengths of the leg of this side, "right" or "left"."""
+        """Lengths of the leg on this side, "right" or "left"."""
         hip, knee, ankle = (self._chain_mm(f"{side}_{part}") for part in ("thigh", "shank", "ankle"))
         yaw = self._chain_mm(f"{side}_hip_yaw") if f"{side}_hip_yaw" in self.bodies else None
         foot, sole = self._chain_mm(f"{side}_foot"), self.geom(f"{side}_sole")
@@ -166,14 +166,14 @@ def numbers(text):
 
 
 def without_optional(root):
-    """Takes out what only a robot with more servos has: every element of class "optional"."""
+    """Removes what only a robot with more servos has: every element of class "optional"."""
     for parent in root.iter():
         for child in [child for child in parent if child.get("class") == "optional" and child.tag != "default"]:
             parent.remove(child)
 
 
 def load(name="humanoid", head=False):
-    """A body file by its name in tools/body or by its path. BodyError: it is missing or is none."""
+    """Loads a body file by its name in tools/body or by its path. BodyError: it is missing or not a body file."""
     path = pathlib.Path(name)
     path = path if path.suffix == ".xml" else FOLDER / f"{name}.xml"
     try:

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""A robot whose servos are limp cannot stand. A hand holds it until they drive, then puts it on its soles and lets go."""
+"""A robot with limp servos cannot stand. A hand holds it until they drive, then puts it on its soles and lets go."""
 
 from .trial import FALLEN, ON_FEET
 
-STILL_DEGREES_S = 6.0  # slower than this is standing still
+STILL_DEGREES_S = 6.0  # a slower joint counts as still
 STILL_S = 0.1
 
 
 class Hand:
-    """Call look() now and then while the body is stepped. It holds from the start until a knee has been driven and all joints
-    have stood still for STILL_S; from then on it counts falls."""
+    """Call look() regularly while the body is stepped. The hand holds the robot until a knee was driven and all joints have been still for
+    STILL_S. From then on it counts falls."""
 
     def __init__(self, physics):
         self.physics, self.falls, self.fell_at_s = physics, 0, []
@@ -23,7 +23,7 @@ class Hand:
         return [self.physics.joint(servo) for servo in self._knees]
 
     def look(self):
-        """What just happened: "down", "fell", or None."""
+        """Returns the latest event: "down", "fell", or None."""
         return self._holding() if self.put_down_s is None else self._watching()
 
     def _holding(self):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where the links of a body are in a pose, and where its weight is. From the body file alone: no MuJoCo."""
+"""Positions of a body's links in a pose, and its centre of mass. From the body file alone: no MuJoCo."""
 
 from math import cos, radians, sin
 
@@ -9,7 +9,7 @@ from .description import Description, numbers
 
 
 def turn(axis, angle):
-    """Rotation matrix about an axis, radians."""
+    """Rotation matrix about an axis; angle in radians."""
     x, y, z = numpy.asarray(axis, float) / numpy.linalg.norm(axis)
     c, s = cos(angle), sin(angle)
     return numpy.array(
@@ -30,7 +30,7 @@ def euler(element):
 
 
 def places(robot: Description, positions):
-    """{body: (origin in mm, rotation)} in the frame of the trunk; servos that `positions` does not name stand at angle 0."""
+    """{body: (origin in mm, rotation)} in the frame of the trunk. Servos not named in `positions` are at angle 0."""
     angles = {robot.joints[servo].name: robot.angle(servo, position) for servo, position in positions.items() if servo in robot.joints}
     found = {}
     for body, element in robot.bodies.items():  # parents come before their children
@@ -44,7 +44,7 @@ def places(robot: Description, positions):
 
 
 def centre_of_mass(robot, positions):
-    """Of the whole robot in this pose, mm in the frame of the trunk."""
+    """Centre of mass of the whole robot in this pose, mm in the frame of the trunk."""
     found, total, sum_ = places(robot, positions), 0.0, numpy.zeros(3)
     for body, (origin, turned) in found.items():
         for geom in robot.bodies[body].findall("geom"):

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""A body in MuJoCo: what hangs on the servos' shafts, and where it stands.
+"""A body in MuJoCo: it moves the servo shafts and has a place in the world.
 
     physics = Physics(load("humanoid"))            # or with a Variation (chance.py)
     physics.stand({11: 609, 12: 415, ...})         # on its soles in this pose
     board.attach(physics)                          # cm5sim: in lock step with the simulated board
     physics.upright, physics.x_mm, physics.heading # while it runs
 
-One step is 1/1024 s. Whoever steps it (the simulated servos) does so through `seam`; the torques come from there.
+One step is 1/1024 s. The simulated servos step the body through `seam` and set its torques.
 """
 
 import ctypes
@@ -40,7 +40,7 @@ class Seam(ctypes.Structure):
 
 @functools.cache
 def _mj_step():
-    """Address of mj_step in the library that the Python package loaded."""
+    """Address of mj_step in the library loaded by the Python package."""
     folder = pathlib.Path(mujoco.__file__).parent
     found = sorted(folder.glob("libmujoco*.so*")) + sorted(folder.glob("libmujoco*.dylib")) + sorted(folder.glob("mujoco*.dll"))
     if not found:
@@ -49,7 +49,7 @@ def _mj_step():
 
 
 class Physics:
-    """A body that stands, walks and falls. Lengths are told in mm, angles in degrees."""
+    """A body that stands, walks and falls. Lengths in mm, angles in degrees."""
 
     def __init__(self, robot, variation=NOMINAL):
         self.robot, self.variation = robot, variation
@@ -88,7 +88,7 @@ class Physics:
 
     @staticmethod
     def _lengthen_hand(geom, longer):
-        """The hand is a capsule along the forearm: its far end moves."""
+        """Lengthens the hand, a capsule along the forearm, at its far end."""
         geom.size[1] += longer / 2
         geom.pos[2] -= longer / 2
 
@@ -104,18 +104,18 @@ class Physics:
             )
             place.direction, place.id = joint.direction, servo
             place.offset_rad = joint.angle(512 - self.variation.zero_units.get(servo, 0.0))
-        self._joints = joints  # kept alive for as long as the seam
+        self._joints = joints  # keeps the array alive with the seam
         return Seam(_mj_step(), self.model._address, self.data._address, joints, len(joints))
 
     # Poses
 
     def joint_angle(self, servo, position):
-        """Angle of the joint, radians, when its servo says `position`: the zero's error is in it."""
+        """Angle of the joint in radians at the servo's `position`, including the error of its zero."""
         joint = self.robot.joints[servo]
         return joint.angle(512 - self.variation.zero_units.get(servo, 0.0)) + joint.direction * (position - 512) / UNITS_PER_RADIAN
 
     def pose(self, positions):
-        """Sets joints ({servo: position}), at rest; others stay. The trunk stays where it is."""
+        """Sets joints ({servo: position}), at rest. The trunk and other joints keep their place."""
         self.data.qvel[:] = 0
         for servo, position in positions.items():
             if servo in self._places:
@@ -123,23 +123,23 @@ class Physics:
         mujoco.mj_forward(self.model, self.data)
 
     def joint(self, servo):
-        """Angle of a joint, radians."""
+        """Angle of a joint in radians."""
         return float(self.data.qpos[self._places[servo][0]])
 
     def stand(self, positions, heading=0.0):
-        """On its soles in this pose: the trunk leans as flat soles make it lean."""
+        """Puts the robot on its soles in this pose. The trunk leans as flat soles require."""
         self._root((1, 0, 0, 0))
         self.pose(positions)
         level = numpy.mean([self.data.body(f"{side}_foot").xmat.reshape(3, 3)[:, 2] for side in ("right", "left")], axis=0)
         lean, side = atan2(level[0], level[2]), atan2(level[1], level[2])
-        # level: what is up for the soles, in the trunk's frame
+        # level: the up direction of the soles, in the trunk's frame
         quat = numpy.zeros(4)
         mujoco.mju_euler2Quat(quat, numpy.array((side, -lean, 0.0)), "xyz")
         self._root(quat, heading)
         self._down_to_the_floor()
 
     def lie(self, positions, face_down=True, heading=0.0):
-        """On the floor in this pose, face down or on the back."""
+        """Puts the robot on the floor in this pose, face down or on its back."""
         self.pose(positions)
         quat = numpy.zeros(4)
         mujoco.mju_euler2Quat(quat, numpy.array((0.0, radians(90 if face_down else -90), 0.0)), "xyz")
@@ -147,14 +147,14 @@ class Physics:
         self._down_to_the_floor()
 
     def hold(self):
-        """A hand takes it by the trunk, upright, where straight legs just reach the floor."""
+        """A hand takes the robot by the trunk, upright, where straight legs just reach the floor."""
         self.data.qpos[:ROOT_NUMBERS] = self.model.qpos0[:ROOT_NUMBERS]
         self.data.qvel[:ROOT_SPEEDS] = 0
         self.data.eq_active[self._hand()] = 1
         mujoco.mj_forward(self.model, self.data)
 
     def put_down(self, heading=0.0):
-        """The hand puts it on its soles, joints as they are, and lets go."""
+        """The hand puts the robot on its soles, keeping its joint angles, and lets go."""
         self.data.eq_active[self._hand()] = 0
         self.stand({}, heading)
 
@@ -170,7 +170,7 @@ class Physics:
 
     @property
     def fastest_joint(self):
-        """Degrees a second."""
+        """Speed of the fastest joint in degrees/s."""
         return degrees(max(abs(self.data.qvel[speed]) for _, speed in self._places.values()))
 
     def _root(self, quat, heading=0.0):
@@ -187,7 +187,7 @@ class Physics:
         mujoco.mj_forward(self.model, self.data)
 
     def lowest_mm(self):
-        """Height of the lowest point of what can touch the floor."""
+        """Height of the lowest point that can touch the floor."""
         return 1000 * min(self._lowest(geom) for geom in range(self.model.ngeom) if self.model.geom_contype[geom] and self.model.geom_bodyid[geom])
 
     def _lowest(self, geom):
@@ -208,7 +208,7 @@ class Physics:
 
     @property
     def upright(self):
-        """1 upright, 0 lying, -1 on its head: the trunk's axis against gravity."""
+        """Trunk axis against gravity: 1 upright, 0 lying, -1 upside down."""
         return float(self.data.xmat[self.root][8])
 
     @property
@@ -229,14 +229,14 @@ class Physics:
 
     @property
     def heading(self):
-        """Degrees turned to the left since it was placed, whole turns counted, if asked at least every half turn."""
+        """Degrees turned left since it was placed, including whole turns. Valid only if read at least every half turn."""
         yaw = self._yaw()
         self._turns += (yaw - self._last_yaw + numpy.pi) % (2 * numpy.pi) - numpy.pi
         self._last_yaw = yaw
         return degrees(self._turns)
 
     def push(self, newton_s, towards):
-        """Pushes the trunk from now on for PUSH_S; call let_go() then."""
+        """Pushes the trunk from now on. Call let_go() after PUSH_S."""
         force = newton_s / PUSH_S
         self.data.xfrc_applied[self.root][:3] = (force * cos(radians(towards)), force * sin(radians(towards)), 0)
 
@@ -244,5 +244,5 @@ class Physics:
         self.data.xfrc_applied[self.root][:] = 0
 
     def touching(self):
-        """Pairs of names of geoms that touch now."""
+        """Pairs of names of geoms in contact."""
         return {tuple(sorted((self._names[one], self._names[other]))) for one, other in self.data.contact.geom.tolist()}

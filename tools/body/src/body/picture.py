@@ -3,7 +3,7 @@
 
     save_strip(path, [(label, scene(robot, positions)), ...])      # .png or .svg
 
-A scene is polygons in the frame of the floor (mm): the robot stands on its soles, as flat as its pose makes them.
+A scene is a list of polygons in the frame of the floor (mm). The robot stands on its soles, as flat as its pose allows.
 """
 
 from dataclasses import dataclass
@@ -14,9 +14,9 @@ import numpy
 from .description import numbers
 from .kinematics import euler, places, turn
 
-VIEW = (-55.0, 14.0)  # looking from its right front; degrees round, degrees up
+VIEW = (-55.0, 14.0)  # from the robot's right front; degrees around, degrees up
 LIGHT = numpy.array((0.35, -0.5, 0.8)) / numpy.linalg.norm((0.35, -0.5, 0.8))
-SIDES = 10  # of what is round
+SIDES = 10  # of round shapes
 BOX = [
     ((-1, -1, -1), (-1, -1, 1), (-1, 1, 1), (-1, 1, -1)),
     ((1, -1, -1), (1, 1, -1), (1, 1, 1), (1, -1, 1)),
@@ -29,7 +29,7 @@ BOX = [
 
 @dataclass
 class Face:
-    """A flat polygon, corners in order, mm; its colour as red, green, blue 0..1."""
+    """A flat polygon: corners in order, mm; colour as red, green, blue 0..1."""
 
     corners: numpy.ndarray
     colour: tuple
@@ -67,7 +67,7 @@ def _colours(robot):
 
 
 def scene(robot, positions):
-    """The robot in this pose, on its soles: [Face]."""
+    """Returns the robot in this pose, on its soles: [Face]."""
     found, colours, faces = places(robot, positions), _colours(robot), []
     level = sum(found[f"{side}_foot"][1][:, 2] for side in ("right", "left"))
     upright = turn((0, 1, 0), -numpy.arctan2(level[0], level[2]))
@@ -84,7 +84,7 @@ def scene(robot, positions):
 
 
 def flat(faces, view=VIEW):
-    """[(corners on the picture, colour)] from the farthest to the nearest; faces that look away are left out."""
+    """[(corners on the picture, colour)] from the farthest to the nearest, without faces that point away."""
     round_, up = (radians(angle) for angle in view)
     towards = numpy.array((cos(up) * cos(round_), cos(up) * sin(round_), sin(up)))
     right = numpy.array((-sin(round_), cos(round_), 0))
@@ -107,7 +107,7 @@ def flat(faces, view=VIEW):
 
 
 def polygons(parts, **how):
-    """What flat() gives as a matplotlib collection; `how`: its further properties."""
+    """Converts the result of flat() to a matplotlib collection with the properties `how`."""
     from matplotlib.collections import PolyCollection
 
     return PolyCollection(
@@ -116,7 +116,7 @@ def polygons(parts, **how):
 
 
 def save_strip(path, scenes, view=VIEW, height_inches=2.6, columns=8, dpi=120):
-    """Draws [(label, faces)] beside each other, a row of `columns` after the other, into a .png or .svg file."""
+    """Draws [(label, faces)] in rows of `columns` into a .png or .svg file."""
     import matplotlib
 
     matplotlib.use("Agg")

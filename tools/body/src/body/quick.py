@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The robot without its chip (tools/sim/quick): the firmware's player in C, virtual servos, and a body."""
+"""The robot without its chip (tools/sim/quick): the firmware's player in C, virtual servos and a body."""
 
 import ctypes
 import functools
@@ -49,7 +49,7 @@ _FUNCTIONS = {
 
 @functools.cache
 def library():
-    """The library, declared. Built by: cmake --build build/host --target m512quick."""
+    """Returns the library with its functions declared. Built by: cmake --build build/host --target m512quick."""
     path = pathlib.Path(os.environ.get("M512_BUILD", TOP / "build")) / "host" / "tools" / "sim" / "libm512quick.so"
     if not path.exists():
         raise FileNotFoundError(f"{path} is missing: build target m512quick of the host preset first")
@@ -61,7 +61,7 @@ def library():
 
 
 class Quick:
-    """A robot that plays pages of an image in a body. models: {servo: "ax12" | "ax18" | "dx117"}, others are AX-12."""
+    """A robot that plays pages of an image in a body. models: {servo: "ax12" | "ax18" | "dx117"}; the others are AX-12."""
 
     def __init__(self, image, physics, models=None):
         self._lib = library()
@@ -85,7 +85,7 @@ class Quick:
             self._lib.quick_free(self._pointer)
 
     def look(self):
-        """The servos see where the body is: after it was put somewhere."""
+        """Updates the servos after the body was moved."""
         self._lib.servo_bus_body(self._bus, self._lib.quick_now(self._pointer), ctypes.addressof(self._body))
 
     def torque_on(self):
@@ -97,11 +97,11 @@ class Quick:
             raise ValueError(f"page {page} cannot be played: {STATUS[status]}")
 
     def keys(self, code):
-        """Keys of the remote from now on: 0 let go, 255 stop."""
+        """Holds these keys of the remote from now on. 0: released, 255: stop."""
         self._lib.quick_keys(self._pointer, code)
 
     def run(self, ticks):
-        """Lets ticks of 1/128 s pass; True while it plays."""
+        """Runs this many ticks of 1/128 s. Returns True while a play runs."""
         return self._lib.quick_run(self._pointer, ticks)
 
     @property
@@ -116,5 +116,5 @@ class Quick:
         return self._lib.quick_goal(self._pointer, servo)
 
     def loads(self):
-        """{servo: Load} since the play began."""
+        """{servo: Load} since the start of the play."""
         return {servo: self._lib.quick_load(self._pointer, index) for index, servo in enumerate(self.servos)}

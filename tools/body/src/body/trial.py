@@ -5,9 +5,9 @@
     outcome = try_motion(image, page=20, seconds=12)               # 65,536 bytes as in flash; nominal humanoid, exact law
     outcome.fell_s, outcome.forward_mm_s, outcome.turn_deg_s, outcome.on_feet
 
-The player is the firmware's, compiled for this machine; servos and body are those of the simulated board, without its chip
-(quick.py): about 30 times as fast as the robot. A trial is a value: the same arguments give the same outcome, to the last bit on
-one machine and one version of MuJoCo.
+The player is the firmware's, compiled for this machine. Servos and body are those of the simulated board, without its chip (quick.py). A
+trial runs about 30 times as fast as the robot. The same arguments give the same outcome, to the last bit on one machine and one version of
+MuJoCo.
 """
 
 import functools
@@ -20,18 +20,18 @@ from .physics import PUSH_S, Physics
 from .quick import Quick
 
 TICKS_PER_S = 128
-CHUNK = 4  # ticks between looks, and between keys: 31 ms, about the pace of a remote's packets
-FALLEN = 0.5  # the trunk is tilted by 60 degrees
-ON_FEET = 0.9  # and by less than 26
-WARM_S = 1.5  # speeds are measured from here on: without the start
+CHUNK = 4  # ticks between observations, and between keys: 31 ms, about the rate of a remote's packets
+FALLEN = 0.5  # cosine of the trunk's tilt: 60 degrees
+ON_FEET = 0.9  # tilted by less than 26 degrees
+WARM_S = 1.5  # speeds are measured from here on, without the start
 SETTLE_S = 0.25  # in the first pose, before the play
-AFTER_S = 0.75  # after the play: does it stay?
-STOP = 255  # the code of a stop
+AFTER_S = 0.75  # observed after the play
+STOP = 255  # code of a stop
 
 
 @dataclass(frozen=True)
 class Look:
-    """Where the trunk is: seconds since the play began, mm in the frame of the start, degrees to the left."""
+    """Position of the trunk: seconds since the start of the play, mm in the frame of the start, degrees to the left."""
 
     time_s: float
     x_mm: float
@@ -42,21 +42,21 @@ class Look:
 
 @dataclass
 class Outcome:
-    """What came of it. Speeds are means from WARM_S on; ways and heading are those of the whole play."""
+    """Result of a trial. Speeds are means from WARM_S on; distances and heading are those of the whole play."""
 
-    seconds: float = 0.0  # how long it played; to the fall if it fell
-    fell_s: float = None  # when; None: it did not
-    ended: bool = False  # the play came to its end by itself
-    on_feet: bool = False  # in the end it stands upright, and nothing but its soles touches the floor
+    seconds: float = 0.0  # length of the play, or time until the fall
+    fell_s: float = None  # time of the fall; None: no fall
+    ended: bool = False  # the play ended by itself
+    on_feet: bool = False  # at the end it is upright, and only its soles touch the floor
     x_mm: float = 0.0
     y_mm: float = 0.0
     heading: float = 0.0
-    forward_mm_s: float = 0.0  # along the way it went: the length of the path of the middle of its steps, with its sign
-    sideways_mm_s: float = 0.0  # seen from the robot, to the left
+    forward_mm_s: float = 0.0  # along its path, without sway (pace()); negative: backwards
+    sideways_mm_s: float = 0.0  # in the robot's frame, to the left
     turn_deg_s: float = 0.0
     track: list = field(default_factory=list)
     loads: dict = field(default_factory=dict)  # servo -> quick.Load
-    touched: set = field(default_factory=set)  # pairs of geoms that touched each other, the floor not counted
+    touched: set = field(default_factory=set)  # pairs of geoms that touched, without the floor
 
     @property
     def most_units_per_tick(self):
@@ -81,21 +81,21 @@ def _robot(name):
 
 
 def first_pose(image, page, robot):
-    """{servo: position} of step 1 of a page; what the page does not use stays at 512."""
+    """{servo: position} of step 1 of a page. Joints that the page does not use are at 512."""
     at = page * 512 + 64
     words = {servo: image[at + 2 * servo] | image[at + 2 * servo + 1] << 8 for servo in robot.servos}
     return {servo: word if word <= 1023 else 512 for servo, word in words.items()}
 
 
 def try_motion(image, page, seconds, robot="humanoid", variation=NOMINAL, law="exact", keys=(), models=None, pose=None, lie=None, falls=True):
-    """Plays `page` for at most `seconds`, and looks.
+    """Plays `page` for at most `seconds` and returns the Outcome.
 
     robot     a name, a path, or a Description
-    keys      [(second, code)] of a remote, code 0 let go, 255 (STOP) stop; in rising order
+    keys      [(second, code)] of a remote in ascending order; code 0: released, 255 (STOP): stop
     models    {servo: "ax18"}; the others are AX-12
-    pose      {servo: position} to begin in; else step 1 of the page, in which the approach leaves the robot
-    lie       "face" or "back": begins lying there instead of standing
-    falls     False: tilting is no fall (motions that go to the floor); what counts then is on_feet
+    pose      {servo: position} at the start; default: step 1 of the page, where the approach leaves the robot
+    lie       "face" or "back": starts lying instead of standing
+    falls     False: tilting is not a fall (motions that go to the floor); then only on_feet decides
     """
     robot = robot if isinstance(robot, Description) else _robot(str(robot))
     physics = Physics(robot, variation)
@@ -112,8 +112,8 @@ def try_motion(image, page, seconds, robot="humanoid", variation=NOMINAL, law="e
 
 
 def watch(player, physics, seconds, keys=(), falls=True):
-    """The Outcome of a play that has just begun. player: run(ticks) lets time pass and says whether it still plays, keys(code)
-    holds keys of the remote, loads() tells what servos bore (quick.Quick, tests/campaigns/onboard.py)."""
+    """Observes a play that has just begun, and returns its Outcome. player: run(ticks) runs and returns whether the play goes on,
+    keys(code) holds keys of the remote, loads() returns the servo loads (quick.Quick, tests/campaigns/onboard.py)."""
     keys = list(keys)
     outcome, zero_s = Outcome(), physics.time_s
     frame = physics.x_mm, physics.y_mm, math.radians(physics.heading)
@@ -143,7 +143,7 @@ def watch(player, physics, seconds, keys=(), falls=True):
 
 
 def _push(physics, pushes, pushed, now):
-    """Begins and ends pushes; returns when the running one ends."""
+    """Begins and ends pushes. Returns when the current push ends."""
     if pushed is not None and now >= pushed:
         physics.let_go()
         pushed = None
@@ -155,13 +155,13 @@ def _push(physics, pushes, pushed, now):
 
 
 def stands(physics):
-    """Upright, and nothing but soles on the floor."""
+    """True: upright, with only soles on the floor."""
     on_floor = {name for pair in physics.touching() if "floor" in pair for name in pair} - {"floor"}
     return physics.upright > ON_FEET and on_floor <= {"right_sole", "left_sole"}
 
 
 def look(physics, frame, zero_s):
-    """Where it is now; frame: (x, y, heading in radians) at zero_s."""
+    """Present position. frame: (x, y, heading in radians) at zero_s."""
     x0, y0, turned = frame
     x, y = physics.x_mm - x0, physics.y_mm - y0
     return Look(
@@ -184,8 +184,8 @@ def _measure(outcome):
 
 
 def pace(looks):
-    """(mm/s forward, mm/s to the left, degrees/s) over these looks, in the robot's own frame, a second at a time: sway cancels out,
-    a turn does not shorten the way. Zeros where they span no time."""
+    """(mm/s forward, mm/s to the left, degrees/s) over these looks, in the robot's own frame, in intervals of one second: sway cancels out,
+    and a turn does not shorten the distance. Zeros if they span no time."""
     span = looks[-1].time_s - looks[0].time_s if looks else 0
     if span <= 0:
         return 0.0, 0.0, 0.0
