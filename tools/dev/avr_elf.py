@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""What an AVR ELF file says of itself, for the checkers in this folder; the same with the binutils of gcc 5 and of gcc 14.
+"""Contents of an AVR ELF file, for the checkers in this folder. Works with the binutils of gcc 5 and of gcc 14.
 
-An assembler may keep its local labels (.L.., .Loc.3, L0 with a control character) among the symbols: they are no functions. Who cannot make
-sense of a file raises Unreadable, so that nobody passes it for having found nothing.
+An assembler may keep its local labels (.L.., .Loc.3, L0 with a control character) among the symbols: they are not functions. A file that
+cannot be understood raises Unreadable, so that it does not pass as clean.
 """
 
 import re
@@ -17,7 +17,7 @@ DATA_START = 0x800000
 
 
 class Unreadable(Exception):
-    """The file is no image that this module understands; says why."""
+    """The file is not an image that this module understands; the text says why."""
 
 
 @dataclass
@@ -35,8 +35,8 @@ class Instruction:
     mnemonic: str
     operands: str
     comment: str
-    function: int  # address of the function that it is in; None in a table
-    source: str  # the file of its line; "" if not known
+    function: int  # address of its function; None in a table
+    source: str  # source file of its line; "" if unknown
 
 
 def tool(*arguments):
@@ -59,7 +59,7 @@ def symbols(elf):
 
 
 def places(elf):
-    """{address: symbol} of the code, tables among it included. Of several names at one address a function's is the best."""
+    """{address: symbol} of the code, including its tables. Of several names at one address, prefers a function's."""
     best = {}
     for symbol in sorted(symbols(elf), key=lambda symbol: (symbol.kind == "NOTYPE", -symbol.size, symbol.name)):
         if symbol.address < DATA_START:
@@ -68,7 +68,7 @@ def places(elf):
 
 
 def instructions(elf):
-    """The code, instruction by instruction."""
+    """The instructions of the code, in order."""
     at, rows, function, source = places(elf), [], None, ""
     for line in tool("avr-objdump", "-dl", elf).splitlines():
         match = INSTRUCTION.match(line)

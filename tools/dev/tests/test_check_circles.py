@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Each kind of circle is found and named: small trees, with one circle or none."""
+"""Each kind of circle is found and named, in small trees with one circle or none."""
 
 import importlib.machinery
 import importlib.util
@@ -48,14 +48,14 @@ def test_a_tree_without_circles_passes(tmp_path):
             "edit: circle of screen.c, text.c",
             "text.c uses screen_draw of screen.c",
         ),
-        # round three corners
+        # through three files
         (
             "firmware/common/text.c",
             "int text_x(void)\n{\n    return main();\n}\n",
             "edit: circle of main.c, screen.c, text.c",
             "text.c uses main of main.c",
         ),
-        # a variable closes it as well, and a function whose head has an attribute or several lines
+        # a variable also closes a circle, and so does a function whose head has an attribute or several lines
         ("firmware/edit/screen.c", "uint8_t the_rows[3];\nint cell_rows(void)\n{\n    return 0;\n}\n", None, None),
         (
             "firmware/edit/cells.c",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""tools/dev/check_documents finds references that a reader cannot follow, and only those."""
+"""tools/dev/check_documents finds all references that a reader cannot follow, and no others."""
 
 import pathlib
 import subprocess
@@ -26,7 +26,7 @@ def check(root, files):
         ("tools/run", "#!/bin/sh\n# player.md\n"),
         ("README.md", "See `player.md`.\n"),
         ("README.md", "See [the player](motion/player.md).\n"),
-        ("hal/README.md", "See hal/LAWS.md.\n"),  # it is elsewhere
+        ("hal/README.md", "See hal/LAWS.md.\n"),  # it is in another folder
     ],
 )
 def test_a_document_that_is_not_there_is_named_with_its_place(tmp_path, name, text):

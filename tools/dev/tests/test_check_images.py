@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""tools/dev/check_images finds each thing that no image may hold, and nothing in a program without them."""
+"""tools/dev/check_images finds each thing that no image may contain, and nothing in a program without them."""
 
 import pathlib
 import subprocess
@@ -8,7 +8,7 @@ import pytest
 
 TOOL = pathlib.Path(__file__).parents[3] / "tools" / "dev" / "check_images"
 
-# v: what the compiler cannot know, so that nothing is computed ahead.
+# v: unknown to the compiler, so that it computes nothing in advance.
 PROGRAM = """
 #include <setjmp.h>
 #include <stdio.h>
@@ -91,7 +91,7 @@ def test_what_is_no_elf_file_is_refused(tmp_path):
     assert done.returncode == 1 and "play-cm5.elf" in done.stdout and not done.stderr
 
 
-# With -g a newer assembler leaves a label before each line: still one function.
+# With -g, a newer assembler leaves a label before each line. It is still one function.
 LOADER = """
 void __attribute__((noinline, used)) NAME(volatile char *p)
 {

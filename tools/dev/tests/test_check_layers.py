@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Each rule of the layers bites: one small tree per rule, with one broken line."""
+"""Each rule of the layers is enforced: one small tree per rule, with one wrong line."""
 
 import pathlib
 import subprocess

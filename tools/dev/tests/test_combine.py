@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""tools/combine: one image of loader, application and motions; and tools/dev/app_record on what goes into it."""
+"""tools/combine: one image of loader, application and motions; and tools/dev/app_record on its contents."""
 
 import pathlib
 import subprocess

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Our linker scripts (linker/, m512_image of tools/dev/cmake): a section that no script names is an error for each kind of image, and an edit of
-a file that a script includes links again. Tried in a small project of its own with the same toolchain file."""
+"""Our linker scripts (linker/, m512_image of tools/dev/cmake): a section that no script names is an error for each kind of image, and a
+change of a file that a script includes links again. Uses a small project with the same toolchain file."""
 
 import os
 import pathlib
@@ -26,7 +26,7 @@ foreach(kind app boot test)
     m512_image(stray-${kind} BOARD cm5 KIND ${kind} SOURCES stray.c)
 endforeach()
 """
-# app_record: what tools/dev/app_record fills in; dropped where the linker script does not ask for it.
+# app_record: filled in by tools/dev/app_record; dropped if the linker script does not name it.
 GOOD = '__attribute__((section(".app_record"), used)) const char app_record[16] = "M512";\nint main(void)\n{\n    for (;;) {\n    }\n}\n'
 STRAY = """extern volatile unsigned char sink;
 volatile unsigned char sink;
@@ -47,7 +47,7 @@ def build(project, *targets, **how):
 
 @pytest.fixture(scope="module")
 def project(tmp_path_factory):
-    """The project with its good images built."""
+    """The project, with its good images built."""
     folder = tmp_path_factory.mktemp("project")
     for part in ("linker", "tools/dev/cmake"):
         shutil.copytree(TOP / part, folder / part)
@@ -95,7 +95,7 @@ def test_section_without_a_place_is_an_error(project, kind):
 )
 def test_edit_of_a_script_links_again(project, kind, edited):
     image = project / "made" / f"good-{kind}.elf"
-    build(project, f"good-{kind}")  # another kind's edit
+    build(project, f"good-{kind}")  # the edit of another kind
     assert "no work to do" in build(project, f"good-{kind}").stdout
     linked = image.stat().st_mtime_ns
     with open(project / "linker" / edited, "a") as file:

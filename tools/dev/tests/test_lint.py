@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Which files `tools/dev/lint` gives to clang-tidy: a small tree in git, in which every checker only notes what it is given."""
+"""Which files `tools/dev/lint` passes to clang-tidy: a small git tree in which each checker only records its arguments."""
 
 import json
 import os
@@ -33,7 +33,7 @@ def tree(tmp_path):
         (tmp_path / name).chmod(0o755)
     (tmp_path / "tools/dev").mkdir()
     shutil.copy(LINT, tmp_path / "tools/dev/lint")
-    write(tmp_path, "tools/program", "#!/usr/bin/python3\n")  # of which ruff is told by name
+    write(tmp_path, "tools/program", "#!/usr/bin/python3\n")  # lint passes it to ruff by name
     commands = [{"file": str(tmp_path / name), "command": f"cc -c {name}", "directory": str(tmp_path)} for name in ALL]
     write(tmp_path, "build/host/compile_commands.json", json.dumps(commands, indent=2))
     git(tmp_path, "init", "-q")
@@ -43,7 +43,7 @@ def tree(tmp_path):
 
 
 def lint(tree, *words):
-    """Exit status, and the files that clang-tidy was given."""
+    """Returns the finished process, and the files passed to clang-tidy."""
     given = tree / "build/clang-tidy.given"
     given.unlink(missing_ok=True)
     environment = {**os.environ, "PATH": f"{tree}/build/bin:{os.environ['PATH']}"}

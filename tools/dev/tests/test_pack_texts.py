@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""tools/dev/pack_texts: what it reads, what it packs, what it refuses; and the texts of the images it was used for."""
+"""tools/dev/pack_texts: what it reads, packs and refuses; and the texts of the images made with it."""
 
 import ast
 import importlib.util
@@ -35,7 +35,7 @@ def texts_of(source):
 
 
 def decode(codes, pairs):
-    """The code as the tool's own words describe it, written anew: recursive, no stack."""
+    """An independent decoder, from the tool's description: recursive, without a stack."""
     out = b""
     for code in codes:
         part = bytes([code]) if code == 0 or 0x20 <= code < 0x80 else decode(pairs[code], pairs)
@@ -56,7 +56,7 @@ def test_every_packed_text_unpacks_to_itself():
 
 
 def test_nesting_is_bounded():
-    # One text of 2,000 equal characters would nest eleven deep: pairs of pairs of pairs.
+    # A text of 2,000 equal characters would nest eleven deep: pairs of pairs of pairs.
     packed, pairs = tool.pack([b"x" * 2000, b"x" * 999])
     assert all(tool.waiting(code, pairs) <= tool.DEPTH for code in pairs)
     assert decode(packed[b"x" * 2000], pairs) == b"x" * 2000 + b"\0"
@@ -159,7 +159,7 @@ def test_what_does_not_change_is_not_written_again(tmp_path):
 
 
 def image_symbols(elf):
-    """{name without the compiler's suffix: [(address, bytes)]} of what lies in flash."""
+    """{name without the compiler's suffix: [bytes]} of the symbols in flash."""
     flash = elf.with_suffix(".elf.bin")
     subprocess.run(["avr-objcopy", "-O", "binary", "-j", ".text", elf, flash], check=True)
     data = flash.read_bytes()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The READMEs are true: the session of the first screen is part of a tour that a test runs, links and commands exist, and
-tools/README.md has a line for everything in tools/."""
+"""The READMEs are true: a tested tour contains the session of the first screen, links and commands exist, and tools/README.md has a line
+for everything in tools/."""
 
 import pathlib
 import re
@@ -31,7 +31,7 @@ def test_commands_named_exist():
 
 
 def entries(folder):
-    """Names in a folder, without what speaks for itself and what tools leave behind."""
+    """Names in a folder, without self-explanatory files and those that tools leave."""
     return {path.name for path in (TOP / folder).iterdir() if not path.name.startswith((".", "__"))} - {"CMakeLists.txt", "README.md"}
 
 
@@ -67,7 +67,7 @@ def entries(folder):
     ],
 )
 def test_tool_says_by_itself_what_it_does(tool, tmp_path):
-    """Called as a person calls it, without the project's Python; nothing is built, installed or written for that."""
+    """Called as a person calls it, without the project's Python. Nothing is built, installed or written for it."""
     done = subprocess.run(
         [TOP / "tools" / tool, "--help"],
         capture_output=True,

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""tools/release: the sums are right, and what it makes works where there is nothing else. The programs come from the build folder here;
-that the same sources give the same bytes, built twice in two folders, is shown by tools/release --twice."""
+"""tools/release: the checksums are right, and its products work where nothing else is installed. The programs come from the build folder
+here. tools/release --twice shows that the same sources, built in two folders, give the same bytes."""
 
 import os
 import pathlib
@@ -31,7 +31,7 @@ def release(*arguments, umask=0o022, cwd=TOP, **environment):
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
-    """A release made elsewhere, with other modes, time zone, language and hash seed."""
+    """A release made in another folder, with other modes, time zone, language and hash seed."""
     folder = tmp_path_factory.mktemp("a name") / "robot"
     done = release("--from", BUILD, folder, umask=0o077, cwd="/", TZ="Asia/Seoul", LC_ALL="C", PYTHONHASHSEED="7")
     assert done.returncode == 0, done.stderr
@@ -69,14 +69,14 @@ def test_release_names_only_files_that_it_has(made):
 
 
 def test_release_holds_no_path_of_this_computer_but_in_debug_information(made):
-    """With --from the programs are those of the build folder; what the release itself makes must be free of it."""
+    """With --from, the programs are those of the build folder. What the release itself makes must not contain the path."""
     folder = made
     made_here = [name for name in files(folder) if name.suffix not in (".elf", ".gz")]
     assert [str(name) for name in made_here if str(TOP).encode() in (folder / name).read_bytes()] == []
 
 
 def test_release_holds_no_name_that_chance_made(made):
-    """The linker's temporary files stand in the symbol tables."""
+    """Symbol tables contain the names of the linker's temporary files."""
     elves = sorted((made / "firmware").glob("*.elf"))
     assert len(elves) == 8
     for elf in elves:
@@ -85,7 +85,7 @@ def test_release_holds_no_name_that_chance_made(made):
 
 @pytest.fixture(scope="module")
 def installed(made, tmp_path_factory):
-    """A fresh virtual environment with the two wheels; what they need from PyPI comes from this one."""
+    """A fresh virtual environment with the two wheels. What they need from PyPI comes from the current one."""
     venv = tmp_path_factory.mktemp("user") / "venv"
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", venv], check=True)
     site = pathlib.Path(
@@ -129,7 +129,7 @@ def as_a_user(program, *arguments, cwd):
 
 
 def test_release_names_on_the_wheels_of_programs_what_they_need(made, tmp_path):
-    """manylinux_2_NN_MACHINE: such a processor, and no symbol of a C library younger than 2.NN."""
+    """manylinux_2_NN_MACHINE: that processor, and no symbol of a C library newer than 2.NN."""
     wheels = list((made / "python").glob("motion512-*.whl"))
     assert wheels
     for wheel in wheels:
@@ -159,7 +159,7 @@ def test_release_brings_the_terms_of_what_the_simulator_links(made):
 def test_release_plays_on_the_simulator_after_pip_install_alone(installed, tmp_path):
     done = as_a_user(installed / "m512", "play", "wave", "--sim", "--wait", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
-    # Without the simulator's wheel the sentence says what to install.
+    # Without the simulator's wheel, the message says what to install.
     (installed / "cm5sim").rename(installed / "elsewhere")
     done = as_a_user(installed / "m512", "play", "wave", "--sim", cwd=tmp_path)
     (installed / "elsewhere").rename(installed / "cm5sim")
@@ -170,7 +170,7 @@ def test_release_drives_servos_on_an_adapter(installed, tmp_path):
     bus = tmp_path / "bus"
     servos = subprocess.Popen([installed / "cm5sim", f"--bus-pty={bus}", "--servos", "1-3"], stderr=subprocess.PIPE, text=True)
     try:
-        servos.stderr.readline()  # it names its port when it is there
+        servos.stderr.readline()  # cm5sim prints its port once it is ready
         done = as_a_user("/usr/bin/env", f"M512_ROBOT={tmp_path / 'robot'}", installed / "m512", "pose", "-p", f"bus:{bus}", cwd=tmp_path)
     finally:
         servos.terminate()

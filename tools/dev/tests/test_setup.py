@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""tools/dev/setup on a machine that lacks something: one sentence that names it, and a second run that goes through.
+"""tools/dev/setup on a machine that lacks something: one sentence names it, and a second run succeeds.
 
-apt is played by small scripts; Python's part is real, with packages made here in place of a network. The real thing: tools/dev/cleanroom.
+Small scripts stand in for apt. Python's part is real, with packages made here instead of a network. The full test is tools/dev/cleanroom.
 """
 
 import importlib.metadata
@@ -16,7 +16,7 @@ import pytest
 
 DEV = pathlib.Path(__file__).parents[1]
 USED = ["sh", "sed", "grep", "awk", "head", "tail", "tr", "cat", "mktemp", "readlink", "dirname", "basename", "sort", "xargs", "env", "rm", "id"]
-# What apt's programs say on a machine with a mirror, half a gigabyte free, and nothing installed yet.
+# Output of apt's programs on a machine with a mirror, half a gigabyte free, and nothing installed yet.
 MACHINE = {
     "id": "echo 0",
     "dpkg-query": "exit 1",
@@ -30,7 +30,7 @@ MACHINE = {
 
 @pytest.fixture
 def tree(tmp_path):
-    """A tree with nothing but setup and a job of two packages of each kind."""
+    """A tree with only setup and a job of two apt packages and one Python package."""
     top = tmp_path / "tree"
     needs = top / "tools" / "dev" / "needs"
     needs.mkdir(parents=True)
@@ -42,7 +42,7 @@ def tree(tmp_path):
 
 
 def system(tree, **programs):
-    """setup --system job on a machine where these programs say something else."""
+    """Runs setup --system job on a machine where these programs print something else."""
     folder = tree / "bin"
     folder.mkdir(exist_ok=True)
     for name in USED:
@@ -56,7 +56,7 @@ def system(tree, **programs):
 
 
 def refusal_of(done):
-    """The one sentence of a run that failed."""
+    """The only line of a failed run."""
     assert done.returncode == 1
     lines = done.stderr.splitlines()
     assert len(lines) == 1, done.stderr
@@ -64,7 +64,7 @@ def refusal_of(done):
 
 
 def refusal(done):
-    """As setup says it."""
+    """The same for setup itself."""
     line = refusal_of(done)
     assert line.startswith("setup: ")
     return line
@@ -107,7 +107,7 @@ def test_an_installation_that_fails_says_why(tree):
 
 
 def python(tree, wheels):
-    """setup --python job, with the packages of a folder as all that there is."""
+    """Runs setup --python job, with the packages of a folder as the only ones available."""
     return subprocess.run(
         ["tools/dev/setup", "--python", "job"],
         cwd=tree,
@@ -133,7 +133,7 @@ def wheels(tmp_path):
 
 
 def imported(tree):
-    """The version of `thing` that the tree's Python has, and where from."""
+    """The version of `thing` in the tree's Python. Checks that it comes from there."""
     said = subprocess.run(
         [tree / "build" / "venv" / "bin" / "python", "-c", "import thing; print(thing.version, thing.__file__)"],
         capture_output=True,
@@ -166,7 +166,7 @@ def test_an_interrupted_installation_begins_anew(tree, wheels):
 
 
 def test_another_trees_python_is_not_used(tree, wheels, tmp_path):
-    """In it the packages of that tree are installed."""
+    """That Python contains the packages of the other tree."""
     assert python(tree, wheels).returncode == 0
     other = tmp_path / "other"
     shutil.copytree(tree, other, ignore=shutil.ignore_patterns("build"))
@@ -197,7 +197,7 @@ def test_a_copied_tree_gets_a_python_of_its_own(tree, wheels, tmp_path):
 
 
 def test_a_copied_tree_is_built_where_it_lies(tree):
-    """CMake notes where its sources are: with the original's notes the copy would build the original."""
+    """CMake records where its sources are. With the original's records, the copy would build the original."""
     shutil.copy(DEV / "build", tree / "tools/dev/build")
     (tree / "bin").mkdir()
     (tree / "bin/cmake").write_text("#!/bin/sh\nexit 0\n")

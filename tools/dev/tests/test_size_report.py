@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The size report's stack figures, against frames whose size is known from the source."""
+"""The size report's stack figures, for frames whose size is known from the source."""
 
 import pathlib
 import subprocess
@@ -8,7 +8,7 @@ import pytest
 
 TOOL = pathlib.Path(__file__).parents[3] / "tools" / "dev" / "size_report"
 
-# leaf: 40 bytes of frame and the two pushed bytes of Y; pointed: 300 and two, called through a table in flash.
+# leaf: 40 bytes of frame and two pushed bytes of Y; pointed: 300 and two, called through a table in flash.
 SOURCE = """
 #include <avr/io.h>
 #include <avr/interrupt.h>
@@ -62,7 +62,7 @@ def test_flash_budget_of_the_loader_is_smaller(tmp_path):
     assert " 49152 " in report(tmp_path, 10, "edit-x").stdout
 
 
-# Two functions that call each other; and without the call back.
+# Two functions that call each other, and the same without the call back.
 RECURSION = """
 #include <avr/io.h>
 volatile char v;
@@ -84,7 +84,7 @@ def test_recursion_is_a_fault(tmp_path, way_back, is_fault, options):
     assert ("calls itself: its stack has no bound" in done.stderr) == is_fault
 
 
-# The player's only pointers are page sources: `other`, whose address is taken too and which is deeper, is not called.
+# The player's only pointers are page sources. `other` is deeper and its address is taken too, but it is not called.
 PLAYER = """
 #include <avr/io.h>
 volatile char v;
@@ -134,7 +134,7 @@ def test_a_call_to_nowhere_is_refused(tmp_path):
     assert done.returncode == 1 and "main goes to 0x08000, where no function is" in done.stderr
 
 
-# A frame by the compiler's common routine, as the images have it.
+# A frame made by the compiler's common routine, as in the images.
 @pytest.mark.parametrize("options", [(), ("-mcall-prologues", "-mrelax", "-g")], ids=" ".join)
 @pytest.mark.parametrize("size", [1, 6, 7, 63, 64, 300])
 def test_frames_of_every_size_are_counted(tmp_path, size, options):
@@ -150,5 +150,5 @@ int main(void) {{ for (;;) framed(); }}
     )
     assert done.returncode == 0, done.stderr
     fields = done.stdout.splitlines()[1].split()
-    # Y is saved where there is a frame; the call from main; main's own return address.
+    # Y is saved if there is a frame; the call from main; main's own return address.
     assert size + 2 <= int(fields[5]) - 4 <= size + 2 + 4
