@@ -25,8 +25,8 @@ static void put_number(uint8_t number)
     ansi_put((char)('0' + number % 10));
 }
 
-/* Waits for room: half a millisecond at most, the time of three bytes. Serves the tick alone, because the rest of
- * robot_serve needs more stack than is left here. */
+/* Waits for room: at most 0.5 ms, the time of three bytes. Serves only the tick, because the rest of robot_serve needs more
+ * stack than is left here. */
 static void wait_for_room(void)
 {
     for (uint8_t turn = 0; turn < UINT8_MAX && console_room() == 0; turn++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * cells.h - the table on the screen: which byte is shown at (X,Y), its range, the four characters that show it.
+ * cells.h - the table on the screen: which byte is at (X,Y), its range, and its text of four characters.
  * Pure; knows no terminal, no servo and no flash. Source: ORIGINAL.md sections 1, 3 and 4.
  *
  *   X 0      STP7, the work pose (bytes 512..575, after the page)     Y 0..30  joints
@@ -36,7 +36,7 @@ cell_kind_t cell_kind(uint8_t page, uint8_t x, uint8_t y);
 /* Byte offset in page and work pose (the A of the screen). Only where cell_kind is not CELL_NONE. */
 uint16_t cell_address(uint8_t x, uint8_t y);
 
-/* The cell that shows byte `address` (0..575); the name's 14 bytes have one cell. false: no cell shows it. */
+/* The cell that shows byte `address` (0..575); the name's 14 bytes share one cell. false: no cell shows it. */
 bool cell_at(uint16_t address, uint8_t *x, uint8_t *y);
 
 /* Highest value that SET and the keys allow at a cell that is not CELL_NONE: 1023, 255, links 127, Page Step 7. */
@@ -54,7 +54,7 @@ void cell_position_text(uint16_t word, bool hex, char text[CELLS_TEXT_BYTES]);
 void cell_offset_text(uint16_t word, char text[CELLS_TEXT_BYTES]);
 void cell_byte_text(uint8_t byte, bool hex, char text[CELLS_TEXT_BYTES]);
 
-/* Writes the lowest `digits` decimal or hexadecimal digits, with zeros in front; no NUL. */
+/* Writes the lowest `digits` decimal or hexadecimal digits, with leading zeros; no NUL. */
 void cell_digits(uint16_t number, uint8_t digits, bool hex, char *text);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * cmd_cell.c - the cell under the cursor (ORIGINAL.md section 4), and how the table is shown. */
+ * cmd_cell.c - the cell under the cursor (ORIGINAL.md section 4), and the display of the table. */
 #include "commands.h"
 #include "pgm.h"
 #include "ranges_own.h"
@@ -7,7 +7,7 @@
 
 /* ---- SET ---- */
 
-/* The number that SET puts into the cell under the cursor. */
+/* The range of the number that SET puts into a cell. */
 static uint8_t value_range(uint8_t kind, uint16_t max)
 {
     if (kind == CELL_POSITION) {
@@ -19,7 +19,7 @@ static uint8_t value_range(uint8_t kind, uint16_t max)
 /* The cell under the cursor. */
 typedef struct {
     uint16_t address;
-    uint16_t max;    /* what it may hold */
+    uint16_t max;    /* highest value */
     uint8_t kind;    /* cell_kind_t */
     bool is_pose;    /* a joint of the work pose */
 } here_t;
@@ -35,7 +35,7 @@ static here_t look_here(void)
     return here;
 }
 
-/* Edits the cell. A joint of the work pose moves; on page 0 the trim is computed anew. */
+/* Edits the cell. A joint of the work pose moves; on page 0 the trim is recomputed. */
 static void put(const here_t *here, uint16_t value)
 {
     if (here->is_pose) {
@@ -69,7 +69,7 @@ COMMAND(cmd_set)
 
 /* ---- keys ---- */
 
-/* The value of the cell after the key. Page Step stops at its ends; other bytes wrap (their maximum is 127 or 255). ----,
+/* The value of the cell after the key. Page Step stops at its limits; other bytes wrap (their maximum is 127 or 255). ----,
  * ???? and a position that would leave 0..1023 keep their value. */
 static uint16_t changed(const here_t *here, uint16_t word, int8_t change)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * cmd_check.c - CHECK: looks for mistakes in the stored pages: damage, links to no page, partners that cannot be blended,
- * pages that nothing leads to, positions outside a servo's limits, steps faster than a servo. */
+ * cmd_check.c - CHECK finds mistakes in the stored pages: damage, links to no page, partners that cannot be blended,
+ * unreachable pages, positions outside a servo's limits, steps faster than a servo. */
 #include "bus_call.h"
 #include "commands.h"
 #include "dxl.h"
@@ -15,7 +15,7 @@ static const uint8_t link_fields[] PROGMEM = { PAGE_AT_NEXT_PAGE, PAGE_AT_EXIT_P
                                                PAGE_AT_LINKED2_PAGE, PAGE_AT_BLEND_RIGHT, PAGE_AT_BLEND_LEFT };
 enum { LINKS = 4, FIELDS = sizeof link_fields };
 
-/* Serves what cannot wait: one page may print 200 lines of 9 ms each and ask 31 servos that answer late or not at all. */
+/* Kicks the watchdog: one page may print 200 lines of 9 ms each and ask 31 servos that answer late or not at all. */
 static void begin_line(uint8_t page)
 {
     system_kick();

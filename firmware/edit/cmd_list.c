@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * cmd_list.c - HELP, LIST, FIND. Lists take the whole terminal: one item a line, a screen at a time. */
+ * cmd_list.c - HELP, LIST, FIND. Lists take the whole terminal: one item per line, one screen at a time. */
 #include "commands.h"
 
 #include <string.h>
@@ -10,7 +10,7 @@
 
 /* ---- HELP ---- */
 
-/* The first lines of HELP, each ended by a semicolon. */
+/* The first lines of HELP, each terminated by a semicolon. */
 TEXT_NAMED(first_wave,
            "A first wave:;"
            "page 99  opens an empty page;"

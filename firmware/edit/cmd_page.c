@@ -41,8 +41,8 @@ COMMAND(cmd_before)
     return open_asking((uint16_t)(the_session.page - 1u));
 }
 
-/* Play's `play wave` needs a name that only one page has, so this says which other page has the name of stored page
- * `named`. NOINLINE: else the names would lie on the stack while the page is saved. */
+/* Prints which other page has the name of stored page `named`, because Play's `play wave` needs a unique name. NOINLINE:
+ * inlined, the names would stay on the stack while the page is saved. */
 static NOINLINE void tell_namesake(uint8_t named, uint8_t own)
 {
     char name[PAGE_NAME_BYTES];
@@ -88,7 +88,7 @@ COMMAND(cmd_new)
 
 /* ---- save ---- */
 
-/* A stored page has no torque-off marks (PAGE_FORMAT.md): such joints become joints that the step does not use. */
+/* A stored page has no torque-off marks (PAGE_FORMAT.md): such joints become unused in the step. */
 static void clear_off_marks(void)
 {
     uint8_t count = 0;
@@ -96,7 +96,7 @@ static void clear_off_marks(void)
         const uint16_t at = session_step_at(step);
         for (uint8_t place = 0; place < PAGE_STEP_AT_PAUSE; place += 2u) {
             if ((the_session.cells[at + place + 1u] & PAGE_POS_TORQUE_OFF >> 8) == 0) {
-                continue;   /* nearly all words, so without calls: 0.6 ms of SAVE's 60 */
+                continue;   /* nearly all words, so checked without calls: 0.6 ms of SAVE's 60 */
             }
             const uint16_t word = cell_word(the_session.cells, at + place);
             if (!cell_is_off(word) || (the_session.page == 0 && step == CELL_X_OFFSET - CELL_X_STEP0)) {
@@ -115,7 +115,7 @@ static void clear_off_marks(void)
     }
 }
 
-/* Faults that remain after a save. */
+/* Refuses faults that a save would not repair. */
 static bool page_is_sound(void)
 {
     page_status_t fault = session_check_fields();
@@ -151,7 +151,7 @@ static uint8_t save_by_mailbox(uint8_t page)
 
 page_save_status_t cmd_page_save(uint8_t page)
 {
-    servo_link_quiet(&the_servos);   /* interrupts go off for 9 ms at a time: no answer may be under way */
+    servo_link_quiet(&the_servos);   /* no answer may be pending, because interrupts go off for 9 ms at a time */
     page_save_status_t status = page_save(page, the_session.cells);
     page_store_refresh(&the_pages, page);
     if (page == the_session.page && (status == PAGE_SAVE_OK || status == PAGE_SAVE_UNCHANGED)) {
@@ -203,7 +203,7 @@ COMMAND(cmd_exit)
 
 /* ---- name ---- */
 
-/* An empty line keeps the old name, because NAME was called by mistake. One blank empties it. */
+/* An empty line keeps the old name, because NAME was probably a mistake. A single space clears it. */
 void cmd_name_done(const char *name)
 {
     uint8_t length = (uint8_t)strlen(name);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * cmd_play.c - PLAY and its keys; faults of servos, during a play and at rest. */
+ * cmd_play.c - PLAY and its keys; servo faults, during a play and at rest. */
 #include "commands.h"
 #include "dxl.h"
 #include "keys.h"
@@ -19,7 +19,7 @@ COMMAND(cmd_play)
         report_refusal(status, page, the_performer.fault);
         return SHELL_ERR_REPORTED;
     }
-    /* Sets the rate before the first step is planned. The voltage limits what a high rate may demand of the servos. */
+    /* Sets the rate before the first step is planned. The voltage limits the speed that a high rate may demand. */
     shape_set_voltage(&the_performer.shape, the_servos.voltage_dv);
     (void)!shape_set_rate(&the_performer.shape, args->count > 2 ? args->number[1] : SHAPE_NORMAL);
     return DIALOG_TO_PLAY;
@@ -52,7 +52,7 @@ void cmd_play_key(uint8_t key)
     }
 }
 
-/* ---- what happened ---- */
+/* ---- events and faults ---- */
 
 /* The faults of a joint: DXL_ERR_ bits, and two bits that servos do not use. */
 enum { BIT_SILENT = 3, BIT_LIMP = 4 };
@@ -71,8 +71,7 @@ static uint8_t state_of(uint8_t joint)
     return state == 0 && servo_link_has(&the_performer.faulty, joint) ? 1u << BIT_LIMP : state;
 }
 
-/* Prints all faults of the servos as one sentence, because there is one row for several faults. Lost torque also shows as
- * ???? in the table. */
+/* Prints all servo faults in one message, because they share one row. Lost torque also shows as ???? in the table. */
 static void tell_faults(void)
 {
     TEXT_NAMED(voltage, "Low voltage");
@@ -83,12 +82,12 @@ static void tell_faults(void)
     TEXT_NAMED(overload, "Overload");
     static const char *const names[] PROGMEM = { voltage, angle, heat, silent, limp, overload };   /* by bit */
     the_dialog.faults_due = false;
-    the_robot.failed &= ~the_servos.silent;   /* those are named here */
+    the_robot.failed &= ~the_servos.silent;   /* silent servos are reported here */
     screen_open_line();
     if (the_dialog.broken_off) {
         TEXT("Ended: a servo failed.");
     }
-    uint32_t joints[ARRAY_COUNT(names)] = {0};   /* by bit; each joint is asked once, or the next goals would be late */
+    uint32_t joints[ARRAY_COUNT(names)] = {0};   /* by bit; one state_of per joint, or the next goals would be late */
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         uint8_t state = state_of(joint);
         for (uint8_t bit = 0; state != 0; bit++, state >>= 1) {
@@ -150,17 +149,17 @@ static void play_ended(const performer_event_t *event)
     the_dialog.step_due = false;
     shape_reset(&the_performer.shape);   /* the next @play has the stored rate */
     robot_end_play();
-    session_mark_labels();   /* no live positions any more */
+    session_mark_labels();   /* removes the live positions */
     if (the_dialog.mode != DIALOG_PLAY) {
         return;
     }
-    the_dialog.quiet_since = tick_now16();   /* keys have waited for this moment */
+    the_dialog.quiet_since = tick_now16();   /* keys were held back until now */
     the_screen.lead = true;
     tell_end(event);
     dialog_end_line();
 }
 
-/* Prints where the play is. Edit counts steps from 0, like its columns. */
+/* Prints page, step and repetition. Edit counts steps from 0, like its columns. */
 static void tell_step(void)
 {
     const player_t *player = &the_performer.player;
@@ -180,7 +179,7 @@ void cmd_play_events(bool line_is_free)
         } else if (event.kind >= PERFORMER_EV_SILENT && event.kind <= PERFORMER_EV_HOT) {
             the_dialog.faults_due = !the_screen.hidden;
         } else if (event.kind == PERFORMER_EV_STEP) {
-            /* the row keeps the effect of a key, and the faults of servos until they were read */
+            /* the row keeps the message of a key, and servo faults until they were read */
             the_dialog.step_due = the_dialog.mode == DIALOG_PLAY && !the_dialog.faults_stand && the_dialog.well_ticks == 0 &&
                                   !link_is_stopping(&the_performer.link);
         }

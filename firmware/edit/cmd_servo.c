@@ -34,7 +34,7 @@ COMMAND(cmd_go)
 
 /* ---- mirror ---- */
 
-/* The neutral position of a joint: the middle, or that in the first step of page 1 in flash (not its copy in RAM). */
+/* The neutral position of a joint: the middle, or its position in the first step of page 1 in flash (not in RAM). */
 static uint16_t neutral_of(uint8_t joint)
 {
     uint8_t word[2];
@@ -46,7 +46,7 @@ static uint16_t neutral_of(uint8_t joint)
     return cell_is_position(pos) ? pos : PAGE_POS_MIDDLE;
 }
 
-/* What the partner's position is for this joint. A word that is no position is copied. */
+/* The partner's position, mirrored for this joint. A word that is not a position is copied. */
 static uint16_t mirrored(uint8_t step, uint8_t joint, uint8_t partner)
 {
     uint16_t word = session_word(step, partner);
@@ -117,7 +117,7 @@ COMMAND(cmd_pairs)
 
 /* ---- torque ---- */
 
-/* Switches the joints that the line names; without any, all present joints. */
+/* Switches the joints that the line names, or all present joints. */
 static uint8_t switch_named(const shell_args_t *args, bool on)
 {
     uint32_t joints = args->count > 1 ? 0 : the_servos.present;

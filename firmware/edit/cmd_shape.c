@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * cmd_shape.c - commands that the original lacked: a step between two steps, the time of a page, steps from page to page. */
+ * cmd_shape.c - commands that the original lacked: interpolate a step, scale a page's time, copy steps between pages. */
 #include "commands.h"
 #include "page_edit.h"
 #include "pgm.h"
@@ -20,7 +20,7 @@ static void set_between(uint8_t a, uint8_t b, uint8_t to, uint8_t percent)
     }
 }
 
-/* value * mul / div, rounded, 1..255; notes when it does not fit. */
+/* value * mul / div, rounded and limited to 1..255 (0 stays 0); sets *cut if limited. */
 static uint8_t scaled(uint8_t value, uint16_t mul, uint16_t div, bool *cut)
 {
     uint16_t result = page_edit_part(value, mul, div);
@@ -29,8 +29,8 @@ static uint8_t scaled(uint8_t value, uint16_t mul, uint16_t div, bool *cut)
     return (uint8_t)kept;
 }
 
-/* With times, the inserted step takes its share of the time of the step after it, so that the page takes as long as before.
- * With speeds, or at the end, it gets the speed of that step. */
+/* With times, the inserted step takes its share of the time of the next step, so that the page keeps its duration. With
+ * speeds, or if step `b` is not the next one, it gets the value of `b`. */
 static void share_time(uint8_t to, uint8_t b, uint8_t percent)
 {
     uint16_t at = session_step_at(b) + PAGE_STEP_AT_SPEED;
@@ -85,7 +85,7 @@ COMMAND(cmd_scale)
     return dialog_edited();
 }
 
-/* ---- steps from page to page ---- */
+/* ---- copying steps between pages ---- */
 
 COMMAND(cmd_take)
 {
@@ -135,7 +135,7 @@ COMMAND(cmd_paste)
     if (to + count > the_session.cells[PAGE_AT_STEPS]) {
         session_set_byte(PAGE_AT_STEPS, to + count);
     }
-    /* Copies upwards or downwards, so that overlapping steps of one page are read before they are overwritten. */
+    /* Copies upwards or downwards, so that overlapping steps of a page are read before they are overwritten. */
     for (uint8_t i = 0; i < count; i++) {
         uint8_t k = to > the_dialog.take_first ? (uint8_t)(count - 1u - i) : i;
         paste_step(the_dialog.take_first + k, to + k);

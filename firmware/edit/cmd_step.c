@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * cmd_step.c - commands for whole steps: their number; write, insert, delete, copy, swap. */
+ * cmd_step.c - commands for whole steps: count, write, insert, delete, copy, swap. */
 #include "commands.h"
 #include "pgm.h"
 #include "report.h"
@@ -48,8 +48,8 @@ static void update_trim(uint8_t step)
     TEXT("Offset Updated");
 }
 
-/* Writes the work pose to a step. Joints without torque are written as ????, with a message, because that is seldom meant.
- * Joints that are not present become unused, unless SET or MOVE has put a position there. */
+/* Writes the work pose to a step. Joints without torque are written as ????, with a message, because it is rarely intended.
+ * Absent joints become unused, unless SET or MOVE has put a position there. */
 static void write_pose(uint8_t step)
 {
     uint32_t off = 0;
@@ -64,7 +64,7 @@ static void write_pose(uint8_t step)
             session_set_word((uint16_t)(session_step_at(step) + 2u * joint), PAGE_POS_UNUSED);
         }
     }
-    the_robot.failed |= the_servos.silent;   /* they are written as they were known last */
+    the_robot.failed |= the_servos.silent;   /* their last known positions are written */
     if (off != 0) {
         the_screen.lead = true;
         TEXT("Off: ");
@@ -118,7 +118,7 @@ COMMAND(cmd_insert)
     return dialog_edited();
 }
 
-/* The steps after it move down. The last one stays where it was, as a copy (ORIGINAL.md section 6). */
+/* The steps after it move down. The last step also keeps a copy in its old place (ORIGINAL.md section 6). */
 static uint8_t delete_step(uint8_t step)
 {
     uint8_t steps = the_session.cells[PAGE_AT_STEPS];

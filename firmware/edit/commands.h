@@ -24,14 +24,14 @@ COMMAND(cmd_before);
 COMMAND(cmd_copy);
 COMMAND(cmd_new);
 COMMAND(cmd_save);
-/* The only way into flash, for SAVE and @save: saves the page in RAM as page `page`. Sets its checksum byte, keeps the servo
- * bus quiet, and updates the store, the unsaved mark and the trim. 60 ms. */
+/* Saves the page in RAM as page `page`, for SAVE and @save; nothing else writes to flash. Sets its checksum byte, keeps the
+ * servo bus quiet, and updates the store, the unsaved mark and the trim. 60 ms. */
 page_save_status_t cmd_page_save(uint8_t page);
 COMMAND(cmd_exit);
 COMMAND(cmd_name);
 COMMAND(cmd_undo);
 COMMAND(cmd_redo);
-/* Stores the name that was typed after "name:". */
+/* Stores the name typed after "name:". */
 void cmd_name_done(const char *name);
 
 /* cmd_step.c */
@@ -41,9 +41,9 @@ COMMAND(cmd_insert);
 COMMAND(cmd_delete);
 COMMAND(cmd_move);
 COMMAND(cmd_swap);
-/* Refuses, with a sentence, the step of page 0 that holds the trim: it is computed, and no pose. */
+/* Refuses, with a message, the step of page 0 that holds the trim, because it is computed and not a pose. */
 bool cmd_step_is_trim(uint8_t step);
-/* Refuses, with a sentence, to shift or exchange the steps of page 0: a pose in the trim's column would move every goal. */
+/* Refuses, with a message, to shift or swap the steps of page 0: a pose in the trim's column would shift every goal. */
 bool cmd_step_is_trim_page(void);
 
 /* cmd_shape.c */
@@ -76,14 +76,14 @@ void cmd_cell_space(void);
 COMMAND(cmd_play);
 void cmd_play_key(uint8_t key);
 void cmd_play_events(bool line_is_free);
-/* Lets the row show faults again, if there are any and nothing is being typed. */
+/* Shows faults on the row again if there are any and nothing is being typed. */
 void cmd_play_tell_again(void);
 
 /* cmd_list.c, cmd_check.c */
 COMMAND(cmd_mon);
 COMMAND(cmd_help);
 COMMAND(cmd_list);
-/* The refusal of a range, of pages or steps, whose end comes before its beginning. */
+/* Refuses a range of pages or steps that ends before it begins. */
 uint8_t cmd_refuse_backwards(void);
 COMMAND(cmd_find);
 COMMAND(cmd_check);

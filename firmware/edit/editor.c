@@ -19,9 +19,9 @@
 
 enum { PAINT_ROOM = CONSOLE_TX_BYTES / 2, BYTES_PER_TURN = 32 };
 
-static const char *notice;   /* in flash; NULL after it was shown */
+static const char *notice;   /* in flash; NULL once shown */
 
-/* ---- the pages of the performer: the open one from RAM, the others from flash ---- */
+/* ---- pages for the performer: the open one from RAM, the others from flash ---- */
 
 static void source_read(void *context __attribute__((unused)), uint8_t page, uint16_t offset, void *to, uint8_t count)
 {
@@ -58,7 +58,7 @@ void editor_init(const char *notice_P)
 void editor_put(char character)
 {
     if (channel_is_printing()) {
-        ansi_put(character);   /* the terminal does not show it: its cursor and the lines of a list stay */
+        ansi_put(character);   /* the terminal does not show it: do not count cursor movement or list lines */
         return;
     }
     if (character == '\n') {
@@ -69,7 +69,7 @@ void editor_put(char character)
 
 /* ---- the main loop ---- */
 
-/* The time that an answer takes is no time between a person's keys. */
+/* The time of the answer does not count as a pause between a person's keys. */
 static void answer_program(void)
 {
     const uint16_t begun = tick_now16();
@@ -78,7 +78,7 @@ static void answer_program(void)
     screen_sync();
 }
 
-/* Keys wait during a list, and while the joints slow down after a break: they are meant for what follows. */
+/* Keys wait while a list prints and while joints slow down after a break: they are meant for what follows. */
 static bool keys_wait(void)
 {
     return the_dialog.mode == DIALOG_LIST || (the_dialog.mode == DIALOG_PLAY && the_performer.leaving);
@@ -135,7 +135,7 @@ static void tick_work(void)
     }
 }
 
-/* Prints a @now line; without the channel only on the plain terminal of programs, between two of their lines. */
+/* Prints a @now line: in the channel, or on the plain terminal of programs between two of their lines. */
 static void print_now(void)
 {
     const uint8_t sink = the_screen.sink;
@@ -147,7 +147,7 @@ static void print_now(void)
     }
 }
 
-/* Shows the notice after the first screen, when the terminal's size is known: the screen would erase it. */
+/* Shows the notice after the first screen, when the terminal's size is known; earlier, a redraw would erase it. */
 static void tell_notice(void)
 {
     if (notice != NULL && the_dialog.mode == DIALOG_TABLE) {

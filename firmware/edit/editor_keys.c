@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * editor_keys.c - runs complete lines; says which key means what, mode by mode (the diagram is in dialog.h). */
+ * editor_keys.c - runs complete lines; defines the keys of each mode (see the diagram in dialog.h). */
 #include "editor_keys.h"
 
 #include "commands.h"
@@ -16,15 +16,15 @@
 #include "text.h"
 #include "tick.h"
 
-enum { REPEAT_TICKS = 20 };   /* 150 ms: a held key, no second press */
+enum { REPEAT_TICKS = 20 };   /* 150 ms: a key that comes sooner is held down, not pressed again */
 enum { PAGE_ROWS = 8, ESC_QUIET_TICKS = 7 };
-enum { SWALLOW_TICKS = 60, STREAM_TICKS = 4 };   /* a person's next letter; a stream's next byte */
+enum { SWALLOW_TICKS = 60, STREAM_TICKS = 4 };   /* longest gap between a person's letters; between bytes of a stream */
 enum { MESSAGE_COLUMN_MAX = 40 };   /* after a longer line a message would be cut */
 enum { BACKSLASH = '\\', FIRST_WORD_KEY = '0', LAST_WORD_KEY = 'Z', FIRST_LOWER_KEY = '^', LAST_LOWER_KEY = 'z' };
 
 static keys_t keys;
-static bool swallow;    /* ignore the rest of a line whose first letters answered a question, or were typed during a play */
-static bool after_cr;   /* the last byte was CR, so a LF now belongs to it */
+static bool swallow;    /* ignore the rest of a line whose first letters answered a question or were typed during a play */
+static bool after_cr;   /* the last byte was CR, so an LF now belongs to it */
 
 void editor_keys_init(void)
 {
@@ -32,7 +32,7 @@ void editor_keys_init(void)
     swallow = after_cr = false;
 }
 
-/* ---- a complete line; the same again after each answered question ---- */
+/* ---- running a complete line, again after each answered question ---- */
 
 static void print_refusal(uint8_t result)
 {
@@ -98,7 +98,7 @@ static void open_line(uint8_t key)
     bool starts = (key >= FIRST_WORD_KEY && key <= LAST_WORD_KEY) || key == BACKSLASH ||
                   (key >= FIRST_LOWER_KEY && key <= LAST_LOWER_KEY);
     shell_clear(&the_dialog.shell);
-    shell_lose(&the_dialog.shell, console_lost());   /* before this key: the line may have begun there */
+    shell_lose(&the_dialog.shell, console_lost());   /* bytes lost before this key may belong to the line */
     the_dialog.mode = DIALOG_LINE;
     the_dialog.row_ticks = ROW_TICKS;
     screen_open_line();
@@ -121,7 +121,7 @@ static void open_program_line(void)
     (void)shell_byte(&the_dialog.shell, '@');
 }
 
-/* Shows the whole screen again (0.5 s) before a key that may open a line on it. */
+/* Repaints the whole screen (0.5 s) before a key that may open a line on it. */
 static void take_screen_back(void)
 {
     requests_end_watch();
@@ -141,7 +141,7 @@ static void move_key(uint8_t key)
     }
 }
 
-/* A person pages a list with spaces, or holds the key down: those that follow another change no cell, however many. */
+/* Ignores spaces that quickly follow another one, because a person pages a list with spaces or holds the key down. */
 static void space_key(void)
 {
     const bool is_late = the_dialog.late_ticks != 0;
@@ -151,7 +151,7 @@ static void space_key(void)
     the_dialog.late_ticks = is_late ? LATE_TICKS : REPEAT_TICKS;
 }
 
-/* true: the key changes the cell under the cursor. */
+/* true: the key was one for the cell under the cursor. */
 static bool cell_key(uint8_t key)
 {
     switch (key) {
@@ -171,7 +171,7 @@ static bool cell_key(uint8_t key)
     }
 }
 
-/* Handles a key that changes the table. */
+/* Handles a key of the table, or opens a line with it. */
 static void table_key(uint8_t key)
 {
     if (key == KEY_SIZE) {
@@ -190,7 +190,7 @@ static void table_key(uint8_t key)
     screen_sync();
 }
 
-/* Handles a byte after a program's line. */
+/* Whether the key leaves a hidden screen hidden. */
 static bool is_no_key(uint8_t key)
 {
     return key == KEY_NONE || key == KEY_CR || key == KEY_LF;
@@ -202,8 +202,8 @@ static bool is_letter(uint8_t key)
     return small >= 'a' && small <= 'z';
 }
 
-/* A program may have hidden the screen or started a motion; then keys must not edit. A line may be typed during a motion if
- * the screen is there: each command knows whether it may. */
+/* A program may have hidden the screen or started a motion. Then keys must not edit. During a motion a line may be typed if
+ * the screen is shown: the command table decides which commands may run. */
 static void first_key(uint8_t key)
 {
     if (key == '@') {
@@ -321,8 +321,8 @@ void editor_quiet(void)
 }
 
 /* Ignores the rest of a line whose first letters answered a question or were typed during a play (the end of `help off`
- * is no command), up to its end or a pause; and bytes that still stream in when a question is asked, which are no answer.
- * The bytes after an ESC belong to it: without them it would be a key. */
+ * is not a command), up to its end or a pause. Also ignores bytes that still stream in when a question is asked, because
+ * they are not an answer. Keeps the bytes after an ESC: without them it would count as the Esc key. */
 static bool is_left_over(uint8_t byte, uint16_t quiet_ticks)
 {
     if (the_dialog.mode == DIALOG_PLAY) {

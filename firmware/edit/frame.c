@@ -9,7 +9,7 @@
 enum { FIRST_MARKER_COLUMN = 25, STEP_WIDTH = 5, FIRST_STEP_COLUMN = 26, SOFTNESS_COLUMN = 61,
        HEADER_COLUMN = 77, HEADER_LABEL_END = 76, NAME_COLUMN = 65, TITLE_COLUMN = 65, HEX_LOWER_FROM = 0x1A };
 
-/* Labels of header rows 1..19, each ended by a semicolon; from row 3 on in the order of bytes 14..30. */
+/* Labels of header rows 1..19, each terminated by a semicolon; from row 3 on in the order of bytes 14..30. */
 TEXT_NAMED(header_texts,
            "PageNumber:;Addr:;"
            "(Reserved) :;PlayCount:;(Reserved) :;Blend Right:;Blend Left:;(Reserved) :;Page Step:;"
@@ -59,7 +59,7 @@ void frame_cell_text(uint8_t x, uint8_t y, char text[CELLS_TEXT_BYTES])
     }
 }
 
-/* "Dynamixel 26(0x1a)[": upper case below 0x1A, lower case from there on, as the original has it. */
+/* "Dynamixel 26(0x1a)[": upper case below 0x1A, lower case from there on, as in the original. */
 static void joint_label(uint8_t joint, char text[FRAME_LABEL_BYTES])
 {
     (void)text_copy_P(text, TEXT_P("Dynamixel   (0x  )["));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * keys.h - terminal bytes to keys: arrows, the terminal's size report, a lone ESC; everything else as it is.
+ * keys.h - converts terminal bytes to keys: arrows, the terminal's size report, a lone ESC; all else passes unchanged.
  * Pure. Main loop only.
  *
  *   GROUND --ESC--> ESCAPE --'[' or 'O'--> SEQUENCE --final byte--> GROUND (arrow, report, or swallowed)
@@ -26,7 +26,7 @@ void keys_init(keys_t *keys);
 /* Takes one byte. Returns a character below 0x80 or a KEY_. NUL and bytes from 0x80 on give KEY_NONE. */
 uint8_t keys_byte(keys_t *keys, uint8_t byte);
 
-/* Call when no byte has come for 50 ms: a lone ESC was the ESC key. */
+/* Call after 50 ms without a byte: a lone ESC was the Esc key. */
 uint8_t keys_quiet(keys_t *keys);
 
 /* Whether a sequence is open; its bytes must not reach a line. */

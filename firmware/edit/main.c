@@ -15,14 +15,14 @@ servo_link_t the_servos;
 performer_t the_performer;
 settings_t the_settings;
 settings_store_t the_settings_store;
-static boot_rx_t receiver;   /* the loader puts what the PC sends during a page write into the console's ring */
+static boot_rx_t receiver;   /* the loader puts bytes that arrive during a page write into the console's ring */
 
 static void put(char character)
 {
     editor_put(character);
 }
 
-/* The message for the first screen: what became of a page in the mailbox, or how SAVE is going to work. */
+/* The message for the first screen: the result of a page in the mailbox, or how SAVE will work. */
 static const char *mail_text_P(void)
 {
     page_service_mail_t mail = page_service_mail();

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * parts.h - the editor's one instance of each part, defined in main.c. Files that join several parts (commands, robot,
- * screen, editor) use them by name: fixed addresses save 1 KB of flash compared with pointers in every struct. */
+ * parts.h - the editor's single instance of each part, defined in main.c. Files that combine several parts (commands,
+ * robot, screen, editor) use them by name: fixed addresses save 1 KB of flash over pointers in every struct. */
 #ifndef PARTS_H
 #define PARTS_H
 

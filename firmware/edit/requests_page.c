@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * requests_page.c - Edit's own requests, which bring in a page: @open, @data, @crc, @save; and Edit's requests_image. */
+ * requests_page.c - Edit's own requests, which load and save a page: @open, @data, @crc, @save; and its requests_image. */
 #include <string.h>
 #include "board.h"
 #include "commands.h"
@@ -16,7 +16,7 @@
 
 REQUEST(do_open)
 {
-    /* A person answers for the page that is open. */
+    /* The person's answer is about the page that is open. */
     if (the_dialog.mode == DIALOG_ASK || the_dialog.mode == DIALOG_NAME) {
         return requests_refuse(REQUEST_ERR_ASKED, TEXT_P("Edit waits for an answer on its terminal"));
     }
@@ -67,7 +67,7 @@ REQUEST(do_crc)
     return REQUEST_OK;
 }
 
-/* The CRC takes the place of a person's yes: this page, as it is, goes there. */
+/* The CRC replaces a person's confirmation: it proves that the program means the page in RAM. */
 REQUEST(do_save)
 {
     uint16_t crc;

@@ -16,7 +16,7 @@ static void fail(uint8_t joint)
     servo_link_put(&the_robot.failed, joint, true);
 }
 
-/* A word of the servo as a page position. */
+/* Reads a word of the servo as a page position. */
 static bool read_pos(uint8_t joint, uint8_t at, uint16_t *pos)
 {
     uint8_t bytes[2];
@@ -60,7 +60,7 @@ void robot_read(void)
 
 void robot_follow(void)
 {
-    uint32_t off = the_servos.present & ~the_servos.torque;   /* the next joint's bit is the lowest */
+    uint32_t off = the_servos.present & ~the_servos.torque;   /* shifted: bit 0 is the current joint */
     for (uint8_t joint = 0; off != 0; joint++, off >>= 1) {
         uint16_t pos = the_servos.present_pos[joint];
         if ((off & 1u) != 0 && pos != SERVO_LINK_NO_POSE) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * screen.c - what has to be sent: follows the session, scrolls; the command row; characters and the terminal's cursor. */
+ * screen.c - decides what to send: follows the session, scrolls; the command row; characters and the terminal's cursor. */
 #include "screen.h"
 
 #include <string.h>
@@ -14,7 +14,7 @@ enum { SHOWN_UNSAVED = 1, SHOWN_HEX = 2, SHOWN_PAGE0 = 4 };
 enum { SCROLL_STEP = 4 };
 enum { FIXED_ROWS = 4 };   /* below the table: labels, pause, speed, command */
 
-/* ---- which row of the table is in which row of the screen ---- */
+/* ---- table rows and screen rows ---- */
 
 bool screen_is_full(void)
 {
@@ -73,7 +73,7 @@ uint8_t screen_joint_in_row(uint8_t row)
     return joint;
 }
 
-/* ---- characters and the cursor, the shortest way ---- */
+/* ---- characters and the cursor, with the fewest bytes ---- */
 
 void screen_send(char character)
 {
@@ -124,7 +124,7 @@ void screen_go_line(void)
     screen_go(screen_command_row(), column < SCREEN_COLUMNS ? column : SCREEN_COLUMNS);
 }
 
-/* ---- what follows from the session ---- */
+/* ---- following the session ---- */
 
 static uint8_t flags_of(void)
 {
@@ -275,7 +275,7 @@ void screen_move(session_way_t way)
         if (the_session.y == before) {
             the_session.x = x;
             the_session.y = y;
-            return;   /* a row whose servo has just gone may be where it began */
+            return;   /* the start row may have lost its servo meanwhile */
         }
     }
 }
@@ -318,7 +318,7 @@ static void put_in_line(char character)
         screen_go_line();
         screen_send(character);
     }
-    if (the_screen.line_column < UINT8_MAX) {   /* no line is so long that it would have to be rubbed out from there */
+    if (the_screen.line_column < UINT8_MAX) {   /* no line that can be edited is this long */
         the_screen.line_column++;
     }
 }

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT
  * screen.h - the editor's full screen on an ANSI/VT100 terminal. Sends only what has changed.
  * Knows the session and the console, no command and no servo. Main loop only. RAM: one screen_t.
- * screen_paint.c paints what screen.c says.
+ * screen.c decides what to send, screen_paint.c sends it.
  *
- * There is no copy of the screen. A cell's text is made from the session. The session marks the cells that change, and
- * screen_paint sends marked cells, a row at a time, whenever the console has room. So input never waits for a repaint, and
- * a cell that changes twice is sent once. With 35 rows or more the frame is that of ORIGINAL.md section 3. With
+ * There is no copy of the screen. A cell's text is derived from the session. The session marks the cells that change, and
+ * screen_paint sends marked cells, one row at a time, whenever the console has room. So input never waits for a repaint, and
+ * a cell that changes twice is sent once. With 35 rows or more the layout is that of ORIGINAL.md section 3. With
  * 24..34 rows only present joints have a row, the joints scroll, and the last four rows stay:
  *
  *      rows 1 .. rows-4     joints          | header, rows 1..20, does not scroll
- *      rows-3, rows-2       pause, speed    | what is wrong with the page; X, Y, A
+ *      rows-3, rows-2       pause, speed    | fault of the page; X, Y, A
  *      rows-1               unsaved mark, step labels, Go Step
  *      rows                 command line and messages */
 #ifndef SCREEN_H
@@ -25,46 +25,46 @@
 #define SCREEN_COLUMNS 80u
 
 typedef enum {
-    SCREEN_QUIET = 0,   /* text is dropped: there is no line */
+    SCREEN_QUIET = 0,   /* text is dropped: no line is open */
     SCREEN_LINE,        /* text goes to the command row, cut at its end */
-    SCREEN_PLAIN        /* text goes to the terminal as it is: lists, monitor, line mode */
+    SCREEN_PLAIN        /* text goes to the terminal unchanged: lists, lines of programs */
 } screen_sink_t;
 
 typedef struct {
     uint8_t items;           /* single items to send */
     uint8_t rows;            /* of the terminal, 24..35 */
-    uint8_t top;             /* rows that are scrolled out above */
-    uint8_t at_row, at_column; /* where the terminal's cursor is; row 0 = not known */
-    uint8_t line_column;     /* where the next character of the command row goes; from SCREEN_COLUMNS on it is not shown */
+    uint8_t top;             /* rows scrolled out at the top */
+    uint8_t at_row, at_column; /* the terminal's cursor; row 0 = unknown */
+    uint8_t line_column;     /* of the next character of the command row; from SCREEN_COLUMNS on it is not shown */
     uint8_t sink;            /* screen_sink_t */
-    bool lead;               /* a space goes before the next character of the command row */
-    bool cramped;            /* the line is long: a message after it would be cut and gets the row for itself */
-    bool hidden;             /* something else has the screen: nothing is painted */
+    bool lead;               /* a space precedes the next character of the command row */
+    bool cramped;            /* the line is long: a message after it would be cut, so it replaces the line */
+    bool hidden;             /* the screen is in other use: nothing is painted */
     uint8_t shown_x, shown_y, shown_go, shown_fault, shown_flags;
 } screen_t;
 
-extern screen_t the_screen;     /* the only one: all functions here are about it */
+extern screen_t the_screen;     /* the only instance: all functions here use it */
 
 void screen_init(void);
 
 /* Clears the screen and sends everything again. */
 void screen_redraw(void);
 
-/* Sets the number of rows of the terminal. Redraws if that changes the layout. */
+/* Sets the number of rows of the terminal. Redraws if the layout changes. */
 void screen_set_rows(uint8_t rows);
 
 /* Clears the screen for plain text, and shows it again. */
 void screen_hide(void);
 void screen_show(void);
 
-/* Updates what depends on the session besides the cells: X Y A, marks, page number. Call after each key or command. */
+/* Updates the items that follow the session besides the cells: X Y A, labels, marks. Call after each key or command. */
 void screen_sync(void);
 
-/* Sends the next piece, at most about 110 bytes. false: all is on the screen and the cursor rests at its cell (or at the
- * end of the line, sink SCREEN_LINE). */
+/* Sends the next piece, at most about 110 bytes. false: the screen is up to date and the cursor is at its cell (sink
+ * SCREEN_LINE: at the end of the line). */
 bool screen_paint(void);
 
-/* Empties the command row for a new line. */
+/* Clears the command row for a new line. */
 void screen_open_line(void);
 
 /* Takes one character of text and sends it where `sink` says. */
@@ -76,10 +76,10 @@ void screen_move(session_way_t way);
 /* Whether joint `joint` has a row (perhaps scrolled out). */
 bool screen_has_row(uint8_t joint);
 
-/* Scrolls so that the cursor's cell is in sight. */
+/* Scrolls so that the cursor's cell is visible. */
 void screen_follow(void);
 
-/* Asks the terminal for its size; the answer is a cursor position report. */
+/* Asks the terminal for its size; it answers with a cursor position report. */
 void screen_ask_size(void);
 
 /* ---- for screen_paint.c ---- */
@@ -101,11 +101,11 @@ enum {
 bool screen_is_full(void);                          /* every joint has a row, nothing scrolls */
 uint8_t screen_table_rows(void);                    /* rows for joints */
 uint8_t screen_command_row(void);
-uint8_t screen_row_of(uint8_t y);                   /* of table row y; 0: it is not in sight */
-uint8_t screen_rows_before(uint8_t joint);          /* how many joints below `joint` have a row, in sight or not */
+uint8_t screen_row_of(uint8_t y);                   /* of table row y; 0: not visible */
+uint8_t screen_rows_before(uint8_t joint);          /* number of joints below `joint` with a row, visible or not */
 uint8_t screen_joint_in_row(uint8_t row);           /* or the last one above it */
 
-/* Places the terminal's cursor; sends characters there. screen_go_line: at the end of the command line, or of its row. */
+/* Move the terminal's cursor; send characters. screen_go_line: to the end of the command line, at most of its row. */
 void screen_go(uint8_t row, uint8_t column);
 void screen_go_line(void);
 void screen_send(char character);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * screen_paint.c - paints what is marked, one row of the table or one item a turn. */
+ * screen_paint.c - paints what is marked, one row of the table or one item per turn. */
 #include "ansi.h"
 #include "frame.h"
 #include "parts.h"
@@ -16,8 +16,8 @@ static char marker_at(uint8_t column)
     return steps <= PAGE_STEPS && column == frame_marker_column(steps) ? '|' : ' ';
 }
 
-/* Moves right within table row y. Sends the characters of a short gap again, because that is shorter than a cursor sequence:
- * the bracket of the work pose, a marker or a blank. */
+/* Moves right within table row y. Across a short gap, resends its characters (the bracket of the work pose, a marker or a
+ * space), because that is shorter than a cursor sequence. */
 static void go_in_row(uint8_t row, uint8_t y, uint8_t column)
 {
     if (the_screen.at_row == row && y < PAGE_JOINTS && column > the_screen.at_column && column - the_screen.at_column <= 2) {
@@ -76,7 +76,7 @@ static void paint_label(uint8_t row, uint8_t y, uint16_t marks)
     }
 }
 
-/* Sends the bracket after the work pose, with the label although it is to the right of the cell. */
+/* The bracket after the work pose is sent with the label, although it is to the right of the cell. */
 static void paint_bracket(uint8_t row, uint16_t marks)
 {
     if ((marks & MARK_HEADER_LABEL) != 0) {

@@ -77,8 +77,8 @@ static void change_byte(uint16_t address, uint8_t bits)
     mark_byte(address);
 }
 
-/* Before the first change of an edit: the spare page becomes the page as it was. An edit that changes nothing leaves the
- * spare, and what it undoes, alone. */
+/* Copies the page to the spare page before the first change of an edit. An edit that changes nothing keeps the spare page
+ * and what it can undo. */
 static void take_spare(void)
 {
     if (!the_session.is_begun) {
@@ -280,7 +280,7 @@ static void enter(uint8_t x, uint8_t y)
     }
 }
 
-/* Moves up or down. Where a column ends, the cursor goes on in the one to the left. */
+/* Moves up or down. Where a column ends, the cursor continues in the one to the left. */
 static void enter_row(uint8_t y)
 {
     uint8_t x = the_session.x;
@@ -313,7 +313,7 @@ void session_move(session_way_t way)
 
 /* ---- editing commands and their undo ----
  *
- * Small changes are noted (undo.h). A larger one is undone from the spare page, which has the page as it was, until a
+ * Small changes are recorded (undo.h). A larger one is undone from the spare page, a copy of the previous page, until a
  * play needs that memory. */
 
 static void begin(uint8_t turn)
@@ -341,7 +341,7 @@ static void keep_spare(uint8_t what_for)
     }
 }
 
-/* Exchanges the page and the spare page, if that is intact and meant for this direction. */
+/* Swaps the page and the spare page, if the spare page is intact and meant for this direction. */
 static bool exchange_spare(bool back)
 {
     if (the_session.spare == NULL || the_session.spare_for != (back ? SESSION_SPARE_UNDO : SESSION_SPARE_REDO) ||
@@ -384,8 +384,8 @@ static void swap_steps(uint8_t a, uint8_t b)
     }
 }
 
-/* Permutes steps. UP first last: first -> first+1 -> .. -> last -> first; DOWN is its inverse. Rotations are made of swaps
- * of neighbours, which need no spare step. */
+/* Permutes steps. UP first last: first -> first+1 -> .. -> last -> first; DOWN is its inverse. Rotations consist of swaps of
+ * neighbours, which need no spare step. */
 static void turn_steps(uint8_t turn, bool back)
 {
     uint8_t first = (turn >> 3) & 7u;

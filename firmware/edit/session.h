@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * session.h - the state of editing: one page in RAM, the work pose after it, the cursor, undo.
- * Knows neither terminal nor servo. Reads flash through page_store.h, never writes it. Every change of a byte goes
- * through here: it is noted for undo and its cell is marked for the screen. One instance; main loop only.
+ * Knows neither terminal nor servo. Reads flash through page_store.h, never writes it. Every change of a byte passes
+ * through here: it is recorded for undo and its cell is marked for the screen. One instance; main loop only.
  * RAM: one session_t; most of it is the cells and the undo history. */
 #ifndef SESSION_H
 #define SESSION_H
@@ -19,7 +19,7 @@ enum {
     MARK_CELLS = 0x03FF,
     MARK_LABEL = 0x0400,        /* left of the work pose */
     MARK_HEADER_LABEL = 0x0800, /* left of X9 */
-    MARK_STEP_SHIFT = 12,       /* bits 12..15: the step marker as it is on the screen now */
+    MARK_STEP_SHIFT = 12,       /* bits 12..15: the step marker now on the screen */
     MARK_STEP_NONE = 8          /* no marker on the screen */
 };
 
@@ -31,19 +31,19 @@ typedef struct {
     uint8_t go_step;                  /* the step that GO sent last, or SESSION_NO_STEP */
     bool hex;                         /* numbers are hexadecimal */
     bool was_damaged;                 /* the checksum was wrong when the page was opened; a save repairs it */
-    bool is_changed;                  /* differs from what flash holds: the unsaved mark */
-    bool was_changed;                 /* is_changed before the command under way */
+    bool is_changed;                  /* differs from flash: the unsaved mark */
+    bool was_changed;                 /* is_changed before the current command */
     bool is_begun;                    /* an edit has begun and changed nothing yet */
-    bool undo_reloads;                /* the last command was too large to note, but flash has the page as it was before */
+    bool undo_reloads;                /* the last command was too large to record, but flash has the previous page */
     uint8_t spare_for;                /* what the spare page may be used for: SESSION_SPARE_... */
-    uint16_t spare_crc;               /* of the spare page; if it does not fit, a play has overwritten the page */
+    uint16_t spare_crc;               /* of the spare page; if it is wrong, a play has overwritten the page */
     uint8_t *spare;                   /* the caller's PAGE_BYTES for the page before the command, or NULL */
     uint8_t cells[CELLS_BYTES];       /* page, then the work pose (STP7) */
     uint16_t marks[CELLS_ROWS];       /* written here, taken by the screen */
     undo_t undo;
 } session_t;
 
-extern session_t the_session;   /* the only one: all functions here use it */
+extern session_t the_session;   /* the only instance: all functions here use it */
 
 /* Opens page 1, as after power-on. The work pose is ---- in all joints until the robot is read. Its speed is that of a new
  * page, because a first WRITE must not store speed 0. */
@@ -61,11 +61,11 @@ void session_set_bytes(uint16_t address, const uint8_t *bytes, uint8_t count);
 /* Updates is_changed. false: the change is done but cannot be undone. */
 bool session_end(void);
 
-/* Edits of the whole page, within begin and end: load copies flash page `from` (COPY), clear makes a new page. If undo.h has
- * no room, they can still be undone from the spare page, or from flash if the page was as in flash before. */
+/* Edits of the whole page, between begin and end: load copies flash page `from` (COPY), clear makes a new page. If undo.h
+ * has no room, they can still be undone from the spare page, or from flash if the page had no unsaved changes. */
 void session_load(uint8_t from);
 void session_clear(void);
-/* Takes the place of session_begin and permutes whole steps: UNDO_TURN(...). */
+/* Replaces session_begin and permutes whole steps: UNDO_TURN(...). */
 void session_begin_turn(uint8_t turn);
 
 /* Undoes or redoes one command. false: there is none. */
@@ -91,19 +91,19 @@ uint16_t session_word(uint8_t step, uint8_t joint);
 /* Byte `offset` of a new page. */
 uint8_t session_new_byte(uint16_t offset);
 
-/* What is wrong with the page: its checksum as it was when opened, the fields as they are now. */
+/* What is wrong with the page: its checksum when it was opened, or its current fields. */
 page_status_t session_check(void);
 
 /* The same without the checksum, which a save sets. */
 page_status_t session_check_fields(void);
 
-/* Whether flash page `page` is erased, or good and without name and steps. */
+/* Whether flash page `page` is erased, or has neither name nor steps and a good checksum. */
 bool session_is_empty(uint8_t page);
 
-/* Call when the page was written to flash. */
+/* Call after the page was written to flash. */
 void session_saved(void);
 
-/* Call when bytes of the page were changed from outside: empties the undo history. */
+/* Call after bytes of the page were changed from outside: empties the undo history. */
 void session_replaced(void);
 
 /* Mark a cell, all cells, the labels of all joints. */
@@ -111,7 +111,7 @@ void session_mark(uint8_t x, uint8_t y);
 void session_mark_all(void);
 void session_mark_labels(void);
 
-/* Moves the cursor one cell (ORIGINAL.md section 4), unless there is none. */
+/* Moves the cursor by one cell (ORIGINAL.md section 4), if there is one. */
 typedef enum { SESSION_UP, SESSION_DOWN, SESSION_RIGHT, SESSION_LEFT } session_way_t;
 void session_move(session_way_t way);
 

@@ -129,7 +129,7 @@ void undo_note(undo_t *undo, uint16_t address, uint8_t bits)
     }
     uint8_t bytes = run_bytes(undo, undo->run_at);
     uint16_t end = run_address(undo, undo->run_at) + bytes;
-    /* A gap of one byte is noted as an unchanged byte, which is shorter than a new run. */
+    /* A gap of one byte is recorded as an unchanged byte, which is shorter than a new run. */
     if (address == end + 1u && bytes < RUN_MAX_BYTES - 1) {
         append_byte(undo, 0);
         end++;
