@@ -30,7 +30,7 @@ function nameOf(element: Element): string {
     return element.getAttribute('aria-label') ?? element.textContent;
 }
 
-/** Renders the contents of `root` anew. If the focus was in there, it moves to the new element of the same name. */
+/** Renders the contents of `root` again. If the focus was in there, it moves to the new element of the same name. */
 export function keepFocus(root: Element, render: () => void): void {
     const { activeElement } = document;
     const name = activeElement && root.contains(activeElement) ? nameOf(activeElement) : null;

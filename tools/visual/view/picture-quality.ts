@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Picture quality, chosen from frame times so that the picture stays fluent on a weak GPU. It goes down fast and up slowly, so that it does
-// not oscillate.
+// not oscillate. Without a GPU it is fixed, and only the frame rate is limited.
 
 export interface Quality {
     /** Factor for the resolution; 1: the screen's own pixels. */

@@ -186,7 +186,7 @@ function lineText(joint: Joint, point: WayPoint | null): string {
     return TEXTS.curves.atStep(joint.servo, title, point.step + 1, point.position, degrees);
 }
 
-/** Converts positions to degrees. null: the joints differ in direction, zero or scale, which those of one limb do not. */
+/** Converts positions to degrees. null: no joints, or they differ in direction, zero or scale; joints of one limb do not. */
 export function degreesFor(body: Body, servos: ReadonlySet<number>): ((position: number) => number) | null {
     const joints = body.joints.filter(({ servo }) => servos.has(servo));
     const [first] = joints;

@@ -25,7 +25,7 @@ export interface Editing {
     readonly balance: boolean;
     /** The robot moves to the chosen step. */
     readonly follow: boolean;
-    /** Servos being taught. They are limp, except on the simulated robot while the mouse does not hold the limb. */
+    /** Servos being taught. They are limp, but a limb of the simulated robot holds after the mouse lets go of it. */
     readonly taught: ReadonlySet<number>;
 }
 

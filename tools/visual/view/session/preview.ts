@@ -29,7 +29,7 @@ export interface ShownPose {
 
 export interface Preview {
     readonly state: Store<PreviewState>;
-    /** Shows a motion from a step (0..6) of its page. false: the page has no action. */
+    /** Shows a motion from its beginning, or from a step (0..6) of its page. false: the page has no action. */
     start(page: number, step?: number): boolean;
     /** Continues; from the end, starts over. */
     resume(): void;

@@ -66,7 +66,7 @@ function robotText(state: SessionState, where: Where | null): string {
     }
 }
 
-/** For announcements of start and end: like doingText(), without steps. */
+/** For announcements of start and end: what the robot does, without steps and preview. */
 export function startText(state: SessionState): string {
     const { where } = state;
     if (where === null || where.state === 'idle' || where.state === 'ready') return robotText(state, where);
