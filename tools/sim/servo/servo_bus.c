@@ -10,7 +10,7 @@
 
 #define PROCESS_US 16u /* least time between a packet and its reply, even with return delay 0 */
 
-/* ---- answering ---- */
+/* ---- replying ---- */
 
 static void say(servo_talk_t *talk, uint64_t start_cycles, uint32_t rate_bps)
 {
@@ -90,7 +90,7 @@ static void take_packet(servo_t *servo, uint64_t now_cycles)
     servo_parser_clear(&servo->parser);
 }
 
-/* ---- hearing ---- */
+/* ---- receiving ---- */
 
 /* A UART still reads a byte correctly if the rates differ by less than half a bit in ten. 4 % is safe. */
 static bool rates_match(uint32_t a, uint32_t b)

@@ -17,7 +17,7 @@
 #define SERVO_SHEET_FRICTION_NM 0.05 /* gears, included in the sheets' figures: an estimate (0.03..0.1) */
 #define SERVO_ROTOR_KGM2 0.003      /* rotor seen through the gear: an estimate (0.001..0.01) */
 #define SERVO_HEAT_RISE_C 86.0      /* final rise above ambient at the stall current of 12 V: an estimate */
-#define SERVO_HEAT_TAU_S 120.0      /* the same */
+#define SERVO_HEAT_TAU_S 120.0      /* time constant: an estimate */
 
 /* One model, from its maker's data sheet at SERVO_SHEET_V. */
 typedef struct {

@@ -2,10 +2,10 @@
 """The servos of a simulated robot (servo_api.h), as Board.servos.
 
     b.servos[3].goal, .present, .torque, .moving, .load, .voltage, .temperature, .led, .alarms, .table
-    b.servos[3].fault("silent")            # until cleared; times=2: the next two answers only
+    b.servos[3].fault("silent")            # until cleared; times=2: the next two replies only
     b.servos[3].clear()
     b.servos[3].push_to(400)               # a hand turns the horn
-    b.servos[3].write(28, [64, 64])        # as a packet would; returns error bits
+    b.servos[3].write(28, [64, 64])        # like a packet; returns error bits
     b.servos.ids, b.servos.present         # all IDs; {ID: present position}
 
 Python stores nothing: every reading shows the board's present state.
