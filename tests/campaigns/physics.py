@@ -83,7 +83,7 @@ def spoiled(how):
 
 
 def gp_body(seed):
-    """Returns a body within the ranges behind the expected speeds: friction, supply voltage and masses."""
+    """Returns a body within the ranges used for the expected speeds: friction, supply voltage and masses."""
     if seed is None:
         return NOMINAL
     chance = random_body(GP, seed)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * played.c - the player as a shared library for played.py: one main play over a motion area in memory, and a layer over it.
- * Every function works on these. */
+ * played.c - the player as a shared library for played.py: one main play over a motion area in memory, and a layer
+ * over it. All functions use this one instance. */
 #include <string.h>
 #include "layers.h"
 #include "link.h"
@@ -32,7 +32,7 @@ static uint8_t check_page(void *context, uint8_t page)
 
 static const page_source_t source = {.read = read_page, .check = check_page};
 
-/* image: PAGE_COUNT pages. Nothing plays, nothing is shaped. */
+/* image: PAGE_COUNT pages. Afterwards nothing plays and nothing is shaped. */
 void played_load(const uint8_t *image)
 {
     memcpy(pages, image, sizeof pages);
@@ -42,7 +42,7 @@ void played_load(const uint8_t *image)
     shape_init(&shape);
 }
 
-/* A play is called; codes may arrive before it starts. call: 0 = by number. */
+/* Calls a play; codes may arrive before it starts. call: 0 = by number. */
 void played_call(int call)
 {
     link_init(&links, LINK_LATCH);
@@ -61,14 +61,14 @@ int played_start(int law, int page, uint32_t present, const uint16_t *pose_pos)
     return (int)player_start(&player, &links, (uint8_t)page, (player_law_t)law, pose_pos, present);
 }
 
-/* A code arrives and is released. */
+/* Receives a code, and its release. */
 void played_code(int code)
 {
     link_code(&links, (uint8_t)code);
     link_code(&links, LINK_CODE_NONE);
 }
 
-/* Whatever is due at the beginning of a step is done in its first tick: codes take effect until then. */
+/* Plays one tick. A step's decisions are made in its first tick, so codes take effect until then. */
 int played_tick(void)
 {
     if (!alone) {
@@ -81,7 +81,7 @@ int played_tick(void)
     return events;
 }
 
-/* A layer comes and goes; degrees/s of the hand-over. Returns layers_status_t. */
+/* Starts a layer. deg_s: speed of the hand-over in degrees/s. Returns layers_status_t. */
 int played_layer(int page, uint32_t joints, int deg_s)
 {
     layers_set_speed(&layers, (uint16_t)deg_s);
@@ -98,8 +98,8 @@ void played_layer_off(void)
     layers_end(&layers);
 }
 
-/* `count` ticks from `first` on, recorded: the goals of each joint side by side, joint after joint, `all` ticks apart; the
- * events of both plays; page and step of both. Steps are planned as the performer does it, after the goals. */
+/* Plays `count` ticks from `first` on and records them: the goals (those of joint i start at i * all), and events, page
+ * and step of both plays. Steps are planned after the goals, as the performer does. */
 void played_run(int first, int count, int all, uint16_t *goals, uint8_t *events, uint8_t *places)
 {
     for (int tick = first; tick < first + count; tick++) {
@@ -114,7 +114,7 @@ void played_run(int first, int count, int all, uint16_t *goals, uint8_t *events,
     }
 }
 
-/* The tick as a program without layers has it; nothing is shaped. Call it behind played_start. */
+/* From now on ticks are those of a program without layers, and nothing is shaped. Call it after played_start. */
 void played_alone(void)
 {
     alone = true;
@@ -126,7 +126,7 @@ void played_stop(void)
     link_stop(&links);
 }
 
-/* As the performer does it: for both plays. Nothing happens where it would do nothing. */
+/* Pauses both plays under the performer's conditions; otherwise no effect. */
 void played_pause(void)
 {
     if (player_is_moving(&player) && !player_is_paused(&player) && !breaking) {

@@ -31,7 +31,7 @@ static struct {
     uint32_t ended_tick;           /* a play was reported over; its last frame may follow; NEVER_TICK: none */
     unsigned ended_page;
     uint32_t over_tick;            /* the last report that a play is over */
-    bool is_slow;                  /* since the last start a rate may be in force; pauses are then longer (SHAPING.md) */
+    bool is_slow;                  /* a rate may be in force since the last start: longer pauses (SHAPING.md) */
     bool is_shaped;                /* since the last start something other than the pages may decide where joints go */
     bool is_playing;               /* by the console's reports */
     bool is_starting;              /* the program has not printed yet */
@@ -539,7 +539,7 @@ void rules_started(void)
     }
 }
 
-/* A silent deaf servo takes the line of a PC for itself (hal/host/README.md). */
+/* On a PC, a servo that is deaf and silent delays the reports of faults until the motion ends (hal/host/README.md). */
 static bool has_silent_deaf(void)
 {
     for (unsigned id = 0; id < JOINTS; id++) {
