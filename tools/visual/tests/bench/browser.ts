@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page in Chromium: weight, start, how soon it obeys, and whether it holds real time with picture, physics and terminal.
+// The page in Chromium: weight, start, response times, and whether it keeps real time with picture, physics and terminal.
 import { availableParallelism, loadavg } from 'node:os';
 import { PageServer, Visitor, startBrowser } from '../page/page-bench.ts';
 import { weights } from '../page/weight.ts';
@@ -22,7 +22,7 @@ function weight(): void {
     line('a language, when it is chosen (mean)', languages / 4);
 }
 
-/** Time, lateness and how far time has come, told by the page itself. */
+/** Samples of time, lateness and simulated time, reported by the page. */
 async function watch(visitor: Visitor, ms: number): Promise<Sample[]> {
     return visitor.page.evaluate(
         limit =>
@@ -65,7 +65,7 @@ function report(name: string, samples: readonly Sample[]): void {
     }
 }
 
-/** What comes over the wire until the robot stands, as `serve` sends it: compressed. */
+/** The bytes on the wire until the robot stands, compressed as `serve` sends them. */
 class Wire {
     private readonly sizes: Promise<number>[] = [];
 
@@ -81,7 +81,7 @@ class Wire {
     }
 }
 
-/** Play of a motion that was just edited, which the robot does not have: to the first movement of the picture. */
+/** Time from Play to the first movement of the picture, for a motion that was just edited and is not in the robot. */
 async function playLatency(visitor: Visitor): Promise<void> {
     await visitor.open('Motions');
     await visitor.page.getByRole('option', { name: /^motion 3 wave/ }).dblclick();
@@ -110,7 +110,7 @@ async function playLatency(visitor: Visitor): Promise<void> {
     await visitor.open('Remote');
 }
 
-/** How long after the page was asked for the robot is in the picture, and stands on its own feet. */
+/** Time from the request of the page until the robot is in the picture, and until it stands on its feet. */
 async function start(name: string, visitor: Visitor): Promise<void> {
     const drawn = await visitor.untilDrawn();
     await visitor.untilStanding();
@@ -121,14 +121,14 @@ async function start(name: string, visitor: Visitor): Promise<void> {
 }
 
 interface Latency {
-    /** The robot's own time. */
+    /** In robot time. */
     readonly robotMs: number;
-    /** By the wall clock, until the page has been told. */
+    /** In wall-clock time, until the page has been told. */
     readonly pageMs: number;
 }
 
-/** From a key to the first goal that moves: on the robot, and known here. Looks at every tick: the first move is over in 60 ms, and a page
- *  that draws by software meanwhile is told of it late. */
+/** Time from a key press to the first goal that moves, on the robot and in the page. Checks every tick: the first movement ends within 60
+ *  ms, and a page that draws by software is told of it late. */
 async function keyLatency(visitor: Visitor): Promise<void> {
     const taken: Latency[] = [];
     for (const key of ['ArrowUp', 'ArrowLeft', 'ArrowDown', 'ArrowRight', 'ArrowUp']) {
@@ -149,7 +149,7 @@ async function keyLatency(visitor: Visitor): Promise<void> {
                                 for (const type of ['keydown', 'keyup']) window.dispatchEvent(new KeyboardEvent(type, { code }));
                                 return;
                             }
-                            const size = 2 * before.length; // goal and position of each servo, tick by tick
+                            const size = 2 * before.length; // goal and position of each servo for each tick
                             const moved = trace.findIndex((value, i) => i % 2 === 0 && value !== before?.[(i % size) / 2]);
                             if (moved < 0) return;
                             stop();

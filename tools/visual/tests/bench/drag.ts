@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What a frame of a dragged way-point costs the page's thread, with seven steps of 31 joints shown: the edit with all that
-// watches it, the curve from motion.wasm, and the strokes. Medians of 100 frames.
+// The cost of one frame of a dragged way-point in the page's thread, with seven steps of 31 joints: the edit and everything that watches
+// it, the curve from motion.wasm, and the strokes. Medians of 100 frames.
 import type { Editor } from '../../view/session/editor.ts';
 import { PageServer, Visitor, startBrowser } from '../page/page-bench.ts';
 
-/** What is reached into: private in TypeScript, there at run time. */
+/** Members used here that are private in TypeScript. */
 interface Pane {
     readonly session: { readonly editor: Editor };
     makeScene(): unknown;
@@ -22,7 +22,7 @@ const [browser, server] = await Promise.all([startBrowser(), PageServer.start()]
 const visitor = await Visitor.come(browser, server.address, { screen: { width: 1280, height: 800 } });
 await visitor.untilStanding();
 await visitor.open('Robot');
-await visitor.button('Pause').click(); // the robot's own work is not measured here
+await visitor.button('Pause').click(); // the robot's own work is not measured
 await visitor.open('Curves');
 const frames = await visitor.page.locator('curve-canvas').evaluate(async (element, count): Promise<Frames> => {
     const pane = element as unknown as Pane;
@@ -45,7 +45,7 @@ const frames = await visitor.page.locator('curve-canvas').evaluate(async (elemen
         const drawn = performance.now();
         made.edit.push(edited - start);
         made.curve.push(scened - edited);
-        made.strokes.push(drawn - scened - (scened - edited)); // draw() makes the scene once more
+        made.strokes.push(drawn - scened - (scened - edited)); // draw() makes the scene again
         await new Promise(resolve => requestAnimationFrame(resolve));
     }
     gesture.cancel();

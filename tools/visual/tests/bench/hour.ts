@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// node hour.ts [MINUTES]: so long of walking with body and board, as the worker runs them; memory and console must stay flat.
-// Ends with 1 when they grew. tools/visual/bench hour
+// node hour.ts [MINUTES]: walks for this long with board and body, as the worker runs them. Memory and console output must not grow. Exits
+// with 1 if they do. tools/visual/bench hour
 import { readFile } from 'node:fs/promises';
 import type { Body } from '../../model/body.ts';
 import { CYCLES_PER_TICK } from '../../sim/board.ts';
@@ -29,7 +29,7 @@ function run(ticks: number): void {
     }
 }
 
-/** Bytes of the process after a collection, as far as it can be told. */
+/** Memory of the process after a garbage collection, as far as available. Bytes. */
 function memory(): number {
     (globalThis as { gc?: () => void }).gc?.();
     const { heapUsed, external, arrayBuffers } = process.memoryUsage();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much faster than the robot board.wasm walks in Node, without and with MuJoCo.
+// How many times faster than real time board.wasm walks in Node, without and with MuJoCo.
 import { readFile } from 'node:fs/promises';
 import type { Body } from '../../model/body.ts';
 import { CYCLES_PER_MS } from '../../sim/board.ts';

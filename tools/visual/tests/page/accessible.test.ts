@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// axe-core finds nothing serious in any area and in any dialog; in the dark the contrast holds too. Both are kept as pictures.
+// axe-core finds no serious fault in any area or dialog; contrast also holds in the dark theme. Screenshots of both are kept.
 import { readFile } from 'node:fs/promises';
 import { createRequire } from 'node:module';
 import { expect, test } from 'vitest';
@@ -36,7 +36,7 @@ test('no serious finding in any area and any dialog; in the dark the contrast ho
         page.evaluate(name => {
             document.documentElement.dataset.theme = name;
         }, theme);
-    /** Looks at what is open, light and dark; the button for it is behind a dialog. */
+    /** Checks what is open, light and dark. A dialog covers the button for the theme. */
     const look = async (name: string, part: 'body' | 'main' | 'dialog[open]'): Promise<void> => {
         found.push(...(await findings(person, part, 'all')).map(what => `${name}: ${what}`));
         await paint('dark');
@@ -55,24 +55,24 @@ test('no serious finding in any area and any dialog; in the dark the contrast ho
     };
     await person.untilStanding();
     await person.open('Robot');
-    await person.button('Pause').click(); // what is looked at stands still, and the robot leaves the processor to axe
+    await person.button('Pause').click(); // a still picture, and the robot leaves the processor to axe
     await page.evaluate(source);
     await person.open('Motions');
     await page.getByRole('option', { name: /^motion 2 bow/ }).click();
     await page.keyboard.press('F2');
     await page.keyboard.type('curtsy');
     await page.keyboard.press('Enter');
-    await page.getByRole('combobox', { name: 'Which motions' }).selectOption('changed'); // the other cards are made alike
+    await page.getByRole('combobox', { name: 'Which motions' }).selectOption('changed'); // the other cards are built in the same way
     for (const area of AREAS) {
         await person.open(area);
-        await look(area, area === 'Remote' ? 'body' : 'main'); // the head is the same
+        await look(area, area === 'Remote' ? 'body' : 'main'); // the head is the same everywhere
     }
-    await person.press('Light or dark'); // by its button, too
+    await person.press('Light or dark'); // also by its button
     expect(await page.evaluate(() => document.documentElement.dataset.theme)).toBe('dark');
     await paint('light');
 
     await person.open('Steps');
-    await page.getByRole('combobox', { name: 'Motion', exact: true }).selectOption('3'); // else a new page, with nothing to send
+    await page.getByRole('combobox', { name: 'Motion', exact: true }).selectOption('3'); // otherwise a new page with nothing to send
     await page.getByText('View', { exact: true }).click();
     await person.button('Tour').click();
     await look('Tour and view', 'body');
@@ -100,7 +100,7 @@ test('no serious finding in any area and any dialog; in the dark the contrast ho
         await page.getByRole('dialog', { name: 'Copy or move', exact: true }).waitFor();
     });
     await person.open('Robot');
-    await person.button('real time').click(); // the robot is asked what it has
+    await person.button('real time').click(); // the robot must run to answer requests
     await person.open('Motions');
     await dialog('Compare', async () => {
         await person.button('To the robot (1) …').click();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A cable that is pulled while pages are written, in the page: what it says, what it knows of each page, and how it goes on. The board
-// is the one in the page; pulling is a method of the port to it.
+// A cable pulled while pages are written: what the page reports, what it knows of each page, and how it continues. The board is the one in
+// the page, and its port has a method to pull the cable.
 import { expect, test } from 'vitest';
 import { Visitor } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
@@ -55,8 +55,8 @@ test('a cable pulled while four pages are written: each is told as old or new, "
     await expect
         .poll(
             async () => {
-                // it reconnects by itself; until then it says once more that the cable is out
-                // The button may go between the look and the click: then it was not needed.
+                // It reconnects by itself. Until then it reports the pulled cable again. The button may disappear between check and click;
+                // then it was not needed.
                 if (await person.button('Try again').isVisible())
                     await person
                         .button('Try again')

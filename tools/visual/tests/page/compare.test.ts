@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The comparison with a file that cannot be read, or whose reading somebody has had enough of.
+// Comparing with a file that cannot be read or whose reading is cancelled.
 import { expect, test } from 'vitest';
 import { Visitor } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
 
 const suite = pageSuite();
-/** Python's own code: without it no file is read. */
+/** Python's own code. Without it no file can be read. */
 const PYTHON = '**/python-*.zip';
 
 test('a file to compare with: a reading that does not end is cancelled, by the button and by Close, and one that fails says why', async () => {
@@ -13,7 +13,7 @@ test('a file to compare with: a reading that does not end is cancelled, by the b
     const person = await Visitor.come(suite.browser, suite.address, {
         hasPicture: false,
         hasPhysics: false,
-        before: page => page.route(PYTHON, route => (isOnline ? undefined : route.abort())), // online, but no answer comes
+        before: page => page.route(PYTHON, route => (isOnline ? undefined : route.abort())), // online, but without an answer
     });
     const { page } = person;
     await person.untilStanding();
@@ -43,11 +43,11 @@ test('a file to compare with: a reading that does not end is cancelled, by the b
     await person.button('To the robot (1) …').click();
     expect(await status.textContent()).not.toContain('Reading theirs');
 
-    await choose(); // the robot is still being read, and what that brings takes no sentence away
+    await choose(); // the robot is still being read; its result must not remove a message
     await status.filter({ hasText: /could not be loaded\. Nothing was changed/ }).waitFor();
     await dialog.getByRole('button', { name: 'Stop' }).waitFor({ state: 'hidden' });
     await dialog.getByText('The words could not be loaded').waitFor();
     expect(await status.textContent()).toMatch(/could not be loaded\. Nothing was changed/);
-    person.faults.splice(0); // the console says that a file was not there
+    person.faults.splice(0); // the console reports the missing file
     await person.leave();
 });

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A session with Edit's full screen, as somebody types it into the terminal of the page.
+// A session with Edit's full screen, typed into the terminal of the page.
 import { expect } from 'vitest';
 import type { Visitor } from './page-bench.ts';
 
-/** Names page 100 and saves it; the terminal is open. Ends when Edit shows nothing unsaved. */
+/** Names page 100 and saves it. The terminal must be open. Returns when Edit shows nothing unsaved. */
 export async function nameAndSave(person: Visitor, name: string): Promise<void> {
     await person.untilScreenSays('PageNumber');
     await person.type('page 100\r');

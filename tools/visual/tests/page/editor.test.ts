@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The editor as a pupil uses it: a motion taught by hand, the tour, the curves. Time-outs are long: a busy machine is slow.
+// The editor as a pupil uses it: a motion taught by hand, the tour, the curves. Time-outs are long, because a busy computer is slow.
 import { expect, test } from 'vitest';
 import { Visitor } from './page-bench.ts';
 import { SHOTS, pageSuite } from './page-suite.ts';
@@ -7,7 +7,7 @@ import { SHOTS, pageSuite } from './page-suite.ts';
 const PATIENT = { timeout: 240_000 };
 const suite = pageSuite();
 
-/** Where a person sees a part of the robot. */
+/** The place of a part of the robot on the screen. */
 function placeOf(visitor: Visitor, shape: string): Promise<{ x: number; y: number }> {
     return visitor.page
         .locator('robot-view')
@@ -52,7 +52,7 @@ async function dragHand(visitor: Visitor, dx: number, dy: number): Promise<void>
     await visitor.page.mouse.down();
     await visitor.page.mouse.move(from.x + dx / 2, from.y + dy / 2);
     await visitor.page.mouse.move(from.x + dx, from.y + dy);
-    await expect.poll(async () => farthest(await arm(visitor), before), PATIENT).toBeGreaterThan(30); // 9 degrees: it came along
+    await expect.poll(async () => farthest(await arm(visitor), before), PATIENT).toBeGreaterThan(30); // 9 degrees: it followed
     await visitor.page.mouse.up();
     await visitor.page.getByRole('status', { name: 'Teaching' }).filter({ hasText: 'it holds when you let go' }).waitFor();
 }
@@ -60,15 +60,15 @@ async function dragHand(visitor: Visitor, dx: number, dy: number): Promise<void>
 const steps = (visitor: Visitor) => visitor.page.getByRole('button', { name: /^Step \d$/ });
 const addStep = (visitor: Visitor) => visitor.button('Add step from the robot').click();
 
-/** What the tour says now. */
+/** Waits until the tour shows this text. */
 const said = (visitor: Visitor, text: string | RegExp) =>
     visitor.page.getByRole('status', { name: 'Tour' }).filter({ hasText: text }).waitFor(PATIENT);
 
-/** Seconds of the robot's own time. */
+/** Robot time in seconds. */
 const robotSeconds = async (visitor: Visitor): Promise<number> =>
     Number.parseFloat((await visitor.page.locator('robot-pane .clock').textContent()) ?? '0');
 
-/** The hand up beside the head, to the side, up again. */
+/** The hand up beside the head, out to the side, up again. */
 const WAVES = [
     [-60, -190],
     [-70, 80],
@@ -111,8 +111,8 @@ test('a pupil, by the tour: teaches a page by hand, names it, the firmware plays
     await said(pupil, 'That is your first motion');
     await pupil.page.screenshot({ path: `${SHOTS}steps.png` });
     await pupil.untilStanding();
-    // Two minutes to the first wave. Somebody who reads needs 4 s for a click, 8 for a drag, a name or a number; the rest is the robot's own
-    // time since Edit began.
+    // At most two minutes to the first wave. A person who reads needs 4 s for a click and 8 s for a drag, a name or a number. The rest is
+    // robot time since Edit started.
     expect(11 * 4 + 5 * 8 + begunS).toBeLessThan(120);
     expect(farthest(await arm(pupil), lifted)).toBeLessThan(25); // where the hand had put it
     await pupil.button('Send it to a friend').click();

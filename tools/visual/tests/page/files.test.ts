@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files and links, as a person uses them.
+// Files and links as a person uses them.
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -29,9 +29,9 @@ function convert(from: string, to: string): Buffer {
 
 const PAGE = 100;
 const at = (page: number, step: number, byte: number): number => 512 * page + 64 + 64 * step + byte;
-const EASY = 192; // 1.5 s in ticks
+const EASY = 192; // ticks: 1.5 s
 
-/** The library with a motion that leans too far, too fast, in page 60, as a RoboPlus file. */
+/** The library with a motion in page 60 that leans too far, too fast, as a RoboPlus file. */
 async function foundOnTheNet(): Promise<void> {
     const { format, edits } = await makeFormat();
     const library = await libraryDocument();
@@ -48,7 +48,7 @@ async function foundOnTheNet(): Promise<void> {
     convert(join(folder, 'library.bin'), 'found.mtn');
 }
 
-/** What the person does to the page, done to its bytes: step 2 takes 1.5 s, its left side becomes the mirror of the right. */
+/** What the person does in the page, done to the bytes: step 2 takes 1.5 s, and its left side mirrors the right. */
 function changed(image: Buffer): Buffer {
     const bytes = Buffer.from(image);
     bytes[at(PAGE, 1, 63)] = EASY;
@@ -60,7 +60,7 @@ function changed(image: Buffer): Buffer {
     return bytes;
 }
 
-/** Strokes on the curves in the colour of what is bad. */
+/** Pixels of the curves in the colour of faults. */
 function redPixels(page: Page): Promise<number> {
     return page.locator('curve-canvas canvas').evaluate(canvas => {
         const { width, height } = canvas as HTMLCanvasElement;
@@ -99,7 +99,7 @@ test('a hobbyist opens a RoboPlus file found on the net, sees where it is too fa
         const left = box.getBoundingClientRect().left;
         return [...box.querySelectorAll('button')].every(button => button.getBoundingClientRect().left > left);
     });
-    expect(isInside).toBe(true); // four buttons are wider than the dialog
+    expect(isInside).toBe(true); // four buttons would be wider than the dialog
     await dialog.getByRole('button', { name: 'Replace all motions' }).click();
     await dialog.waitFor({ state: 'hidden' });
 
@@ -133,7 +133,7 @@ test('a hobbyist opens a RoboPlus file found on the net, sees where it is too fa
         const saved = readFileSync(await download.path());
         expect(download.suggestedFilename()).toBe(`My motions${suffix}`);
         if (suffix === '.bin') {
-            expect(saved.subarray(512).equals(wanted.subarray(512))).toBe(true); // page 0 is this robot's own trim; the file brought none
+            expect(saved.subarray(512).equals(wanted.subarray(512))).toBe(true); // page 0 is this robot's own trim; the file has none
             writeFileSync(join(folder, 'saved.bin'), saved);
         } else {
             expect(saved.equals(convert(join(folder, 'saved.bin'), `wanted${suffix}`)), suffix).toBe(true);
@@ -142,7 +142,7 @@ test('a hobbyist opens a RoboPlus file found on the net, sees where it is too fa
     await person.leave();
 });
 
-/** In the browser, before the page is there: keeps everything that the status bar says of what the robot does, however short. */
+/** In the browser, before the page loads: records every status text of the robot, however briefly shown. */
 function noteDoing(): void {
     const said: string[] = [];
     Object.assign(window, { said });
@@ -159,7 +159,7 @@ test('a teacher sends a motion as a link; for the pupil it opens running, is tol
     await teacher.open('Motions');
     await teacher.page.getByRole('option', { name: /^motion 2 bow/ }).click();
     await teacher.open('Steps');
-    await teacher.page.getByRole('spinbutton', { name: 'Time of step 1' }).fill('1.5'); // another bow than the pupil's own
+    await teacher.page.getByRole('spinbutton', { name: 'Time of step 1' }).fill('1.5'); // makes the bow differ from the pupil's
     await teacher.page.keyboard.press('Enter');
     await teacher.openMenu();
     await teacher.button('Send as link').click();
@@ -183,7 +183,7 @@ test('a teacher sends a motion as a link; for the pupil it opens running, is tol
     };
     await expect.poll(plays).toBe(1);
     const [first] = (await doings(pupil.page)).filter(text => text.includes('(bow)'));
-    expect(first).toMatch(/^In the picture only: motion \d+ \(bow\)/); // before the robot can
+    expect(first).toMatch(/^In the picture only: motion \d+ \(bow\)/); // before the robot can play it
     await pupil.untilStanding();
     const keys = new Keyboard(pupil);
     await keys.enter('▶ Play it again');

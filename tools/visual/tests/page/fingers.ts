@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fingers on the screen of a tablet. Playwright itself only taps; the browser's own way in for touches does the rest.
+// Fingers on a tablet's screen. Playwright can only tap, so other gestures use the browser's touch events.
 import type { CDPSession, Page } from 'playwright-core';
 
 export interface Point {
@@ -7,7 +7,7 @@ export interface Point {
     readonly y: number;
 }
 
-/** Events of a drag: as many as a quick finger makes. */
+/** Events of a drag, as many as a quick finger makes. */
 const MOVES = 6;
 
 export class Fingers {
@@ -35,14 +35,14 @@ export class Fingers {
         await this.send('touchEnd', left);
     }
 
-    /** One finger from here by so much. */
+    /** Drags one finger from a point by an offset. */
     async drag(from: Point, dx: number, dy: number): Promise<void> {
         await this.down(from);
         for (let i = 1; i <= MOVES; i++) await this.to({ x: from.x + (dx * i) / MOVES, y: from.y + (dy * i) / MOVES });
         await this.up();
     }
 
-    /** Two fingers, the first down before the second, each by so much. */
+    /** Drags two fingers, one after the other down, each by its offset. */
     async pinch(a: Point, b: Point, byA: Point, byB: Point): Promise<void> {
         await this.down(a);
         await this.to({ x: a.x + 3, y: a.y });

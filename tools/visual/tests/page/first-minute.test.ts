@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Somebody who has never been here: one sentence and three buttons, each does what it says, however early it is pressed; two areas and "More".
+// A first visit: one sentence and three buttons that do what they say, however early they are pressed; two areas and "More".
 import { expect, test } from 'vitest';
 import { Visitor } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
@@ -62,17 +62,17 @@ test('the start page has ten motions with moving pictures, and each of its links
     const bow = await page.getByRole('link', { name: /^Bow/ }).getAttribute('href');
     await page.getByRole('link', { name: /^Wave/ }).click();
     await page.getByRole('region', { name: 'A motion for you' }).getByText('“wave”, a motion for you').waitFor();
-    await person.doing.filter({ hasText: /motion 3 \(wave\)/ }).waitFor(); // the robot has it already: it is not added
+    await person.doing.filter({ hasText: /motion 3 \(wave\)/ }).waitFor(); // the robot already has it, so it is not added
     await person.doing.filter({ hasText: /^Playing motion 3 \(wave\)/ }).waitFor();
     await person.untilStanding();
-    // A link for which the browser keeps the page that is open: only what stands behind the # is new.
+    // The browser keeps the open page for this link, because only the part after the # changes.
     await page.evaluate(hash => window.location.replace(hash), new URL(bow ?? '', page.url()).hash);
     await page.getByText('“bow”, a motion for you').waitFor();
     await person.doing.filter({ hasText: /^Playing motion 2 \(bow\)/ }).waitFor();
     await person.leave();
 });
 
-/** Of the picture that is drawn by software: how bright its darkest quarter of lines is (0 to 255), and how many pixels are as blue as the robot. */
+/** In the software-drawn picture: the brightness of the darkest quarter of its lines (0 to 255), and the number of robot-blue pixels. */
 function lookAt(person: Visitor): Promise<{ width: number; darkest: number; blue: number }> {
     return person.page.locator('robot-view canvas').evaluate(canvas => {
         const { width, height } = canvas as HTMLCanvasElement;

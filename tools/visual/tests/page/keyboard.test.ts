@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Every script of the specification's first table once by keyboard alone. What is not by keyboard: a limp limb is moved by hand only
-// (the keyboard's way to a pose are the joints, by arrows and by number), and the choosers of ports and files are the browser's own.
-// A link that arrives: files.test.ts; your robot: web-serial.test.ts.
+// Every script of the specification's first table once, by keyboard alone. Not by keyboard: moving a limp limb by hand (the keyboard sets
+// poses by the joints' arrows and numbers), and the browser's own choosers for ports and files. A received link: files.test.ts; your robot:
+// web-serial.test.ts.
 import { expect, test } from 'vitest';
 import { Keyboard } from './keyboard.ts';
 import { Visitor } from './page-bench.ts';
@@ -24,7 +24,7 @@ test('a pupil: walks, looks round, pushes it over, gets up; teaches a page, name
     const { page } = pupil;
     await page.context().grantPermissions(['clipboard-write']);
     await pupil.untilStanding();
-    await keys.enter('Walk it'); // that button goes
+    await keys.enter('Walk it'); // that button disappears
     await keys.at('The robot');
     await page.keyboard.down('ArrowUp');
     await pupil.doing.filter({ hasText: /Playing motion 2[12] \(walk_/ }).waitFor();
@@ -32,7 +32,7 @@ test('a pupil: walks, looks round, pushes it over, gets up; teaches a page, name
     await keys.press('Space');
     await pupil.untilStanding();
     for (const key of ['Shift+ArrowLeft', 'PageUp', '+']) {
-        // the picture turns, the robot does not
+        // The picture turns, the robot does not.
         const before = await place(pupil);
         await keys.press(key);
         await expect.poll(() => place(pupil)).not.toBe(before);
@@ -42,7 +42,7 @@ test('a pupil: walks, looks round, pushes it over, gets up; teaches a page, name
     await pupil.doing.filter({ hasText: 'The robot lies on the floor. Press Get up.' }).waitFor();
     await keys.enter('Get up');
     await pupil.untilStanding();
-    await keys.at('Stop'); // nobody can get up who stands
+    await keys.at('Stop'); // a standing robot cannot get up
 
     await keys.open('Steps');
     await keys.enter('New motion');
@@ -70,7 +70,7 @@ test('a pupil: walks, looks round, pushes it over, gets up; teaches a page, name
     await expect.poll(async () => Number(await chosen(pupil).inputValue())).toBe(turned - 10);
     await keys.press('Control+y');
     await expect.poll(async () => Number(await chosen(pupil).inputValue())).toBe(turned);
-    await keys.to(/^3 /); // its number
+    await keys.to(/^3 /); // its number field
     await page.keyboard.type(String(turned - 60));
     await keys.press('Enter');
     await keys.to('Step 2');
@@ -86,11 +86,11 @@ test('a pupil: walks, looks round, pushes it over, gets up; teaches a page, name
     await pupil.untilStanding();
     await page.screenshot({ path: `${SHOTS}keyboard.png` });
 
-    await keys.to('Light or dark', 'Shift+Tab'); // the head of the page is behind the picture
+    await keys.to('Light or dark', 'Shift+Tab'); // the page's head comes after the picture
     await keys.enter('Send as link', 'Shift+Tab');
     await keys.at('Link');
     await keys.press('Escape');
-    await keys.at('Send as link'); // where it was
+    await keys.at('Send as link'); // where it was before
     await pupil.leave();
 }, 900_000);
 
@@ -108,7 +108,7 @@ test('a hobbyist: opens a file, goes where it is faulty, renames, copies and cle
     await keys.at('Open …');
 
     await keys.open('Motions');
-    await keys.to(/^motion \d+, empty/); // a new page is chosen
+    await keys.to(/^motion \d+, empty/); // a new page is selected
     await keys.press('Home');
     await keys.at(/^motion 1 ready/);
     await keys.press('ArrowRight', 'F2'); // the bow
@@ -116,7 +116,7 @@ test('a hobbyist: opens a file, goes where it is faulty, renames, copies and cle
     await page.keyboard.type('curtsy');
     await keys.press('Enter');
     await card(/^motion 2 curtsy/).waitFor();
-    await keys.press('Control+c', 'End', 'ArrowLeft', 'Control+v'); // behind the last one stands the trim
+    await keys.press('Control+c', 'End', 'ArrowLeft', 'Control+v'); // after the last page comes the trim
     await keys.enter('Copy');
     await card(/^motion 127 curtsy/).waitFor();
     await keys.at(/^motion 127 curtsy/);
@@ -131,7 +131,7 @@ test('a hobbyist: opens a file, goes where it is faulty, renames, copies and cle
     await keys.at('Links');
     await keys.choose('next', /^100 \(empty\)/);
     await page.getByRole('button', { name: /^motion 100, nothing to play here/ }).waitFor();
-    await keys.at('next'); // the list is made anew, and the keyboard is where it was
+    await keys.at('next'); // the list is rebuilt, and the focus stays
     await page.screenshot({ path: `${SHOTS}links-dark.png` });
     await keys.open('Checks');
     const dead = page
@@ -151,20 +151,20 @@ test('a hobbyist: opens a file, goes where it is faulty, renames, copies and cle
     await rows.getByText('motion 127 (curtsy)').waitFor();
     await keys.enter('Write 2 motions into the robot');
     await page.getByRole('status', { name: 'Transfer' }).filter({ hasText: 'Written and verified: 2 motions.' }).waitFor();
-    await keys.at('Close'); // what was pressed has nothing to do any more
+    await keys.at('Close'); // the pressed button has no use any more
     await keys.press('Escape');
     await keys.at(/^To the robot/);
     const saved = page.waitForEvent('download');
     await keys.choose('Save as a file', /\.mtn/);
     expect((await saved).suggestedFilename()).toBe('My motions.mtn');
-    await keys.press('Escape'); // what the form cannot hold
+    await keys.press('Escape'); // the list of what the format cannot hold
 
     await keys.open('Terminal');
     await keys.to('Terminal of the robot');
     await keys.press('Enter');
     await person.untilScreenSays('PageNumber'); // Edit has written
     await keys.press('Shift+Tab');
-    await keys.at('Full screen'); // out of it
+    await keys.at('Full screen'); // leave it
     await keys.press('Shift+Tab');
     await keys.at('Terminal');
     await keys.press('ArrowRight');
@@ -178,7 +178,7 @@ test('a hobbyist: opens a file, goes where it is faulty, renames, copies and cle
     await keys.to('Slope to the left');
     await keys.press('ArrowRight');
     await keys.choose('Fault of servo 1', /^does not answer$/);
-    await keys.to('Draw servo 13'); // where a letter is no choice
+    await keys.to('Draw servo 13'); // where a letter chooses nothing
     await keys.press('?');
     await page.getByRole('dialog', { name: 'Keys' }).waitFor();
     await page.screenshot({ path: `${SHOTS}keys-dark.png` });
@@ -202,19 +202,19 @@ test('in an empty motion: a joint begins where the robot has it; the last step d
     await keys.press('Delete');
     await keys.at(/^No step yet/);
     await keys.press('Control+z');
-    await keys.at('Step 1'); // where the next key is for it again
+    await keys.at('Step 1'); // ready for the next key
     await keys.press('Control+z');
     await keys.at(/^No step yet/);
     await keys.open('Links');
     await keys.to(/^motion \d+ /);
     await keys.press('ArrowDown');
-    await person.page.getByRole('heading', { name: /^Links of motion \d+ \(/ }).waitFor(); // one that has a name
+    await person.page.getByRole('heading', { name: /^Links of motion \d+ \(/ }).waitFor(); // a page with a name
     await keys.open('Checks');
     await keys.enter('Try all motions');
     await keys.at('Stop trying');
     await keys.press('Enter');
     await keys.at('Try all motions');
-    await keys.choose('Document', /^New document/); // with one motion: when it was tried there is nothing to try
+    await keys.choose('Document', /^New document/); // with one motion; once it is tried, nothing is left to try
     await person.page.getByRole('dialog', { name: 'New document' }).waitFor();
     await keys.press('Enter');
     await keys.open('Steps');

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Somebody without a mouse: goes through the page by Tab, sees where they are, and acts by keys.
+// A person without a mouse: moves through the page by Tab, sees the focus, and acts by keys.
 import { expect } from 'vitest';
 import type { Visitor } from './page-bench.ts';
 
-/** More than any area has. */
+/** More tab stops than any area has. */
 const STOPS_MOST = 200;
 
-/** What has the keyboard. */
+/** The focused element. */
 interface Stop {
-    /** As a screen reader calls it; '': nothing in the page has it. */
+    /** Its accessible name; '': no focus in the page. */
     readonly name: string;
     readonly isSeen: boolean;
 }
@@ -29,7 +29,7 @@ export class Keyboard {
                 active.getAttribute('aria-label') ??
                 (label ? (label.querySelector('span')?.textContent ?? label.textContent) : active.textContent) ??
                 '';
-            // An outline of its own, of the thing around it, or (a node of the chart) a frame.
+            // Its own outline, one of the element around it, or a frame (in a node of the chart).
             const marks = [active, active.closest('terminal-pane'), active.querySelector(':scope > rect')].filter(one => one !== null);
             const isMarked = marks.some(one => {
                 const style = getComputedStyle(one);
@@ -54,7 +54,7 @@ export class Keyboard {
             .toMatch(typeof name === 'string' ? new RegExp(`^${name.replaceAll(/[.*+?^${}()|[\]\\]/g, '\\$&')}$`) : name);
     }
 
-    /** Goes there by Tab, or back by Shift+Tab. Everything on the way must show that it has the keyboard. */
+    /** Goes to an element by Tab, or back by Shift+Tab. Every element on the way must show its focus. */
     async to(name: string | RegExp, key: 'Tab' | 'Shift+Tab' = 'Tab'): Promise<void> {
         const passed: string[] = [];
         for (let i = 0; i < STOPS_MOST; i++) {
@@ -67,13 +67,13 @@ export class Keyboard {
         throw new Error(`${key} never comes to ${name}; it comes to: ${[...new Set(passed)].join(' | ')}`);
     }
 
-    /** Goes there and presses Enter. */
+    /** Goes to an element and presses Enter. */
     async enter(name: string | RegExp, key: 'Tab' | 'Shift+Tab' = 'Tab'): Promise<void> {
         await this.to(name, key);
         await this.press('Enter');
     }
 
-    /** Goes to an area: past what stands before the tabs, then by the arrows. */
+    /** Opens an area: past the elements before the tabs, then by the arrows. */
     async open(area: string): Promise<void> {
         if (!(await this.person.page.getByRole('tab', { selected: true }).evaluate(tab => tab === document.activeElement))) {
             await this.enter('To the areas');
@@ -83,7 +83,7 @@ export class Keyboard {
         while ((await this.stop()).name !== area) await this.press('ArrowRight');
     }
 
-    /** In a list: the arrow until this is chosen; Enter. */
+    /** In a list: presses the arrow until the choice is selected, then Enter. */
     async choose(list: string, choice: string | RegExp): Promise<void> {
         await this.to(list);
         const chosen = (): Promise<string> =>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a browser or a network lacks is said in one sentence, and everything else works.
+// Each missing ability of a browser or network is reported in one sentence, and everything else works.
 import { expect, test } from 'vitest';
 import { PHYSICS, Visitor, startBrowser } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
@@ -26,7 +26,7 @@ test('physics that comes late, as over a slow line: the robot plays without it, 
     await person.leave();
 });
 
-/** In the browser: an adapter to choose. */
+/** In the browser: provides an adapter to choose. */
 function withAdapter(): void {
     const port = { getInfo: () => ({}) };
     const { serial } = navigator as unknown as { serial: object };
@@ -53,7 +53,7 @@ test.each([
     await said.filter({ hasText: 'The firmware could not be loaded, so the robot goes on as it was.' }).waitFor();
     await person.button('Bow').click();
     await person.doing.filter({ hasText: 'Playing motion 2 (bow)' }).waitFor();
-    // What was refused above is in the console as well; nothing else is.
+    // The console also has the refusals above, and nothing else.
     expect(person.faults.splice(0).filter(fault => !fault.includes('ERR_FAILED'))).toEqual([]);
     await person.leave();
 });
@@ -67,7 +67,7 @@ interface TraceEvent {
     readonly pid: number;
 }
 
-/** Of the copies of a drawn picture: how many there were, and how many the thread that asked has waited for. */
+/** Copies of a drawn picture: their number, and how many of them the requesting thread waited for. */
 function copies(trace: readonly TraceEvent[]): { readonly all: number; readonly waited: number } {
     const reads = trace.filter(({ name }) => name === 'GLES2::ReadPixels');
     const waits = trace.filter(({ name }) => name === 'CommandBufferHelper::Finish');
@@ -76,7 +76,7 @@ function copies(trace: readonly TraceEvent[]): { readonly all: number; readonly 
     return { all: reads.length, waited: reads.filter(read => waits.some(wait => isIn(read, wait))).length };
 }
 
-/** Different colours along a row of the picture. */
+/** Number of colours along a row of the picture. */
 function coloursOfRow(canvas: HTMLElement | SVGElement, share: number): number {
     const picture = canvas as HTMLCanvasElement;
     const row = picture.getContext('2d')?.getImageData(0, Math.round(share * (picture.height - 1)), picture.width, 1);
@@ -115,7 +115,7 @@ test('an old machine: no picture, no serial port, no physics', async () => {
         await said.filter({ hasText: /^This browser cannot reach a serial port\. It needs Web Serial/ }).waitFor();
         await person.button('Walk').click();
         await person.doing.filter({ hasText: /Playing motion 2[12] \(walk_/ }).waitFor();
-        // What was refused above is in the console as well; nothing else is.
+        // The console also has the refusals above, and nothing else.
         expect(person.faults.splice(0).filter(fault => !/ERR_FAILED|WebGL/i.test(fault))).toEqual([]);
         await person.leave();
     } finally {

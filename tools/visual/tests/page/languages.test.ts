@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Another language: chosen in the menu, from the address, or the browser's own; only its file is loaded, and what one has made stays.
+// Another language, from the menu, the address or the browser. Only its file is loaded, and the person's work is kept.
 import { expect, test } from 'vitest';
 import DE from '../../view/texts/de.ts';
 import JA from '../../view/texts/ja.ts';
@@ -9,7 +9,7 @@ import { comesLater } from './weight.ts';
 
 const suite = pageSuite();
 
-/** In the browser: a port that takes its time. */
+/** In the browser: a port that never finishes opening. */
 function withPort(): void {
     const port = { getInfo: () => ({ usbVendorId: 0x0403 }), open: () => new Promise(() => undefined) };
     Object.assign((navigator as unknown as { serial: object }).serial, {
@@ -56,7 +56,7 @@ test('German by the menu, after a new motion; Japanese by the address; each load
     await page.getByRole('heading', { name: JA.start.heading }).waitFor();
     await page.getByRole('link', { name: JA.start.toRobot }).click();
     await doing(JA.status.waits).waitFor();
-    await page.goto(suite.address); // what was chosen holds
+    await page.goto(suite.address); // the choice is kept
     await doing(DE.status.waits).waitFor();
     await person.leave();
 });

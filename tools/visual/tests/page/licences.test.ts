@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The built page has the notices of what is in it. The names are those of package.json, of what the modules were compiled from, and of
-// what their bytes say.
+// The built page has the notices of all its parts. The names come from package.json, from the sources of the modules, and from the modules'
+// bytes.
 import { readFileSync, readdirSync } from 'node:fs';
 import { expect, test } from 'vitest';
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A motion is changed as a hobbyist does it: ends and way-points dragged, steps taken to another page as text, physics asked where it
-// falls, another document and a file compared, a joint aimed.
+// A hobbyist changes a motion: drags ends and way-points, takes steps to another page as text, asks physics where it falls, compares with
+// another document and a file, aims a joint.
 import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
 import { Visitor } from './page-bench.ts';
 import { SHOTS, pageSuite } from './page-suite.ts';
 import { chooseJoints, wayPoint } from './way-point.ts';
 
-/** status.ts */
+/** As in status.ts. */
 const WHERE_MS = 300;
 const PATIENT = { timeout: 240_000 };
 const LIBRARY = new URL('../../../../build/motions/motions.bin', import.meta.url).pathname;
@@ -58,13 +58,13 @@ test('a hobbyist: stretches a step, takes steps to another page as text, drags a
     await legend
         .getByText(/^\d+ (right|left) (hip|knee|ankle|shoulder|elbow)/)
         .first()
-        .waitFor(); // it begins with a limb, by name
+        .waitFor(); // a limb is preselected by name
     await chooseJoints(page, [15]);
     expect(await legend.innerText()).toBe('15 right ankle pitch');
     const ankle = Number(await position(page, /^15 /).inputValue());
     await drag(page, await wayPoint(page, 15, 1), 0, -60);
     await expect.poll(async () => Number(await position(page, /^15 /).inputValue()), PATIENT).toBeGreaterThan(ankle + 5);
-    await button(page, /^Undo: drag/).click(); // one drag, one undo step
+    await button(page, /^Undo: drag/).click(); // one drag is one undo step
     await expect.poll(async () => Number(await position(page, /^15 /).inputValue()), PATIENT).toBe(ankle);
     await chooseJoints(page, [15, 16]);
     for (const [joint, to] of [
@@ -72,7 +72,7 @@ test('a hobbyist: stretches a step, takes steps to another page as text, drags a
         [/^16 /, '334'],
     ] as const) {
         await position(page, joint).fill('');
-        await position(page, joint).pressSequentially(to, { delay: WHERE_MS }); // as slowly as the page asks the robot where it is
+        await position(page, joint).pressSequentially(to, { delay: WHERE_MS }); // as slowly as the page polls the robot
         await position(page, joint).press('Enter');
         await expect.poll(() => position(page, joint).inputValue(), PATIENT).toBe(to);
     }

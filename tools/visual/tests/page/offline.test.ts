@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page needs no host but its own, any sub-path will do, and none at all on the second visit.
+// The page uses no host but its own, works under any sub-path, and needs no host at all on the second visit.
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';
 import { PageServer, Visitor, startBrowser } from './page-bench.ts';
@@ -24,7 +24,7 @@ afterAll(async () => {
 test('the first load is at most 1 MB, compressed, with both images; physics, Python, My servos and other languages come behind it', () => {
     const { first, physics, python, servos, languages } = weights();
     expect(first).toBeLessThanOrEqual(1_000_000);
-    expect(Math.min(physics, python)).toBeGreaterThan(1_000_000); // they are there, and not counted
+    expect(Math.min(physics, python)).toBeGreaterThan(1_000_000); // they exist and are not counted
     expect(servos).toBeGreaterThan(50_000);
     expect(languages).toBeGreaterThan(40_000);
 });
@@ -39,7 +39,7 @@ test('from a sub-path, and the second visit with the server stopped', async () =
         },
     });
     await visitor.untilStanding();
-    // What was asked for until then is what the first load is said to be: nothing of Python, My servos or another language is in it, and every file is there.
+    // The requests so far are the first load: no Python, My servos or other language, and every file is there.
     expect(asked.filter(url => ['python', 'servos', 'languages'].includes(comesLater(url, '') ?? ''))).toEqual([]);
     expect(asked.every(url => url.startsWith(server.address))).toBe(true);
     await visitor.page.evaluate(async () => {
@@ -83,7 +83,7 @@ test('a release while the page is open: it goes on with its own files, says that
 test('the policy holds: no code from text, in the page', async () => {
     const server = await serve();
     const visitor = await Visitor.come(browser, server.address, { hasPicture: false, hasPhysics: false });
-    // Playwright's own scripts may do what the policy forbids; a text that the page is to run later may not.
+    // Playwright's own scripts may bypass the policy. A text that the page runs later may not.
     const ran = await visitor.page.evaluate(async () => {
         (setTimeout as (code: string) => void)('document.title = "made from text"');
         await new Promise(resolve => setTimeout(resolve, 200));

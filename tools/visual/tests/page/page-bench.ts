@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The built page, served on this machine, in Debian's Chromium. A console error, an error of the page or a request to any
-// other host fails the test in close().
+// The built page, served on this computer, in Debian's Chromium. A console error, an error in the page or a request to another host fails
+// the test in close().
 
 import { spawn } from 'node:child_process';
 import type { ChildProcess } from 'node:child_process';
@@ -9,8 +9,8 @@ import { chromium } from 'playwright-core';
 import type { Browser, BrowserContext, ConsoleMessage, Page } from 'playwright-core';
 
 export const BROWSER = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
-/** There is no graphics chip: WebGL is drawn by software. The page around it is then put together without it: by WebGL's software that takes
- *  0.2 s a frame, and a robot that shall keep its time waits for every one of them. */
+/** Without a graphics chip WebGL is drawn by software. The page is then composed without WebGL: composing with it takes 0.2 s per frame,
+ *  and a robot that must keep real time would wait for each frame. */
 export const FLAGS = [
     '--disable-gpu-compositing',
     '--disable-quic',
@@ -32,32 +32,32 @@ export interface Screen {
 
 const SCREEN: Screen = { width: 1000, height: 640 };
 
-/** How somebody comes. */
+/** Properties of a visit. */
 export interface Visit {
     readonly theme?: 'light' | 'dark';
-    /** Pixels of the screen to a CSS pixel. */
+    /** Screen pixels per CSS pixel. */
     readonly sharpness?: number;
     readonly screen?: Screen;
-    /** false: the browser has no WebGL, as on an old machine (lacking.test.ts). For what is not about the picture: drawing it by software takes
-     *  more of the processor than all else. */
+    /** false: the browser has no WebGL, as on an old machine (lacking.test.ts). For tests without the picture, because drawing by software
+     *  costs more processor time than everything else. */
     readonly hasPicture?: boolean;
-    /** false: the robot's physics cannot be loaded, so it stands without a body of mass, and can be used three seconds sooner. */
+    /** false: the robot's physics cannot be loaded. It stands without a physical body and is ready three seconds sooner. */
     readonly hasPhysics?: boolean;
-    /** The browser keeps the page for the time without a network (offline.test.ts): it writes 10 MB for that. */
+    /** The browser stores the page for offline use (offline.test.ts), which writes 10 MB. */
     readonly keepsPage?: boolean;
-    /** Nobody has been here before: the page offers what to do first (first-minute.test.ts). Others have begun long ago. */
+    /** A first visit: the page suggests what to do (first-minute.test.ts). Other visitors are past that. */
     readonly isNew?: boolean;
-    /** Done with the empty page, before the address is opened. */
+    /** Runs with the empty page before the address is opened. */
     readonly before?: (page: Page) => Promise<unknown>;
 }
 
-/** What a browser says to the console of what it was told to lack. */
+/** Console messages about abilities that the test removed. */
 const NO_PICTURE = /^THREE\.WebGLRenderer/;
 const NO_PHYSICS = /ERR_FAILED .*mujoco\.wasm/;
-/** The file that the robot's physics are in. */
+/** The file with the physics. */
 export const PHYSICS = '**/mujoco.wasm*';
 
-/** In the browser: WebGL is off. */
+/** In the browser: disables WebGL. */
 function withoutWebGl(): void {
     const { prototype } = HTMLCanvasElement;
     const contextOf = prototype.getContext as (this: HTMLCanvasElement, kind: string, options?: unknown) => RenderingContext | null;
@@ -69,9 +69,9 @@ function withoutWebGl(): void {
 }
 
 const STANDS = /^(The robot stands and waits|Edit runs: its screen is in the terminal)\.$/;
-/** robot-view.ts sets it. */
+/** Set by robot-view.ts. */
 const ROBOT_DRAWN = 'robot-drawn';
-/** Of every wait that names none: a busy machine decides no verdict. Somebody who writes tests does not wait so long (WAIT_MS). */
+/** Default time limit of all waits. A busy computer must not fail a test. While writing tests, set WAIT_MS to a shorter time. */
 const LIMIT_MS = Number(process.env.WAIT_MS ?? 240_000);
 
 export class PageServer {
@@ -101,13 +101,13 @@ export class PageServer {
     }
 }
 
-/** more: flags besides ours. */
+/** more: additional flags. */
 export async function startBrowser(...more: string[]): Promise<Browser> {
     if (!BROWSER) throw new Error('there is no Chromium: tools/dev/setup webtest');
     return chromium.launch({ executablePath: BROWSER, headless: true, args: [...FLAGS, ...more] });
 }
 
-/** One visitor with a browser profile of its own. */
+/** A visitor with a separate browser profile. */
 export class Visitor {
     readonly page: Page;
     readonly faults: string[] = [];
@@ -129,7 +129,7 @@ export class Visitor {
             isNew = false,
             before,
         } = visit;
-        // Reduced motion: no colour is looked at while it changes.
+        // Reduced motion, so that no colour is checked during a transition.
         const context = await browser.newContext({
             viewport: { width, height },
             hasTouch,
@@ -164,7 +164,7 @@ export class Visitor {
         });
     }
 
-    /** What the status bar says of what the robot does. */
+    /** The status text of the robot. */
     get doing() {
         return this.page.getByRole('status', { name: 'What the robot does' });
     }
@@ -178,7 +178,7 @@ export class Visitor {
         await this.page.getByRole('tab', { name: tab, exact: true }).click();
     }
 
-    /** The menu of the head, where that has no room for all of it. */
+    /** Opens the head's menu if the head has no room for everything. */
     async openMenu(): Promise<void> {
         const toggle = this.page.locator('more-menu .toggle');
         await this.page.locator('app-shell').waitFor();
@@ -190,34 +190,34 @@ export class Visitor {
         if ((await toggle.isVisible()) && (await toggle.getAttribute('aria-expanded')) === 'true') await toggle.click();
     }
 
-    /** A button of the head, or of its menu, that opens no dialog. */
+    /** Presses a button of the head or its menu that opens no dialog. */
     async press(name: string): Promise<void> {
         await this.openMenu();
         await this.button(name).click();
         await this.closeMenu();
     }
 
-    /** "More", if this area has no tab yet. */
+    /** Opens "More" if this area has no tab yet. */
     async showAllAreas(tab: string): Promise<void> {
         await this.page.locator('app-shell').waitFor();
         const isSeen = await this.page.getByRole('tab', { name: tab, exact: true }).isVisible();
         if (!isSeen) await this.button('More').click();
     }
 
-    /** Waits until the robot is in the picture; milliseconds since the page was asked for. */
+    /** Waits until the robot is drawn. Returns milliseconds since the page was requested. */
     async untilDrawn(): Promise<number> {
         const drawn = await this.page.waitForFunction(mark => performance.getEntriesByName(mark)[0]?.startTime, ROBOT_DRAWN);
         return (await drawn.jsonValue()) ?? NaN;
     }
 
-    /** Waits until the firmware answers and nothing plays, and that is to be seen; with physics, until the robot stands by itself. */
+    /** Waits until the page shows that the firmware answers and nothing plays; with physics, that the robot stands by itself. */
     async untilStanding(): Promise<void> {
         await this.page.locator('status-bar .doing').filter({ hasText: STANDS }).waitFor();
         const hasPicture = (await this.page.locator('robot-view canvas').count()) > 0;
         if (hasPicture) await this.untilDrawn(); // by software a second later
     }
 
-    /** Until what has changed is on the screen: a mouse hits what is seen there. */
+    /** Waits until changes are on the screen, so that the mouse hits what is shown. */
     async untilSeen(): Promise<void> {
         await this.page.evaluate(() => new Promise(resolve => requestAnimationFrame(() => requestAnimationFrame(resolve))));
     }
@@ -227,7 +227,7 @@ export class Visitor {
         return this.page.locator('terminal-pane').evaluate(pane => (pane as unknown as { screenText: string }).screenText);
     }
 
-    /** Types into the terminal as a person does. */
+    /** Types into the terminal. */
     async type(text: string): Promise<void> {
         await this.page.getByRole('textbox', { name: 'Terminal of the robot' }).focus();
         for (const part of text.split(/(\r)/))
@@ -242,7 +242,7 @@ export class Visitor {
         }
     }
 
-    /** Leaves; throws when anything was wrong meanwhile. */
+    /** Closes the page. Throws if there was any fault. */
     async leave(): Promise<void> {
         await this.context.close();
         if (this.faults.length > 0) throw new Error(this.faults.join('\n'));

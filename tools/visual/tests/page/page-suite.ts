@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every file of browser tests begins and ends with.
+// Setup and teardown of all browser tests.
 
 import { mkdir } from 'node:fs/promises';
 import type { Browser, Page } from 'playwright-core';
@@ -11,13 +11,13 @@ export const SHOTS = new URL('../../../../build/visual-shots/', import.meta.url)
 
 export interface PageSuite {
     readonly browser: Browser;
-    /** Of the served page. */
+    /** Address of the served page. */
     readonly address: string;
 }
 
 const TELL_MS = 20_000;
 
-/** What a page shows and knows, for the report of a test that failed: a wait alone says nothing of why. */
+/** The page's content and state for the report of a failed test. A timed-out wait alone does not say why. */
 async function told(page: Page): Promise<string> {
     const shows = page.evaluate(() => {
         type Known = {
@@ -37,14 +37,14 @@ async function told(page: Page): Promise<string> {
     return Promise.race([shows, silent]).catch((error: unknown) => `nothing: ${String(error)}`);
 }
 
-/** One browser and one server for all tests of a file; there from its first test to its last. */
+/** One browser and one server for all tests of a file. */
 export function pageSuite(): PageSuite {
     const suite: { browser?: Browser; server?: PageServer } = {};
     beforeAll(async () => {
         await mkdir(SHOTS, { recursive: true });
         [suite.browser, suite.server] = await Promise.all([startBrowser(), PageServer.start()]);
     });
-    // The page of a test that failed would go on working beside the next one.
+    // The page of a failed test would keep running during the next one.
     afterEach(async ({ task }) => {
         const pages = suite.browser?.contexts().flatMap(context => context.pages()) ?? [];
         if (task.result?.state === 'fail')

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The hobbyist's row of the specification and what belongs to it, on the robot in the page: pages edited by mouse and by keyboard,
-// what will change, backup, write, compare; links and checks; a tab that is closed.
+// The hobbyist's row of the specification on the robot in the page: editing pages by mouse and keyboard, preview of changes, backup, write,
+// compare; links and checks; closed tabs.
 import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
 import { Visitor } from './page-bench.ts';
@@ -25,9 +25,9 @@ test('a hobbyist: renames and copies pages, sees what will change, writes with a
     await card(page, /^motion 2 bow/).waitFor();
     await button(page, /^Redo: name \(motion 2\)/).click();
     await card(page, /^motion 3 wave/).dragTo(card(page, /^motion 2 curtsy/));
-    await button(page, 'Cancel').click(); // it was the wrong place
-    await page.setViewportSize({ width: 1440, height: 900 }); // both places of the drag are in sight
-    await page.getByRole('searchbox', { name: 'Search motions' }).fill('7'); // page 7 beside many that are empty
+    await button(page, 'Cancel').click(); // the wrong place
+    await page.setViewportSize({ width: 1440, height: 900 }); // both ends of the drag are visible
+    await page.getByRole('searchbox', { name: 'Search motions' }).fill('7'); // page 7 among many empty ones
     await person.untilSeen();
     await card(page, /^motion 7 stand/).dragTo(card(page, /^motion 57, empty/));
     await page.getByRole('dialog').getByRole('button', { name: 'Copy' }).click();
@@ -37,15 +37,15 @@ test('a hobbyist: renames and copies pages, sees what will change, writes with a
 
     await button(page, 'To the robot (2) …').click();
     const rows = page.getByRole('list', { name: 'Motions that differ' });
-    await rows.getByText('name "bow" -> "curtsy"').waitFor(); // m512's words: Python is loaded for them
+    await rows.getByText('name "bow" -> "curtsy"').waitFor(); // m512's words, so Python is loaded
     await rows.getByText('motion 57 (stand)').waitFor();
-    expect(await rows.getByRole('button', { name: "Take the robot's motion 2 (curtsy)" }).count()).toBe(1); // what stands on it, and which page
+    expect(await rows.getByRole('button', { name: "Take the robot's motion 2 (curtsy)" }).count()).toBe(1); // the label names the page
     await page.screenshot({ path: `${SHOTS}to-the-robot.png` });
     await button(page, 'Write 2 motions into the robot').click();
     await page.getByRole('status', { name: 'Transfer' }).filter({ hasText: 'Written and verified: 2 motions.' }).waitFor();
     await rows.getByText('Nothing differs.').waitFor();
     const compared = page.getByRole('combobox', { name: 'Compare with' });
-    await compared.selectOption({ index: 1 }); // the backup that was kept before
+    await compared.selectOption({ index: 1 }); // the backup made before
     await button(page, 'Copy here motion 2 (bow)').click();
     await button(page, 'Close').click();
     await card(page, /^motion 2 bow/).waitFor();
@@ -56,16 +56,16 @@ test('a hobbyist: renames and copies pages, sees what will change, writes with a
         await card(tab, /^motion 2 /).press('F2');
         await tab.getByRole('textbox', { name: 'Name' }).fill(name);
         await tab.keyboard.press('Enter');
-        await card(tab, new RegExp(`^motion 2 ${name}`)).waitFor(); // the edit is finished; at this moment the tab goes
+        await card(tab, new RegExp(`^motion 2 ${name}`)).waitFor(); // the edit is finished; the tab closes now
         await tab.close();
         tab = await context.newPage();
         await tab.goto(suite.address);
         await tab.getByRole('tab', { name: 'Motions' }).click();
         await card(tab, new RegExp(`^motion 2 ${name}`)).waitFor();
     }
-    await button(tab, /^To the robot \(1\)/).waitFor(); // and the robot kept what was written
+    await button(tab, /^To the robot \(1\)/).waitFor(); // the robot kept what was written
     for (const name of ['one', 'bow']) {
-        // undo goes back over both closed tabs
+        // Undo goes back through both closed tabs.
         await button(tab, /^Undo: name \(motion 2\)/).click();
         await card(tab, new RegExp(`^motion 2 ${name}`)).waitFor();
     }

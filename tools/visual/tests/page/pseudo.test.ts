@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The page in a language that is made from English with accents, 40 % longer (view/texts/pseudo.ts): what is plain English there does not come
-// from the texts, and what is cut would be cut in another language.
+// The page in a language made from English with accents, 40 % longer (view/texts/pseudo.ts). Plain English in it does not come from the
+// texts, and clipped text would be clipped in other languages.
 import { expect, test } from 'vitest';
 import PSEUDO from '../../view/texts/pseudo.ts';
 import { Visitor } from './page-bench.ts';
@@ -8,7 +8,7 @@ import { SHOTS, pageSuite } from './page-suite.ts';
 import { Walk } from './words.ts';
 
 const SCREENS = { desktop: { width: 1440, height: 900 }, phone: { width: 390, height: 844, hasTouch: true } };
-/** Names and words that are the same in every language: of motions, of what is printed on the board, of programs and files. */
+/** Names and words that are the same in every language: of motions, of labels on the board, of programs and files. */
 const KEPT = /Motion512|START|MODE|\.(m512|bin|hex|mtn)\b/g;
 const suite = pageSuite();
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The built page in a folder of its own, and a release after it: every file that is named after its contents has another name, as if
-// all of them had changed, and the old ones are gone.
+// The built page in its own folder, and a release after it: every file named after its contents gets another name, as if all of them had
+// changed, and the old files are gone.
 
 import { cp, mkdtemp, readFile, readdir, rename, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
@@ -23,7 +23,7 @@ export class ReleasedPage {
         return new ReleasedPage(folder);
     }
 
-    /** The next version is put in place of this one. */
+    /** Replaces this version by the next one. */
     async release(): Promise<void> {
         const assets = join(this.folder, 'assets');
         const names = await readdir(assets);

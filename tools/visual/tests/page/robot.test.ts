@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What people do with the robot in the page, as they do it: mouse and keyboard, found by what stands on things. A long motion is
-// watched at four times the speed, as somebody does who has seen it before.
+// What people do with the robot in the page, by mouse and keyboard, with elements found by their labels. Long motions are watched at four
+// times the speed.
 import { expect, test } from 'vitest';
 import { nameAndSave } from './edit-session.ts';
 import { Visitor } from './page-bench.ts';
@@ -10,7 +10,7 @@ const LIES = /^The robot lies on the floor\. Press Get up\.$/;
 const PATIENT = { timeout: 240_000 };
 const suite = pageSuite();
 
-/** A game pad of which this button is pressed; null: there is none any more. */
+/** A game pad with this button pressed; null: it is unplugged. */
 async function gamePad(visitor: Visitor, pressed: number | null): Promise<void> {
     await visitor.page.evaluate(held => {
         const pad = { axes: [0, 0], buttons: Array.from({ length: 16 }, (_, i) => ({ pressed: i === held })) };
@@ -20,19 +20,19 @@ async function gamePad(visitor: Visitor, pressed: number | null): Promise<void> 
 }
 
 test('a pupil: it stands, walks while the keys light up, is pushed over, gets up; a game pad drives it, a hand puts it on its feet, too', async () => {
-    const pupil = await Visitor.come(suite.browser, suite.address, { sharpness: 2 }); // sharp, for the README
+    const pupil = await Visitor.come(suite.browser, suite.address, { sharpness: 2 }); // high resolution for the README
     await pupil.untilStanding();
-    expect(await pupil.button('Get up').isDisabled()).toBe(true); // it stands
+    expect(await pupil.button('Get up').isDisabled()).toBe(true); // it is standing
     await pupil.page.keyboard.down('ArrowUp');
     await pupil.doing.filter({ hasText: /Playing motion 2[12] \(walk_/ }).waitFor();
     await pupil.page.keyboard.up('ArrowUp');
     await pupil.page.getByText(/walk_[rl] plays/).waitFor();
-    await pupil.page.screenshot({ path: `${SHOTS}page.png`, scale: 'css' }); // stands in the README
+    await pupil.page.screenshot({ path: `${SHOTS}page.png`, scale: 'css' }); // used in the README
     await pupil.button('Stop').click();
     await pupil.untilStanding();
     await gamePad(pupil, 12);
     await pupil.doing.filter({ hasText: /Playing motion 2[12] \(walk_/ }).waitFor();
-    await gamePad(pupil, null); // pulled out while it was pressed
+    await gamePad(pupil, null); // unplugged while pressed
     await expect.poll(() => pupil.button('U: ahead').getAttribute('aria-pressed')).toBe('false');
     await pupil.button('Stop').click();
     await pupil.untilStanding();
@@ -52,7 +52,7 @@ test('a pupil: it stands, walks while the keys light up, is pushed over, gets up
     await pupil.leave();
 });
 
-/** What the browser has kept of the robot's flash, as letters. */
+/** The robot's flash as the browser stores it, as text. */
 function keptFlash(visitor: Visitor): Promise<string> {
     return visitor.page.evaluate(
         () =>
@@ -103,16 +103,16 @@ test('somebody leaves the terminal while Edit waits for a name: the robot plays 
     await person.open('Terminal');
     await person.untilScreenSays('Are you sure?');
     await person.type('n');
-    await person.untilScreenSays('salute'); // it was a no
+    await person.untilScreenSays('salute'); // answered no
     await person.open('Remote');
-    await person.page.keyboard.press('ArrowUp'); // only Play hears it, and would start with an empty RAM
+    await person.page.keyboard.press('ArrowUp'); // only Play receives it, and Play would start with an empty RAM
     await said.filter({ hasText: /^The motion in Edit's memory has edits that are not saved/ }).waitFor();
     await person.open('Terminal');
     await person.untilScreenSays('salute');
     await person.type('save\r');
     await expect.poll(async () => (await person.screen()).includes('* unsaved')).toBe(false);
     await person.open('Remote');
-    await person.page.keyboard.press('ArrowUp'); // it brings Play, and is carried out there
+    await person.page.keyboard.press('ArrowUp'); // it starts Play, which then carries it out
     await person.doing.filter({ hasText: /^Playing motion 2[012] \(walk/ }).waitFor();
     await person.leave();
 });
@@ -133,7 +133,7 @@ test('somebody who debugs: Edit in the terminal, a page saved, and the browser k
     await person.leave();
 });
 
-/** Where in the picture a part of the robot is, found as a person does: by looking what lights up under the mouse. */
+/** Finds a part of the robot in the picture by what lights up under the mouse. */
 async function find(visitor: Visitor, title: RegExp): Promise<{ x: number; y: number }> {
     const box = await visitor.page.getByRole('img', { name: 'The robot' }).boundingBox();
     const label = visitor.page.locator('robot-view .joint-label');
@@ -147,7 +147,7 @@ async function find(visitor: Visitor, title: RegExp): Promise<{ x: number; y: nu
     throw new Error(`nothing in the picture is called ${title}`);
 }
 
-/** How far the three joints of the right arm are from 512, together. */
+/** Sum of the distances of the right arm's three joints from 512. */
 function rightArm(visitor: Visitor): Promise<number> {
     return visitor.page.evaluate(
         () =>
@@ -183,12 +183,12 @@ test('a hand pulls a stiff arm and lets it go back; time slow, paused, tick by t
     await person.button('Pause').click();
     await person.button('Pause').and(person.page.locator('[aria-pressed="true"]')).waitFor();
     await facts.filter({ hasText: 'time stands still' }).waitFor();
-    for (let i = 0; i < 3; i++) await rightArm(person); // each a state that was asked for after the one before: the last is of the pause
+    for (let i = 0; i < 3; i++) await rightArm(person); // each reads a newer state than the one before, so the last is from the pause
     const stands = await seconds();
     for (let i = 0; i < 16; i++) await person.button('One tick').click();
     await expect.poll(seconds, PATIENT).toBeGreaterThan(stands + 0.05); // 16 ticks of 1/128 s, shown in tenths
     expect(await seconds()).toBeLessThan(stands + 0.25);
-    await person.button('0.1×').click(); // how slow that is: pacer.test.ts
+    await person.button('0.1×').click(); // its exact speed: pacer.test.ts
     await facts.filter({ hasText: '0.1× time' }).waitFor();
     await expect.poll(seconds, PATIENT).toBeGreaterThan(stands + 0.25);
     await person.button('real time').click();
@@ -196,7 +196,7 @@ test('a hand pulls a stiff arm and lets it go back; time slow, paused, tick by t
     await person.leave();
 });
 
-/** A row of the table of servos: what it was told, where it is, what it says of itself. */
+/** A row of the servo table: goal, position, state. */
 async function servo(visitor: Visitor, id: number): Promise<{ goal: number; position: number; state: string }> {
     const [goal = '', position = '', state = ''] = await visitor.page
         .locator('servo-table tbody tr')
@@ -218,7 +218,7 @@ test('somebody who debugs breaks servos, lowers the battery, tilts the floor: th
     await fault(13, 'blocked'); // a knee
     const before = (await servo(person, 13)).position;
     await person.button('Bow').click();
-    await expect.poll(async () => Math.abs((await servo(person, 13)).goal - before), PATIENT).toBeGreaterThan(12); // the bow bends it further
+    await expect.poll(async () => Math.abs((await servo(person, 13)).goal - before), PATIENT).toBeGreaterThan(12); // the bow bends it more
     expect(Math.abs((await servo(person, 13)).position - before)).toBeLessThan(4); // and it does not follow
     expect((await servo(person, 11)).state).toBe('holds');
     await person.untilStanding();
@@ -231,14 +231,14 @@ test('somebody who debugs breaks servos, lowers the battery, tilts the floor: th
     ] as const) {
         await fault(id, what);
         await said.filter({ hasText: says }).waitFor();
-        await expect.poll(async () => (await servo(person, id)).state, PATIENT).toBe(state); // the table is written anew ten times a second
+        await expect.poll(async () => (await servo(person, id)).state, PATIENT).toBe(state); // the table is updated ten times a second
         if (id === 5) await page.screenshot({ path: `${SHOTS}robot-dark.png` });
         await fault(id, 'none');
     }
     await said.filter({ hasText: 'Servo 5 answers again' }).waitFor();
     await person.button('Bow').click();
     await person.doing.filter({ hasText: 'Playing motion 2 (bow)' }).waitFor();
-    await person.untilStanding(); // whole again
+    await person.untilStanding(); // in working order again
 
     await page.getByLabel('Battery').fill('6.5');
     await said.filter({ hasText: 'Battery is low: 6.5 V' }).waitFor();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The board in Chromium is the board in Node (and that is the native one: test_same_machine.py): the same sessions of a minute,
-// hashed. Both run as fast as they can, and at the same time.
+// The board in Chromium equals the board in Node (which equals the native one: test_same_machine.py): the same one-minute sessions, hashed.
+// Both run at full speed and at the same time.
 import { readFile } from 'node:fs/promises';
 import { expect, test } from 'vitest';
 import { build } from 'vite';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The page on every screen: a phone on end and lying, a tablet, a desktop, a desktop at 200 %. What is measured is what a stranger sees: one row of
-// head, a picture that stays, letters that can be read, no word cut, few sizes, one blue button.
+// The page on every screen: a phone in portrait and landscape, a tablet, a desktop, a desktop at 200 %. Measures what a stranger sees: a
+// head of one row, a picture that stays, readable letters, no clipped word, few sizes, one blue button.
 import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
 import { LANGUAGES } from '../../view/texts/languages.ts';
@@ -12,14 +12,14 @@ const LYING = { width: 844, height: 390, hasTouch: true };
 const TABLET = { width: 1024, height: 768, hasTouch: true };
 const DESKTOP = { width: 1440, height: 900 };
 const DESKTOP_AT_200 = { width: 720, height: 450 };
-/** Picture beside areas: the narrowest of them, a tablet and a desktop. */
+/** The picture beside the areas: the narrowest such screen, a tablet and a desktop. */
 const BESIDE = [{ width: 1000, height: 700 }, TABLET, DESKTOP] as const;
 const SCREENS = { PHONE, LYING, TABLET, DESKTOP, DESKTOP_AT_200 };
 const AREAS = ['Remote', 'Steps', 'Curves', 'Motions', 'Links', 'Checks', 'Terminal', 'Robot'] as const;
-/** A row of buttons that are 40 px for a finger, with its edges. */
+/** A row of 40 px buttons for fingers, including its margins. */
 const ROW_PX = 64;
 const TOUR_PX = 64;
-/** From the middle of a foot to its tip, in the picture of a phone. */
+/** From the middle of a foot to its tip in a phone's picture. */
 const FOOT_PX = 10;
 const LEAST_TYPE_PX = 12;
 const suite = pageSuite();
@@ -30,7 +30,7 @@ interface Look {
     readonly type: readonly number[];
 }
 
-/** In the browser: what a stranger sees of the page as it stands. */
+/** In the browser: what is visible of the page now. */
 function look(): Look {
     const seen = [...document.querySelectorAll<HTMLElement>('app-shell *')].filter(
         element => element.checkVisibility({ visibilityProperty: true }) && !element.closest('.xterm, svg, .visually-hidden, .skip'),
@@ -70,7 +70,7 @@ function placeOf(page: Page, shape: string): Promise<{ x: number; y: number }> {
         .evaluate((view, name) => (view as unknown as { placeOf(name: string): { x: number; y: number } }).placeOf(name), shape);
 }
 
-/** What stands over the picture at this place: text or something with a ground of its own. */
+/** What covers the picture at this place: text, or an element with its own background. */
 function textsOver(page: Page, place: { x: number; y: number }): Promise<string[]> {
     return page.evaluate(
         point =>
@@ -151,7 +151,7 @@ test('lying and at 200 %, picture and area are beside each other; on end, the ar
     const person = await Visitor.come(suite.browser, suite.address, { screen: PHONE, hasPicture: false, hasPhysics: false });
     await person.untilStanding();
     await person.open('Steps');
-    // The status bar below may have one line or two meanwhile: what folds is the sheet.
+    // The status bar below may meanwhile have one line or two. Only the sheet folds.
     const height = async (): Promise<number> => (await box(person.page, '.areas')).height;
     const before = await height();
     await person.button('Areas').click();
@@ -169,8 +169,8 @@ test('on a phone the robot stands above the bar of motions, and the Tour leaves 
     const person = await Visitor.come(suite.browser, suite.address, { screen: PHONE, hasPhysics: false });
     const { page } = person;
     await person.untilStanding();
-    // Bar and camera go on moving: the sentence about physics comes and goes, which makes the picture lower, and the robot's motions make the
-    // bar higher.
+    // Bar and camera keep moving: the sentence about physics comes and goes, which makes the picture lower, and the robot's motions make
+    // the bar higher.
     for (const foot of ['right_foot_front', 'left_foot_front']) {
         const aboveBar = async (): Promise<number> => (await box(page, 'action-bar')).y - (await placeOf(page, foot)).y;
         await expect.poll(aboveBar, { message: foot }).toBeGreaterThan(FOOT_PX);
@@ -186,7 +186,7 @@ test('on a phone the robot stands above the bar of motions, and the Tour leaves 
     const sheet = await box(page, 'tour-card');
     expect(sheet.height).toBeLessThanOrEqual(TOUR_PX);
     expect(sheet.y + sheet.height).toBe(PHONE.height);
-    // The ring goes with the hand, which the camera still follows.
+    // The ring moves with the hand, which the camera still follows.
     const ringAboveBar = async (): Promise<number> => {
         const ring = await box(page, '.tour-ring');
         return (await box(page, 'action-bar')).y - ring.y - ring.height;
@@ -223,7 +223,7 @@ test.each(Object.entries({ PHONE, LYING, TABLET }))(
         await page.getByText(/^Balance: /).waitFor();
         await expect.poll(overFace).toEqual([]);
         await person.open('Curves');
-        await person.button('Right arm').click(); // nothing covers it, either
+        await person.button('Right arm').click(); // nothing covers this button either
         await page.getByRole('spinbutton', { name: /right elbow/ }).waitFor();
         await expect.poll(overFace).toEqual([]);
         await person.leave();
@@ -310,8 +310,8 @@ test('nothing over the picture covers the hand that is dragged, wherever it goes
         };
         return session.editor.page(2).steps[0]?.positions[5];
     });
-    await page.locator('.joint-label').getByText(`5 right elbow: ${elbow}`, { exact: true }).waitFor(); // not what it was before the drag
+    await page.locator('.joint-label').getByText(`5 right elbow: ${elbow}`, { exact: true }).waitFor(); // not the value before the drag
     await page.mouse.up();
-    await person.button('Walk').waitFor(); // all of it is back
+    await person.button('Walk').waitFor(); // everything is back
     await person.leave();
 });

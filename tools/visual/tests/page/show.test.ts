@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Play: the picture moves at once, and what moves is the robot; the scrubber and the loop move nothing but the picture.
+// Play: the picture moves at once and shows the robot as soon as it plays. Scrubber and loop move only the picture.
 import { expect, test } from 'vitest';
 import { Visitor } from './page-bench.ts';
 import { SHOTS, pageSuite } from './page-suite.ts';
@@ -43,7 +43,7 @@ test('Play after an edit: within 0.3 s the solid figure moves, no ghost is seen 
         return at('moved') - at('play-asked');
     });
     console.log(`Play to the first movement of the picture: ${tookMs.toFixed(0)} ms`);
-    await expect.poll(async () => (await figure(person)).hasGhost).toBe(false); // in the next picture, which by software takes a while
+    await expect.poll(async () => (await figure(person)).hasGhost).toBe(false); // in the next picture, which takes a while by software
     await person.page.screenshot({ path: `${SHOTS}shown.png` });
     await person.doing.filter({ hasText: /^Playing motion 3 \(wave\)/ }).waitFor();
     const ghosts: boolean[] = [];
@@ -64,7 +64,7 @@ test('a Play that is refused, because the robot plays already, leaves the robot 
     await person.doing.filter({ hasText: /^Playing motion 2[0-2] \(walk/ }).waitFor();
     await person.button('▶ Play').click();
     await person.page.getByRole('log', { name: 'Last message' }).filter({ hasText: 'Busy' }).waitFor();
-    await person.page.waitForTimeout(300); // 160 ms after Play the motion would be shown
+    await person.page.waitForTimeout(300); // the motion would be shown 160 ms after Play
     expect(await person.doing.textContent()).not.toContain('In the picture only');
     await person.leave();
 });
@@ -86,7 +86,7 @@ test('the scrubber, a step and the loop move the picture, and the robot hears no
     await person.button('From this step').click();
     await expect.poll(() => person.page.locator('step-row li.playing .number').first().textContent()).toMatch(/[34]/);
     await person.page.getByRole('checkbox', { name: 'Loop' }).check();
-    await expect.poll(async () => Number(await moment.inputValue())).toBeLessThan(20); // it has begun again
+    await expect.poll(async () => Number(await moment.inputValue())).toBeLessThan(20); // it has started again
     await person.button('❙❙ Pause').click();
     const bar = await person.page.locator('time-line .bar').boundingBox();
     await person.page.mouse.click((bar?.x ?? 0) + (bar?.width ?? 0) * 0.21, (bar?.y ?? 0) + 10);

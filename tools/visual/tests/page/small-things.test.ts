@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What people expect of a page: Escape and a press beside a menu close it, Ctrl+A chooses all, what cannot be undone is asked, a key leads
-// to the picture and back, and nobody is warned who has nothing to lose.
+// What people expect of a page: Escape or a press beside a menu closes it, Ctrl+A selects all, irreversible actions are confirmed, a key
+// moves the focus to the picture and back, and there is no warning when nothing can be lost.
 import { expect, test } from 'vitest';
 import { Visitor } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
@@ -17,7 +17,7 @@ test('menus, Ctrl+A, F6, a joint spoken, double clicks on "Add step" and Play, a
     const add = person.button('Add step from the robot');
     const before = await add.boundingBox();
     await add.dblclick();
-    await expect.poll(() => page.getByRole('button', { name: /^Step \d$/ }).count()).toBe(2); // twice, and nothing is deleted
+    await expect.poll(() => page.getByRole('button', { name: /^Step \d$/ }).count()).toBe(2); // two steps added, none deleted
     expect(await add.boundingBox()).toEqual(before);
 
     const time = page.getByLabel('Time of step 1', { exact: true });
@@ -57,9 +57,9 @@ test('menus, Ctrl+A, F6, a joint spoken, double clicks on "Add step" and Play, a
     const name = page.getByRole('textbox', { name: 'Name of the motion' });
     await name.fill('  nod  ');
     await name.press('Enter');
-    expect(await name.inputValue()).toBe('nod'); // as it is saved
+    expect(await name.inputValue()).toBe('nod'); // as saved
     await name.fill('');
-    await page.keyboard.type('unfinished'); // no Enter, and the field is not left
+    await page.keyboard.type('unfinished'); // without Enter or leaving the field
     await page.reload();
     await person.untilStanding();
     await person.open('Steps');
@@ -76,7 +76,7 @@ test('menus, Ctrl+A, F6, a joint spoken, double clicks on "Add step" and Play, a
     await page.getByRole('dialog', { name: 'Factory fresh?' }).getByRole('button', { name: 'Cancel' }).click();
     await person.button('Power off').click();
     await person.doing.filter({ hasText: /^The robot is switched off/ }).waitFor();
-    // Nothing is kept for a robot that is off: it would walk whenever somebody switches it on.
+    // A request to a robot that is off is dropped, or the robot would walk when it is switched on.
     await person.button('Walk').click();
     await message.filter({ hasText: 'The robot is switched off' }).waitFor();
     await person.button('Power on').click();
@@ -104,7 +104,7 @@ test('whoever leaves is asked exactly when the browser keeps nothing', async () 
         const isAsked = await person.page.evaluate(() => !window.dispatchEvent(new Event('beforeunload', { cancelable: true })));
         expect(isAsked).toBe(!isKept);
         if (!isKept) {
-            // The warning has the whole width, not what is left of it.
+            // The warning uses the full width, not only the rest of a row.
             await person.open('Steps');
             const warning = await person.page.getByRole('status', { name: 'Autosave' }).boundingBox();
             const bar = await person.page.getByRole('toolbar', { name: 'Document' }).boundingBox();
@@ -122,7 +122,7 @@ test('without WebAssembly a sentence says so, and names no other browser', async
     await person.leave();
 });
 
-/** In the browser: counts what is asked of the width of things in the terminal, each of which lays out the page again. */
+/** In the browser: counts reads of element widths in the terminal, each of which forces a new layout. */
 function countWidths(): void {
     const { prototype } = HTMLElement;
     const width = Object.getOwnPropertyDescriptor(prototype, 'offsetWidth');
@@ -151,7 +151,7 @@ test('a terminal that nobody has looked at measures no letters while the robot s
     await person.button('Stop').click();
     await person.untilStanding();
     await person.button('Full screen').click();
-    await person.page.keyboard.type('play 2'); // and not to the button
+    await person.page.keyboard.type('play 2'); // not to the button
     await person.page.keyboard.press('Enter');
     await person.doing.filter({ hasText: /^Playing motion 2 \(bow\)/ }).waitFor();
     await person.leave();

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Stop goes before everything that waits, and no key moves the robot by surprise: not from a dialog, and not one that was let go elsewhere.
+// Stop precedes everything that waits, and no key moves the robot by surprise: neither in a dialog nor when released elsewhere.
 import { expect, test } from 'vitest';
 import { Visitor } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
 
 const suite = pageSuite();
 
-/** Everything that is said from now on of what the robot does. */
+/** Records all status texts of the robot from now on. */
 async function listen(person: Visitor): Promise<() => Promise<string[]>> {
     await person.doing.evaluate(doing => {
         const heard: string[] = [];
@@ -33,7 +33,7 @@ test('Stop takes back what waits until the robot stands: "Walk it", "Push it", a
     await other.button('Stop').click();
     await other.untilStanding();
     await other.button('Wave').click();
-    await other.doing.filter({ hasText: /^Playing motion 3 \(wave\), step 2/ }).waitFor(); // one that was pushed lies
+    await other.doing.filter({ hasText: /^Playing motion 3 \(wave\), step 2/ }).waitFor(); // a pushed robot is lying
     expect(await other.doing.textContent()).not.toContain('lies');
     await other.leave();
 });

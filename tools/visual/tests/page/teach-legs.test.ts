@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Legs that were let go and bent do not bear the robot: the hand goes on holding it behind "Hold", until "Let go" or a play.
+// Legs that were limp and bent do not carry the robot. The hand keeps holding it after "Hold" until "Let go" or a play.
 import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
 import { Visitor } from './page-bench.ts';
@@ -8,7 +8,7 @@ import { pageSuite } from './page-suite.ts';
 const suite = pageSuite();
 const HELD = 'A hand holds the robot.';
 
-/** Two seconds of the robot's time: a hand that lets go needs 0.4 s of it. */
+/** Two seconds of robot time. A hand needs 0.4 s of it to let go. */
 function twoSeconds(page: Page): Promise<void> {
     return page.evaluate(() => {
         const { session } = document.querySelector('app-shell') as unknown as {
@@ -50,7 +50,7 @@ test('the hand stays over legs that were let go, and over an arm beside them, un
     }
     await person.untilStanding();
 
-    await person.open('Steps'); // an arm alone: the legs bear it
+    await person.open('Steps'); // only an arm: the legs carry the robot
     await person.button('Right arm').click();
     await doing.filter({ hasText: HELD }).waitFor();
     await person.button('Hold').click();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page on a tablet that is held next to the robot: everything by finger, lying and on end.
+// The page on a tablet held next to the robot: everything by finger, in landscape and portrait.
 import type { Locator, Page } from 'playwright-core';
 import { expect, test } from 'vitest';
 import { Fingers } from './fingers.ts';
@@ -11,16 +11,16 @@ import { chooseJoints, wayPoint } from './way-point.ts';
 const LYING = { width: 1024, height: 768, hasTouch: true };
 const ON_END = { width: 800, height: 1280, hasTouch: true };
 const AREAS = ['Remote', 'Steps', 'Curves', 'Motions', 'Links', 'Checks', 'Terminal', 'Robot'] as const;
-/** WCAG 2.2: 24. */
+/** Minimum target size of WCAG 2.2. */
 const TARGET_PX = 24;
 const suite = pageSuite();
 
-/** Where a person sees a part of the robot. */
+/** The place of a part of the robot on the screen. */
 function placeOf(page: Page, shape: string): Promise<Point> {
     return page.locator('robot-view').evaluate((view, name) => (view as unknown as { placeOf(name: string): Point }).placeOf(name), shape);
 }
 
-/** The camera glides on a little after a gesture: until it stands. */
+/** Waits until the camera is still; it glides on a little after a gesture. */
 async function untilStill(page: Page): Promise<void> {
     await expect.poll(() => page.locator('robot-view').evaluate(view => (view as unknown as { isStill: boolean }).isStill)).toBe(true);
 }
@@ -39,7 +39,7 @@ async function size(page: Page): Promise<number> {
     return Math.hypot(face.x - sole.x, face.y - sole.y);
 }
 
-/** What is too small for a finger: its name and size. */
+/** Elements that are too small for a finger: name and size. */
 function tooSmall(page: Page): Promise<string[]> {
     return page.evaluate(
         least =>
@@ -65,7 +65,7 @@ async function middle(locator: Locator): Promise<Point> {
 const undo = (page: Page) => page.getByRole('button', { name: /^Undo/ });
 const takeBack = async (page: Page, what: RegExp): Promise<void> => {
     await page.getByRole('button', { name: what }).tap();
-    await expect.poll(() => undo(page).isDisabled()).toBe(true); // one drag was one undo step
+    await expect.poll(() => undo(page).isDisabled()).toBe(true); // one drag is one undo step
 };
 const position = (page: Page) => page.getByRole('group', { name: 'Chosen joints' }).getByRole('spinbutton').first();
 
@@ -87,7 +87,7 @@ test('lying: the camera by one finger and by two, joints, a hand, steps, times a
     await page.getByRole('tab', { name: 'Steps', exact: true }).tap();
     const ground = { x: 60, y: 560 };
     const before = await placeOf(page, 'right_hand');
-    await fingers.drag(ground, 90, 0); // one finger on the ground: round it
+    await fingers.drag(ground, 90, 0); // one finger on the ground orbits
     await expect.poll(async () => Math.abs((await placeOf(page, 'right_hand')).x - before.x)).toBeGreaterThan(20);
     await fingers.drag(ground, -90, 0);
     const small = await size(page);
@@ -96,7 +96,7 @@ test('lying: the camera by one finger and by two, joints, a hand, steps, times a
     const large = await size(page);
     await fingers.pinch(await placeOf(page, 'face'), await placeOf(page, 'right_thigh'), { x: 0, y: 60 }, { x: 0, y: -60 }); // both on the robot
     await expect.poll(() => size(page)).toBeLessThan(large * 0.95);
-    expect(await undo(page).isDisabled()).toBe(true); // it was looked at, not changed
+    expect(await undo(page).isDisabled()).toBe(true); // viewed, not changed
     await untilStill(page);
 
     const forearm = await placeOf(page, 'right_forearm');
@@ -108,9 +108,9 @@ test('lying: the camera by one finger and by two, joints, a hand, steps, times a
     await expect.poll(() => position(page).inputValue()).not.toBe(rest);
     await page.screenshot({ path: `${SHOTS}tablet-pose.png` });
     await takeBack(page, /^Undo: pose/);
-    await untilAt(page, 'right_hand', hand); // the picture follows the undo when it is drawn next: later, on a busy computer
+    await untilAt(page, 'right_hand', hand); // the picture follows the undo at the next drawing, later on a busy computer
     await fingers.drag(hand, -50, -90);
-    await expect.poll(() => page.getByRole('group', { name: 'Chosen joints' }).getByRole('spinbutton').count()).toBeGreaterThan(2); // the limb
+    await expect.poll(() => page.getByRole('group', { name: 'Chosen joints' }).getByRole('spinbutton').count()).toBeGreaterThan(2); // a limb
     await takeBack(page, /^Undo: pose/);
 
     const second = await middle(page.getByRole('button', { name: 'Step 2', exact: true }));
@@ -118,7 +118,7 @@ test('lying: the camera by one finger and by two, joints, a hand, steps, times a
     await fingers.drag(second, third.x - second.x + 20, 4);
     await takeBack(page, /^Undo: steps moved/);
     const handle = await middle(page.locator('time-line .handle.time').nth(1));
-    await fingers.drag({ x: handle.x - 12, y: handle.y }, 50, 0); // a finger's breadth beside it
+    await fingers.drag({ x: handle.x - 12, y: handle.y }, 50, 0); // a finger's breadth beside the handle
     await takeBack(page, /^Undo: time/);
 
     await page.getByRole('tab', { name: 'Curves', exact: true }).tap();
@@ -130,7 +130,7 @@ test('lying: the camera by one finger and by two, joints, a hand, steps, times a
     await page.screenshot({ path: `${SHOTS}tablet-curves.png` });
     const area = page.getByRole('tabpanel', { name: 'Curves' });
     const { x, y, height } = (await canvas.boundingBox()) ?? { x: 0, y: 0, height: 0 };
-    await fingers.drag({ x: x + 8, y: y + height - 4 }, 0, -120); // beside all way-points: the area scrolls
+    await fingers.drag({ x: x + 8, y: y + height - 4 }, 0, -120); // away from all way-points: the area scrolls
     await expect.poll(() => area.evaluate(element => element.scrollTop)).toBeGreaterThan(30);
     expect(await undo(page).isDisabled()).toBe(true);
 

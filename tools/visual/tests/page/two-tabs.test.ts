@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two tabs have a robot each, and one memory in the browser: the second one writes nothing over what the first has saved.
+// Two tabs have one robot each but share one memory in the browser: the second never overwrites what the first has saved.
 import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
 import { Visitor } from './page-bench.ts';
@@ -7,7 +7,7 @@ import { pageSuite } from './page-suite.ts';
 
 const suite = pageSuite();
 
-/** EEPROM that the browser keeps, as text; '' when it keeps none. */
+/** The EEPROM that the browser stores, as text; '' if none. */
 function keptEeprom(page: Page): Promise<string> {
     return page.evaluate(
         () =>
@@ -26,7 +26,7 @@ function keptEeprom(page: Page): Promise<string> {
     );
 }
 
-/** Saves a setting, as a person does in Play. */
+/** Saves a setting as a person does in Play. */
 async function saveLaw(page: Page, law = 'classic'): Promise<void> {
     const more = page.getByRole('button', { name: 'More' });
     if (await more.isVisible()) await more.click();
@@ -76,7 +76,7 @@ test('what the first tab has saved stays, whatever the second saves or forgets; 
     await second.locator('status-bar .doing').filter({ hasText: 'The robot stands and waits.' }).waitFor();
     expect(await keptEeprom(second)).toBe(saved);
 
-    await person.page.reload(); // it is still the first
+    await person.page.reload(); // it is still the first tab
     await person.untilStanding();
     await saveLaw(person.page, 'exact');
     await expect.poll(() => keptEeprom(person.page)).not.toBe(saved);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Opens a page that is served somewhere, waits until its robot stands, and leaves: visit.ts ADDRESS (tools/dev/cleanroom).
+// visit.ts ADDRESS: opens a served page, waits until its robot stands, and leaves (tools/dev/cleanroom).
 import { Visitor, startBrowser } from './page-bench.ts';
 
 const address = process.argv[2];

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Where the curves have their way-points.
+// Finds the way-points of the curves.
 import type { Page } from 'playwright-core';
 
-/** Where a person sees a way-point, once it is drawn: the canvas is one picture to the browser. */
+/** The place of a way-point on the screen once it is drawn. To the browser the canvas is a single picture. */
 export async function wayPoint(page: Page, joint: number, step: number): Promise<{ x: number; y: number }> {
     const at = await page.waitForFunction(
         ([wantedJoint, wantedStep]) => {
@@ -26,7 +26,7 @@ export async function wayPoint(page: Page, joint: number, step: number): Promise
     return place;
 }
 
-/** In Curves: these joints and no others. */
+/** In Curves: selects exactly these joints. */
 export async function chooseJoints(page: Page, servos: readonly number[]): Promise<void> {
     const chips = page.getByRole('group', { name: 'Joints to edit' }).getByRole('button');
     for (const chip of await chips.all()) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Your robot: Web Serial in the real browser, to Play on `cm5sim --pty`. Chromium lists no pseudo-terminals, but it lists
-// /dev/ttyS0: in a mount namespace of its own the browser finds the pty there, and a policy that allows this page to use it
-// without the chooser. That needs root, /dev/ttyS0 and unshare; where they are missing the test says that it was left out.
+// Your robot: Web Serial in the real browser, to Play on `cm5sim --pty`. Chromium lists no pseudo-terminals, but it lists /dev/ttyS0. The
+// browser runs in its own mount namespace with the pty in that place, and with a policy that lets this page use it without the chooser.
+// This needs root, /dev/ttyS0 and unshare; without them the test reports that it was skipped.
 import { execFileSync, spawn, spawnSync } from 'node:child_process';
 import type { ChildProcess } from 'node:child_process';
 import { chmodSync, existsSync, mkdirSync, mkdtempSync, readFileSync, realpathSync, rmSync, writeFileSync } from 'node:fs';
@@ -32,7 +32,7 @@ function reasonToLeaveOut(): string | null {
 const why = reasonToLeaveOut();
 if (why) console.warn(`left out: Web Serial to cm5sim: ${why}`);
 
-/** A robot in cm5sim; its flash is written to `flash` when its cable is pulled. */
+/** A robot in cm5sim. Its flash is written to `flash` when its cable is pulled. */
 class Robot {
     readonly flash: string;
     private readonly folder: string;
@@ -43,7 +43,7 @@ class Robot {
         this.folder = folder;
         this.flash = join(folder, 'flash');
         writeFileSync(join(folder, 'hand'), hand);
-        writeFileSync(join(folder, 'eeprom'), Buffer.concat([Buffer.alloc(4095, 0xff), Buffer.of(0x11)])); // the loader starts the image without a word
+        writeFileSync(join(folder, 'eeprom'), Buffer.concat([Buffer.alloc(4095, 0xff), Buffer.of(0x11)])); // makes the loader start the image silently
         this.options = [
             'boot-cm5.hex',
             `${image}-cm5.hex`,
@@ -55,12 +55,12 @@ class Robot {
             join(folder, 'eeprom'),
             '--no-stdio',
             '--realtime',
-            '--allow=uart-overrun', // what is sent while the controller restarts is lost
+            '--allow=uart-overrun', // bytes sent while the controller restarts are lost
             ...(hand ? [`--script=${join(folder, 'hand')}`] : ['--time=3000s']),
         ];
     }
 
-    /** Its serial port. */
+    /** Starts the robot and returns its serial port. */
     async plugIn(): Promise<string> {
         const link = join(this.folder, 'robot');
         this.process = spawn(SIMULATOR, [...this.options, '--flash', this.flash, `--pty=${link}`], {
@@ -71,7 +71,7 @@ class Robot {
         return realpathSync(link);
     }
 
-    /** Pulls its cable: its end of the line is gone. */
+    /** Pulls the cable: the robot's end of the line disappears. */
     pull(): Promise<void> {
         const { process } = this;
         this.process = null;
@@ -83,7 +83,7 @@ class Robot {
     }
 }
 
-/** A browser that sees the pty as /dev/ttyS0 and may use it on this origin. It writes its process ID into `folder`. */
+/** A script that starts a browser with the pty as /dev/ttyS0, allowed for this origin. It writes the process ID into `folder`. */
 function wrapper(folder: string, pty: string, origin: string): string {
     const policies = join(folder, 'policies');
     mkdirSync(policies);
@@ -96,11 +96,11 @@ function wrapper(folder: string, pty: string, origin: string): string {
     return script;
 }
 
-/** From now on the port that the browser sees is another one. */
+/** Replaces the port that the browser sees. */
 function plugInto(folder: string, pty: string): void {
     const browser = readFileSync(join(folder, 'pid'), 'utf8').trim();
     const change = `umount -l /dev/ttyS0 && mount --bind ${pty} /dev/ttyS0`; // the old one is gone
-    execFileSync('nsenter', ['--target', browser, '--mount', '--root', 'sh', '-c', change]); // its root: the tests may run in another one
+    execFileSync('nsenter', ['--target', browser, '--mount', '--root', 'sh', '-c', change]); // --root: the tests may run in another root
 }
 
 interface Bench {
@@ -109,7 +109,7 @@ interface Bench {
     readonly folder: string;
 }
 
-/** What somebody does with a robot on the port of this computer. */
+/** Runs an action with a robot on the port of this computer. */
 async function atTheRobot(image: 'play' | 'edit', action: (bench: Bench) => Promise<void>, hand = ''): Promise<void> {
     const folder = mkdtempSync(join(tmpdir(), 'm512-serial-'));
     const server = await PageServer.start();
@@ -123,7 +123,7 @@ async function atTheRobot(image: 'play' | 'edit', action: (bench: Bench) => Prom
         const person = await Visitor.come(browser, server.address, { hasPicture: image === 'play', hasPhysics: image === 'play' });
         await person.untilStanding();
         await new Keyboard(person).enter('Menu');
-        await new Keyboard(person).enter('Your robot …'); // the chooser would be the browser's
+        await new Keyboard(person).enter('Your robot …'); // the policy allows the port, so no chooser opens
         await person.button('serial port').waitFor();
         await person.closeMenu();
         await action({ person, robot, folder });
@@ -136,8 +136,8 @@ async function atTheRobot(image: 'play' | 'edit', action: (bench: Bench) => Prom
     }
 }
 
-/** Waits until a servo of the picture is beyond this position. Prints how many poses a second of the wall clock the picture got meanwhile:
- *  of the robot's own time it gets more than 20 (live.test.ts). */
+/** Waits until a servo of the picture is beyond this position. Prints the poses per second of wall-clock time that the picture got; in
+ *  robot time it gets more than 20 (live.test.ts). */
 async function untilBeyond(person: Visitor, servo: number, position: number): Promise<void> {
     const rate = await person.page.evaluate(
         ([id, beyond, limitMs]) =>
@@ -190,7 +190,7 @@ test.skipIf(why !== null)(
             await robot.pull();
             await person.doing.filter({ hasText: 'The cable is out.' }).waitFor();
             plugInto(folder, await robot.plugIn());
-            await person.untilStanding(); // nobody has pressed anything
+            await person.untilStanding(); // without pressing anything
             await person.button('Bow').click();
             await person.doing.filter({ hasText: 'Playing motion 2 (bow)' }).waitFor();
             await robot.pull();
@@ -202,7 +202,7 @@ test.skipIf(why !== null)(
     900_000,
 );
 
-/** A hand of the simulator: when the right arm is let go, it turns two of its servos and stays there. */
+/** A hand of the simulator: when the right arm is released, it turns two of its servos and stays there. */
 const HAND = 'torque 1 == 1 within 3000s\ntorque 1 == 0 within 3000s\npush 1 400\npush 3 700\nwait 3000s\n';
 
 test.skipIf(why !== null)(
@@ -250,19 +250,19 @@ test.skipIf(why !== null)(
     900_000,
 );
 
-/** Other work on this machine may hold the browser up for longer than servos wait: such a run shows nothing, and is repeated. When even the
- *  last one was held up the test is left out. */
+/** Other work on this computer may delay the browser longer than servos wait. Such a run proves nothing and is repeated. If even the last
+ *  run was delayed, the test is skipped. */
 const HELD_UP = { timeout: 900_000, retry: 4 };
-const HELD_UP_MS = 50; // a timer of 10 ms comes that late
+const HELD_UP_MS = 50; // lateness of a 10 ms timer
 const PATIENT_WITH_SERVOS_MS = 60_000;
 
-/** A process that is as punctual as hardware, where this is allowed. */
+/** A process with real-time priority, where allowed, so that it is as punctual as hardware. */
 function punctual(command: string, ...words: string[]): ChildProcess {
     const script = 'chrt --rr --pid 2 $$ 2> /dev/null; exec "$@"';
     return spawn('sh', ['-c', script, 'sh', command, ...words], { stdio: ['ignore', 'ignore', 'inherit'] });
 }
 
-/** Servos alone, behind an adapter that can be pulled out (tests/host/bad_adapter.py). */
+/** Servos behind an adapter that can be unplugged (tests/host/bad_adapter.py). */
 class Servos {
     private readonly log: string;
     private readonly link: string;
@@ -284,7 +284,7 @@ class Servos {
         return this.port();
     }
 
-    /** Its serial port. */
+    /** Its serial port, once it exists. */
     private async port(): Promise<string> {
         await expect.poll(() => existsSync(this.link)).toBe(true);
         return realpathSync(this.link);
@@ -300,7 +300,7 @@ class Servos {
         return this.port();
     }
 
-    /** Goals that were sent: servo units by ID. */
+    /** Goals sent so far: servo units by ID. */
     frames(): ReadonlyMap<number, number>[] {
         const lines = readFileSync(this.log, 'latin1').split('\n');
         const sent = lines.filter(line => line.startsWith('> ')).map(line => Buffer.from(line.slice(2), 'hex'));
@@ -318,13 +318,13 @@ class Servos {
     }
 }
 
-/** In the browser: the chooser gives what a person would choose. */
+/** In the browser: the chooser returns the port that a person would choose. */
 function chooseFirst(): void {
     const { serial } = navigator as unknown as { serial: { getPorts(): Promise<unknown[]> } };
     Object.assign(serial, { requestPort: async () => (await serial.getPorts())[0] });
 }
 
-/** The page says that of what it has found. On a busy machine some may not be heard; a person then chooses the adapter once more. */
+/** Waits until the page reports these servos. On a busy computer some may not be found; a person then chooses the adapter again. */
 async function untilFound(person: Visitor, wanted: string): Promise<void> {
     const found = person.page.getByRole('log', { name: 'Last message' }).filter({ hasText: /servos? answers?\./ });
     for (let times = 0; times < 5; times++) {
@@ -336,7 +336,7 @@ async function untilFound(person: Visitor, wanted: string): Promise<void> {
     throw new Error(`the page never said: ${wanted}`);
 }
 
-/** In the browser: the page is hidden, or is seen again. */
+/** In the browser: hides or shows the page. */
 function hide(isHidden: boolean): void {
     Object.defineProperty(document, 'hidden', { configurable: true, value: isHidden });
     document.dispatchEvent(new Event('visibilitychange'));
@@ -451,7 +451,7 @@ test.skipIf(why !== null)(
             await person.doing.filter({ hasText: /Playing motion 2[12] \(walk_/ }).waitFor();
             await page.keyboard.press('Space');
             await person.untilStanding();
-            // What was written is there the next time.
+            // What was written is still there the next time.
             await person.press('Robot in this page');
             await person.untilStanding();
             await person.press('My servos …');

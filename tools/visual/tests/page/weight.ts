@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What the built page weighs, each file compressed as a host would send it (gzip -9).
+// The weight of the built page, with each file compressed as a host would send it (gzip -9).
 import { readFileSync, readdirSync } from 'node:fs';
 import { gzipSync } from 'node:zlib';
 
 const FOLDER = new URL('../../../../build/visual/', import.meta.url);
-/** Comes behind the page. */
+/** Loaded after the page. */
 const PHYSICS = /mujoco|physical-body|body-[^/]*\.xml/;
 const PYTHON = /pyodide|python/;
 const SERVOS = /servos-/;
@@ -12,17 +12,17 @@ const SERVOS = /servos-/;
 const LANGUAGE = /\/(de|es|ja|ko|pseudo)-[^/]*\.js$/;
 
 export interface Weights {
-    /** Bytes until the robot stands in the picture, and Edit's image, which is fetched when Edit runs. */
+    /** Bytes until the robot stands in the picture, and Edit's image, which is loaded when Edit runs. */
     readonly first: number;
     readonly physics: number;
-    /** Each with the worker that runs it. */
+    /** Each with its worker. */
     readonly python: number;
     readonly servos: number;
-    /** All languages but English; one of them is loaded, when it is chosen. */
+    /** All languages except English. One is loaded when it is chosen. */
     readonly languages: number;
 }
 
-/** Does the page fetch it behind the first load? By its name, and a worker by what it holds. */
+/** The part of the page that is loaded after the first load, by file name, or for a worker by its content. null: the first load. */
 export function comesLater(name: string, text: string): 'physics' | 'python' | 'servos' | 'languages' | null {
     if (LANGUAGE.test(name)) return 'languages';
     if (PHYSICS.test(name)) return 'physics';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A walk through all areas and dialogs of the page, whatever its language, and what can be read there.
+// Walks through all areas and dialogs of the page, in any language, and collects the visible text.
 import { readFileSync } from 'node:fs';
 import type { Page } from 'playwright-core';
 import type { Texts } from '../../view/texts/texts.ts';
@@ -14,15 +14,15 @@ const LIBRARY = `${ROOT}build/motions/motions.bin`;
 const LARGE = `${ROOT}tests/samples/robot_12bit_256p.bin`;
 
 export interface Words {
-    /** Texts with two plain letters in a row, where nothing is quoted. */
+    /** Texts with two consecutive plain letters outside quotations. */
     readonly plain: readonly string[];
-    /** Texts of which a part cannot be seen, and cannot be scrolled to. */
+    /** Texts that are partly invisible and cannot be scrolled into view. */
     readonly cut: readonly string[];
 }
 
-/** In the browser: what is seen now of the page, or of the dialog that is open. */
+/** In the browser: the visible text of the page or the open dialog. */
 function look(): Words {
-    /** What is quoted: the terminal, names of motions, what the board or m512 says, what stands on the board. */
+    /** Quotations: the terminal, names of motions, messages of board and m512, labels on the board. */
     const QUOTED =
         '.xterm, script, style, noscript, status-bar .message, status-bar .facts, [lang="en"]:not(html), .leds, page-card .name, language-choice option, canvas';
     const root = document.querySelector('dialog[open]') ?? document.body;
@@ -32,7 +32,7 @@ function look(): Words {
     const read = (text: string | null): void => {
         if (text !== null && /[A-Za-z]{2}/.test(text)) plain.add(text.trim());
     };
-    /** The nearest box that hides what goes beyond it; null: one can scroll there. */
+    /** The nearest box that clips the element. null: it can be scrolled into view. */
     const hidingBox = (element: Element): DOMRect | null => {
         for (let one: Element | null = element; one; one = one.parentElement) {
             const { overflowX, position } = getComputedStyle(one);
@@ -64,12 +64,12 @@ function look(): Words {
     return { plain: [...plain], cut: [...cut] };
 }
 
-/** Its name is no word of any language. */
+/** A file whose name is not a word in any language. */
 function file(buffer: Buffer): { name: string; mimeType: string; buffer: Buffer } {
     return { name: '1.bin', mimeType: '', buffer };
 }
 
-/** With a trim, and a motion that is damaged. */
+/** Adds a trim and a damaged motion. */
 function withFaults(image: Buffer): Buffer {
     image.copy(image, 0, 2 * PAGE_BYTES, 3 * PAGE_BYTES);
     return image.fill(7, 3 * PAGE_BYTES + PAGE_BYTES / 2, 4 * PAGE_BYTES);
@@ -97,7 +97,7 @@ export class Walk {
         await this.page.locator(`#tab-${area}`).click();
     }
 
-    /** Everything that can be opened in the page without a robot that moves. Nobody has been here before. */
+    /** Opens everything in the page that needs no moving robot, as on a first visit. */
     async all(): Promise<void> {
         const { page } = this;
         await page.locator('first-minute').waitFor();
@@ -174,7 +174,7 @@ export class Walk {
         await this.dialog('nothing to send', () => button(texts.files.send));
     }
 
-    /** Motions that come from elsewhere, with everything that is asked then: the trim, and whether to leave out what has no room. */
+    /** Opens files with motions and all questions about them: the trim, and what to leave out if there is no room. */
     private async files(): Promise<void> {
         const { page } = this;
         const chooser = page.locator('files-menu input[type="file"]');

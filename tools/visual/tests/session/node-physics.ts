@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// node node-physics.ts BUILD SCENARIOS.json: what each scenario comes to, as one line of JSON. See test_same_physics.py.
+// node node-physics.ts BUILD SCENARIOS.json: prints the result of each scenario as one line of JSON. See test_same_physics.py.
 import { readFile } from 'node:fs/promises';
 import type { Body } from '../../model/body.ts';
 import { heading } from '../../model/space.ts';

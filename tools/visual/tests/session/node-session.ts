@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// node node-session.ts BUILD SESSIONS.json: prints one line of JSON, the hashes of each session. See run-session.ts.
+// node node-session.ts BUILD SESSIONS.json: prints the hashes of all sessions as one line of JSON. See run-session.ts.
 
 import { readFile } from 'node:fs/promises';
 import { runSession } from './run-session.ts';

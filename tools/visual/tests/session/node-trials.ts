@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// node node-trials.ts TRIALS.json: what each trial comes to, as one line of JSON. See test_same_physics.py.
+// node node-trials.ts TRIALS.json: prints the result of each trial as one line of JSON. See test_same_physics.py.
 import { readFile } from 'node:fs/promises';
 import { AS_STORED, JOINTS } from '../../model/motion.ts';
 import { makeMotion } from '../motion-bench.ts';

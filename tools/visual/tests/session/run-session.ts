@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs one session of session.json on the board of board.wasm, through the flat API that the page uses, and hashes what
-// came of it. The same session is run natively by test_same_machine.py; both must give the same hashes.
+// Runs one session of session.json on board.wasm through the flat API that the page uses, and hashes the results. test_same_machine.py runs
+// the same session natively; both must give the same hashes.
 
 import { Board, CYCLES_PER_MS, CYCLES_PER_TICK, MOTIONS_ADDRESS } from '../../sim/board.ts';
 import type { Button } from '../../sim/board.ts';
@@ -72,7 +72,7 @@ async function makeBoard(session: Session, files: SessionFiles): Promise<Board> 
     return board;
 }
 
-/** Hashes of console bytes, goals and positions (every tick), flash and EEPROM at the end. */
+/** Hashes of console bytes, goals and positions (every tick), and the final flash and EEPROM. */
 export async function runSession(session: Session, files: SessionFiles): Promise<Record<string, string>> {
     const board = await makeBoard(session, files);
     const faults = board.faultNames();
