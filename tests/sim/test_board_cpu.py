@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The simulated CPU against the ATmega128's data sheet: cycles of the instructions, interrupts, timers, reset."""
+"""The simulated CPU against the ATmega128's data sheet: instruction cycles, interrupts, timers, reset."""
 
 import struct
 
@@ -7,8 +7,8 @@ import pytest
 
 from cm5sim import Board, Violation
 
-# Cycles by the Instruction Set Summary of the data sheet (2467, ch. "Instruction Set Summary"), 16-bit program counter.
-# The words stand at 0x100; r30:r31 point to 0x0200, SP to 0x1000, all flags clear.
+# Cycles from the Instruction Set Summary of the data sheet (2467), 16-bit program counter. The words are at 0x100; r30:r31 point to 0x0200,
+# SP to 0x1000, all flags are clear.
 CYCLES = {
     "nop": ([0x0000], 1),
     "add r0,r1": ([0x0C01], 1),
@@ -89,7 +89,7 @@ def words(*values):
 
 
 def bare(program, at=0):
-    """A board with these words and nothing else, just out of reset."""
+    """A board with only these words in flash, just out of reset."""
     board = Board(seed=7)
     board.flash[at : at + 2 * len(program)] = words(*program)
     board.power_on()
@@ -97,7 +97,7 @@ def bare(program, at=0):
 
 
 def ready(program):
-    """The same, behind a few instructions that set the pointers: SP = 0x1000, X = Y = Z = 0x0200, r0 = 0, r1 = 1."""
+    """The same after instructions that set the pointers: SP = 0x1000, X = Y = Z = 0x0200, r0 = 0, r1 = 1."""
     setup = [
         0xE100,
         0xBF0E,
@@ -182,7 +182,7 @@ def test_sram_survives_a_reset_but_not_a_power_cut():
     assert board.ram[0x100:0x1100] != before
 
 
-# Timer 1 in CTC, a pulse counted by each interrupt: OCR1A, prescaler bits, cycles of one period.
+# Timer 1 or 3 in CTC; the test measures the time between interrupts: OCR1A, prescaler bits, cycles of one period.
 @pytest.mark.parametrize("top, select, period", [(15624, 2, 125000), (1249, 3, 80000), (999, 1, 1000), (61, 5, 63488)])
 @pytest.mark.parametrize("timer", [1, 3])
 def test_ctc_timers_keep_their_period_to_the_cycle(timer, top, select, period):
@@ -206,12 +206,12 @@ def test_ctc_timers_keep_their_period_to_the_cycle(timer, top, select, period):
         times.append(board.now_cycles)
         board.step()
     assert times[-1] - times[0] == pytest.approx(19 * period, abs=2), "RJMP takes two cycles: jitter of one"
-    if select >= 3:  # the prescaler's first edge comes behind the 22 cycles of the program before: the phase is known too
+    if select >= 3:  # the prescaler's first edge comes after the 22 cycles of the program so far, so the phase is known too
         assert times[0] == pytest.approx(period, abs=12), "the flag is set when the count returns to 0"
     assert max(abs(b - a - period) for a, b in zip(times, times[1:])) <= 2
 
 
-# Timer 1 overflows 256 counts from here on: TCNT1 = 0xFF00, clock / 1.
+# Timer 1 overflows 256 counts after this: TCNT1 = 0xFF00, clock / 1.
 START_TIMER = [0xEF0F, 0x9300, 0x4D, 0xE000, 0x9300, 0x4C, 0xE001, 0x9300, 0x4E]
 ENABLE_OVERFLOW = [0xE004, 0x9300, 0x57]
 OVERFLOW_VECTOR = 14 * 4
@@ -222,7 +222,7 @@ def steps(board, count):
 
 
 def test_interrupt_comes_one_instruction_after_sei_and_takes_four_cycles():
-    """The flag was there before its mask and before SEI: the chip's requests are levels."""
+    """The flag was set before its mask and before SEI: interrupt requests of the chip are levels."""
     program = START_TIMER + [0] * 300 + ENABLE_OVERFLOW + [0x9478, 0x0000, 0x0000]
     board = ready(program)
     steps(board, 6 + 300 + 2)
@@ -255,7 +255,7 @@ def test_out_of_sleep_the_response_takes_eight_cycles():
 
 
 def test_timer_counts_can_be_read():
-    """TCNT1 read twice, 10 cycles apart: IN takes the low byte first."""
+    """TCNT1 is read twice, 10 cycles apart; IN reads the low byte first."""
     board = ready(START_TIMER + [0xB40C, 0xB41D] + [0] * 8 + [0xB42C, 0xB43D])
     steps(board, 6 + 12)
     first, second = board.ram[0] | board.ram[1] << 8, board.ram[2] | board.ram[3] << 8
@@ -358,7 +358,7 @@ def test_compare_register_written_below_the_count_is_missed_for_a_turn():
 
 @pytest.mark.parametrize("value, fine", [(0x00, False), (0x09, False), (0x08, True)])
 def test_running_watchdog_is_stopped_or_changed_by_the_timed_sequence_only(value, fine):
-    """WDE is set with prescaler 0 by a plain write; then another plain write."""
+    """A plain write sets WDE with prescaler 0; another plain write follows."""
     board = ready([0xE008, 0xBD01, 0xE000 | value, 0xBD01, 0x0000])
     steps(board, 5)
     assert (board.violation is None) == fine
@@ -366,7 +366,7 @@ def test_running_watchdog_is_stopped_or_changed_by_the_timed_sequence_only(value
 
 
 def test_wild_stores_end_the_run_and_leave_the_process_whole():
-    """simavr does the store all the same; what stood behind its SRAM was the memory of somebody else."""
+    """simavr performs the store anyway; the memory after its SRAM belonged to other data."""
     for high in range(0x11, 0x100, 0x0D):
         with bare([0xE0E0, 0xE0F0 | (high & 0xF0) << 4 | high & 0x0F, 0x8300, RJMP_SELF]) as board:
             with pytest.raises(Violation, match="outside the memory"):

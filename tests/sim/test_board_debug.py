@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What looks into the simulated board: probes, stack figures, symbols, loader of images, GDB, target_runner."""
+"""Debug features of the simulated board: probes, stack figures, symbols, image loader, GDB, target_runner."""
 
 import os
 import pathlib
@@ -22,7 +22,7 @@ def words(*values):
     return struct.pack(f"<{len(values)}H", *values)
 
 
-# SP = 0x10FF; timer 1 compare A every 1,000 cycles in CTC; then call 0x200 for ever. ISR at 0x600: 10 NOPs, RETI.
+# SP = 0x10FF; timer 1 compare A every 1,000 cycles in CTC; then calls 0x200 forever. ISR at 0x600: 10 NOPs, RETI.
 MAIN = [0xE100, 0xBF0E, 0xEF0F, 0xBF0D, 0xE003, 0x9300, 0x4B, 0xEE07, 0x9300, 0x4A, 0xE009, 0x9300, 0x4E, 0xE100, 0x9300, 0x57]
 SEI, NOP, RET, RETI = 0x9478, 0x0000, 0x9508, 0x9518
 CALL_200_FOR_EVER = [0x940E, 0x0100, 0xCFFD]
@@ -59,7 +59,7 @@ def test_probe_takes_interrupts_out_of_the_own_time():
 
 
 def swept(mask=0x10, off=False):
-    """A loop that calls 0x200 (four NOPs, RET; with `off` CLI before and SEI behind the second and third) for ever."""
+    """A loop that calls 0x200 forever: four NOPs and RET. With `off`: three NOPs and RET, CLI before the second NOP and SEI after it."""
     board = Board()
     main = MAIN[:4] + [0xE000 | mask >> 4 << 8 | mask & 15, 0x9300, 0x57, SEI] + CALL_200_FOR_EVER  # r16 = TIMSK
     body = [NOP, 0x94F8, NOP, SEI, NOP, RET] if off else [NOP] * 4 + [RET]
@@ -73,7 +73,7 @@ def swept(mask=0x10, off=False):
 
 
 def interrupted_at(board, calls):
-    """Where the first interrupts of a sweep broke in: the address that each returns to."""
+    """Return addresses of the first interrupts of a sweep."""
     places = []
     for _ in range(calls):
         board.run_to(0x600)
@@ -86,14 +86,14 @@ def interrupted_at(board, calls):
 def test_sweep_interrupts_before_each_instruction_once():
     board = swept()
     assert interrupted_at(board, 5) == [0x200, 0x202, 0x204, 0x206, 0x208]
-    board.run_to(0x600)  # the round is over when a call ends before its place
+    board.run_to(0x600)  # the round is over when a call ends before its interrupt is due
     done = board.swept("0x200")
     assert (done.rounds, done.calls, done.taken, done.place) == (1, 6, 5, 0)
     assert interrupted_at(board, 1) == [0x200]
 
 
 def test_sweep_waits_while_interrupts_are_off():
-    """Raised behind CLI, it comes one instruction behind SEI."""
+    """An interrupt raised after CLI is served one instruction after SEI."""
     assert interrupted_at(swept(off=True), 6) == [0x200, 0x202, 0x20A, 0x20A, 0x20A, 0x20A]
 
 
@@ -109,7 +109,7 @@ def test_sweep_of_nothing_is_refused():
     with pytest.raises(KeyError):
         board.sweep("no_such_function", "tick")
     with pytest.raises(KeyError):
-        board.sweep("0x200", 22)  # EEPROM ready: cannot be raised
+        board.sweep("0x200", 22)  # EEPROM ready: the board cannot raise it
     with pytest.raises(ValueError):
         board.interrupt(34)
 
@@ -138,7 +138,7 @@ def test_guard_of_an_image_in_the_boot_section_is_its_own():
 
 
 def test_every_instruction_of_a_function_has_its_name():
-    """Local labels of the assembler are no functions."""
+    """Local labels of the assembler do not count as functions."""
     board = Board(images=[NEGATIVE / "right-stack.hex"])
     first = board.function("dig")
     assert {board.function_at(address) for address in range(first, first + 40, 2)} == {"dig"}
@@ -277,7 +277,7 @@ def test_gdb_on_a_port_in_use_is_an_error():
 
 
 def test_target_runner_wants_the_done_line(tmp_path):
-    """A program that ends otherwise, or trips the board, has failed; so has one that is no image."""
+    """A program fails if it ends in another way or violates a rule of the board. So does a file that is not an image."""
     for image, status in ((NEGATIVE / "wrong-stack.hex", 1), (NEGATIVE / "right-stack.hex", 1), (tmp_path / "no.hex", 2)):
         assert subprocess.run([RUNNER, image, "1"], capture_output=True, check=False, timeout=600).returncode == status
 

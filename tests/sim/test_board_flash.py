@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Flash and EEPROM of the simulated chip: times, bits, lock bits, wear, power cuts. Facts: BOARD.md, data sheet."""
+"""Flash and EEPROM of the simulated chip: times, bits, lock bits, wear, power cuts. Sources: BOARD.md, data sheet."""
 
 import pytest
 
@@ -59,7 +59,7 @@ def test_page_buffer_is_empty_after_a_write():
 
 @pytest.mark.parametrize("reset", ["MODE", "power"])
 def test_page_buffer_is_empty_after_a_reset(reset):
-    """Data sheet, filling the temporary buffer: it is also erased after a system reset."""
+    """Data sheet, filling the temporary buffer: a system reset also erases it."""
     lab = Lab()
     lab.do("e", PAGE)
     lab.do("f", PAGE, 0x3412)
@@ -117,7 +117,7 @@ def test_eeprom_byte_takes_8_5_ms():
 
 
 def cut(letter, phase, tear=0, seed=1, address=PAGE, value=0):
-    """Page PAGE holds FULL; command letter is cut. Returns the board without power."""
+    """Page PAGE holds FULL; the power is cut during command `letter`. Returns the board without power."""
     lab = Lab(seed=seed)
     lab.flash[PAGE : PAGE + 256] = FULL
     lab.eeprom[0x123] = 0x5A

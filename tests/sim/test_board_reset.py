@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Resets, watchdog, panel and battery of the simulated board. Facts: data sheet, Reset Sources and Watchdog; BOARD.md."""
+"""Resets, watchdog, panel and battery of the simulated board. Sources: data sheet, Reset Sources and Watchdog; BOARD.md."""
 
 import struct
 
@@ -85,12 +85,12 @@ def test_buttons_pull_their_pin_to_ground():
         lab.run(ms=5)
 
 
-# Pull-up on PD0, then for ever: a change of PIND bit 0 counts r19 up, which goes to 0x200.
+# Pull-up on PD0, then a loop: each change of PIND bit 0 increments r19, which is stored at 0x200.
 COUNT_EDGES = [0xE001, 0xBB02, 0xE021, 0xE030, 0xB310, 0x7011, 0x1712, 0xF3E1, 0x2F21, 0x9533, 0x9330, 0x0200, 0xCFF7]
 
 
 def edges(board, act, ms):
-    """How often START's contact changed within so long behind an act."""
+    """Number of contact changes of START within `ms` after `act`."""
     before = board.ram[0x200]
     act("START")
     board.run(ms=ms)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""UARTs of the simulated chip: times, flags, overrun, wrong rates, gates. Facts: data sheet, USART; BOARD.md."""
+"""UARTs of the simulated chip: times, flags, overrun, wrong rates, gates. Sources: data sheet, USART; BOARD.md."""
 
 import struct
 
@@ -13,7 +13,7 @@ RXC, FE, DOR = 0x80, 0x10, 0x08
 
 @pytest.mark.parametrize("count", [1, 2, 7, 100])
 def test_characters_of_ten_bits_leave_back_to_back_and_txc_comes_once(count):
-    """1 Mbit/s with U2X set after UBRR: 160 cycles a character. Interrupt response and exit of the loop are on top."""
+    """1 Mbit/s with U2X set after UBRR: 160 cycles a character, plus interrupt response and loop exit."""
     time, interrupts = Lab().do("u", 0, count)
     assert time - 160 * count in range(0, 90)
     assert interrupts == 1
@@ -50,7 +50,7 @@ def test_line_brings_characters_at_the_rate_of_the_pc():
 
 
 def received(rate, data, lab=None):
-    """What UCSR1A and UDR1 said of two characters sent at a rate, with command i waiting for them."""
+    """(UCSR1A, UDR1) of two characters sent at `rate`, while command i waits for them."""
     lab = lab or Lab()
     lab.send(b"i" + struct.pack("<I", 0)[:3] + b"\0\0", wait=True)
     lab.run(ms=1)
@@ -77,13 +77,13 @@ def test_other_rates_give_framing_errors(rate):
 
 
 def test_half_rate_shows_each_bit_twice():
-    """0xFE at 28,571: start and bit 0 are low for four receiver bits: start, 0, 0, 0, then ones."""
+    """0xFE at 28,571: start and bit 0 are low for four receiver bits, which read as start, 0, 0, 0, then ones."""
     assert received(28_571, b"\xfe\xfe")[0][1] == 0b11111000
 
 
 def test_overrun_keeps_the_two_oldest_and_the_newest():
-    """While an EEPROM byte is written (8.5 ms) nobody reads. Five characters come; what is left of them is the start
-    of the command "n", read EEPROM 0x0234."""
+    """While an EEPROM byte is written (8.5 ms) the receiver is not read. Of five characters, those that are left form the start of command
+    "n": read EEPROM 0x0234."""
     lab = Lab()
     lab.allow("uart-overrun")
     lab.eeprom[0x0234] = 0x77
@@ -96,8 +96,8 @@ def test_overrun_keeps_the_two_oldest_and_the_newest():
 
 @pytest.mark.parametrize("begins, lost", [(-1000, 1), (+400, 0)])
 def test_third_character_is_lost_at_the_start_bit_of_the_fourth(begins, lost):
-    """Three characters wait while an EEPROM byte is written; the answer's second byte is heard as the first of them is
-    read. A fourth that has begun by then, though it ends later, has cost one."""
+    """Three characters wait while an EEPROM byte is written. The second byte of the answer arrives when the first of them is read. A fourth
+    character that has begun by then costs one, even if it ends later."""
 
     def lab_with_three():
         lab = Lab()
@@ -146,7 +146,7 @@ NOISE = b"\x01\x02\x03\x04\x05\x06"
 
 
 def noise_heard(kind, port_e):
-    """How many of six bytes on the servo bus reach UART0 with these levels on port E."""
+    """How many of six bytes on the servo bus reach UART0 at these levels of port E."""
     lab = Lab(kind=kind, servos=[1])
     lab.do("u", 0, 2)  # sets UART0 up
     lab.do("p", 0x2A, 0x10)
@@ -162,7 +162,7 @@ def test_direction_pins_decide_what_is_heard(kind, port_e, heard):
 
 
 def test_byte_that_began_before_the_board_listened_is_garbage():
-    """Noise at 57,143 bit/s, UART0 too; the command that raises PE3 takes effect in the middle of the first byte."""
+    """Noise and UART0 at 57,143 bit/s; the command that raises PE3 takes effect in the middle of the first byte."""
     lab = Lab(servos=[1])
     lab.do("u", 0, 2)
     lab.do("p", 0x29, 34)  # UBRR0L

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""skip_waits(): a board that counts the rounds of waiting loops does the same, to the cycle, as one that executes them."""
+"""skip_waits(): a board that skips the rounds of waiting loops behaves to the cycle like one that executes them."""
 
 import random
 
@@ -13,7 +13,7 @@ def state(board):
 
 
 class Pair:
-    """Two boards that are treated alike, the second with its waits skipped."""
+    """Two boards with the same inputs; the second one skips waits."""
 
     def __init__(self, *images, **options):
         self.boards = [Board(images=images, **options) for _ in range(2)]

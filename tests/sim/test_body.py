@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The shipped image on the simulated board, its servos in a physical body: in lock step, and what comes of it."""
+"""The shipped image on the simulated board with its servos in a physical body: lock step, and the resulting motion."""
 
 import os
 import pathlib
@@ -25,7 +25,7 @@ IMAGE = LIBRARY.to_bytes()
 
 @pytest.fixture(scope="module")
 def on_its_feet():
-    """A board with Play and a humanoid that has played `ready` in the hand and been put down. A test goes on with a copy (snapshot)."""
+    """A board with Play and a humanoid that has played `ready` while held and then been put down. A test works on a copy (snapshot)."""
     physics = Physics(load("humanoid"))
     board = Board(images=["play-cm5.hex"], motions=IMAGE, servos=range(1, 19))
     board.battery(11.1)
@@ -56,19 +56,19 @@ def walk(board, physics, hand):
 
 
 def test_walks_as_without_its_chip(on_its_feet):
-    """The player on the ATmega128, commands and wire included, leads the body as far as the same player on this machine."""
+    """The player on the ATmega128, with commands and bus, moves the body as far as the same player on this machine."""
     attempt(walk, *on_its_feet)
 
 
 def carry_and_go_limp(board, physics, _):
     knee = board.servos[13]
     assert knee.present == pytest.approx(physics.robot.position(13, physics.joint(13)), abs=1)
-    assert 1 < abs(knee.present - knee.goal) < 25 and knee.load != 0  # it carries: it droops
+    assert 1 < abs(knee.present - knee.goal) < 25 and knee.load != 0  # it carries weight, so it droops
     assert board.servos[7].load == pytest.approx(0, abs=0.08)
     for servo in board.servos:
         servo.write(24, [0])
     board.run(ms=700)
-    assert abs(knee.present - knee.goal) > 60  # limp: it collapses
+    assert abs(knee.present - knee.goal) > 60  # limp, so it collapses
     assert physics.z_mm < 270
 
 
@@ -104,7 +104,7 @@ def test_command_tells_falls_way_and_heading(tmp_path):
     run = cm5sim(*how, script=begin + "quit\n", tmp_path=tmp_path)
     assert run.returncode == 0, run.stderr
     assert "put down on its soles" in run.stderr and re.search(r"0 falls; -?\d+ mm forward, .* heading -?\d degrees .*; stands", run.stderr)
-    toes_up = "servo 15 load 1\nservo 16 load -1\nwait 2s\nquit\n"  # shanks forward: onto its face
+    toes_up = "servo 15 load 1\nservo 16 load -1\nwait 2s\nquit\n"  # shanks forward, so it falls on its face
     run = cm5sim(*how, script=begin + toes_up, tmp_path=tmp_path)
     assert "s: fell" in run.stderr and re.search(r"1 falls; \d+ mm forward, .*; lies", run.stderr), run.stderr
 
@@ -124,14 +124,14 @@ def test_command_says_what_is_wrong_with_a_body(monkeypatch):
 
 
 def test_command_takes_the_body_as_any_option_is_written():
-    """And says of a robot that nobody let stand what to do."""
+    """Also: it reports what to do about a robot that was never put down."""
     run = cm5sim("play-cm5.hex", "--time", "10ms", "--fast", "--bod", "humanoid")
     assert run.returncode == 0 and "the hand held it to the end" in run.stderr and "Play `ready`" in run.stderr, run.stderr
 
 
 @pytest.fixture(name="demo")
 def _demo(tmp_path):
-    """demo(words, display) -> what tools/demo says, and the words that it starts cm5sim with. Setup and build are left out."""
+    """demo(words, display): output of tools/demo and the words with which it starts cm5sim. Setup and build are stubs."""
     for path, text in (("tools/dev/setup", ""), ("tools/dev/build", ""), ("tools/sim/cm5sim", 'echo "cm5sim $@"')):
         stub = tmp_path / path
         stub.parent.mkdir(parents=True, exist_ok=True)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Stock avrdude against the loader on the simulated board, over a pseudo terminal; and STK500v1 by hand where avrdude is
-too polite to misbehave."""
+"""Stock avrdude against the loader on the simulated board, over a pseudo terminal; and STK500v1 by hand for errors that avrdude does not
+make."""
 
 import fcntl
 import os
@@ -21,12 +21,12 @@ from tests.sim.boot_board import BOOT_START, PLAIN_APP, PROMPT, new_board, noise
 AVRDUDE = shutil.which("avrdude")
 
 
-BUSY_TURNS = 1500  # of 2 ms: so long the board may be at work behind the last byte that passed; a page of EEPROM takes 2.2 s
+BUSY_TURNS = 1500  # of 2 ms: longest work of the board after the last byte; a page of EEPROM takes 2.2 s
 
 
 def run_avrdude(board, *arguments, part="m128", limit=800):
-    """Exit code and output of avrdude with the board at the other end of the line. While nothing passes, simulated time is slower than
-    the clock, so that avrdude may be kept waiting by a busy PC without the loader giving it up."""
+    """Exit code and output of avrdude with the board at the far end of the line. On an idle line simulated time runs slower than the clock,
+    so that a busy PC can delay avrdude without a time-out of the loader."""
     master, slave = pty.openpty()
     try:
         tty.setraw(master)
@@ -137,7 +137,7 @@ FUSES = {"lfuse": 0x3F, "hfuse": 0xC2, "efuse": 0xFE, "lock": 0xEF}
 
 
 def fused(board):
-    """The board with four bytes of its fuses that differ from each other and from the simulator's own."""
+    """The board with four fuse and lock bytes that differ from each other and from the simulator's defaults."""
     board._lib.board_set_fuses(board._pointer, FUSES["lfuse"], FUSES["hfuse"], FUSES["efuse"])
     board._lib.board_set_lock(board._pointer, FUSES["lock"])
     return board
@@ -220,7 +220,7 @@ def test_of_the_other_serial_instructions_only_chip_erase_is_accepted(stk, instr
 
 @pytest.mark.parametrize("byte", [0x00, 0x01, 0x31, 0xFF])
 def test_a_byte_that_is_no_command_ends_the_session(stk, byte):
-    """0, which ends the table of commands, passed for a command (found by the harness of tests/campaigns/fuzz)."""
+    """0, which ends the table of commands, was once accepted as a command (found by tests/campaigns/fuzz)."""
     stk.send(bytes([byte, 0x20]))
     stk.expect(PROMPT, ms=500)
 

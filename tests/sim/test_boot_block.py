@@ -227,7 +227,7 @@ def test_rate_that_nobody_follows_falls_back(board, blocks):
 
 
 def test_noise_on_the_line_costs_time_but_no_page(board, blocks):
-    """One byte in 2,000 is damaged: resend what has no answer until all pages are there."""
+    """One byte in 2,000 is damaged: pages without an answer are resent until all are written."""
     rng = random.Random(5)
     data = noise(16 * 256, 3)
     todo = set(range(16))
@@ -284,7 +284,7 @@ def transfer(board, data, rate):
 
 
 def test_speed():
-    """16 KiB of motions: within 5 % of the line rate; the faster rate; an unchanged image below a tenth."""
+    """16 KiB of motions: within 5 % of the line rate; at the faster rate; an unchanged image in less than a tenth."""
     data = noise(16384, 11)
     line = len(data) / LINE_RATE
     board = prompt_board()
@@ -303,7 +303,7 @@ def test_speed():
 
 
 def test_text_in_damaged_frames_is_never_typed():
-    """A line that spoils frame after frame: what is in them stays data, however many there are."""
+    """On a line that damages every frame, the contents stay data, no matter how many frames come."""
     board = prompt_board()
     blocks = Blocks(board)
     blocks.ask(HELLO)

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Downloads of the original's kind: sizes and faults of boot/ORIGINAL.md section 3, as written there or as
-firmware/boot/DIFFERENCES.md says."""
+"""Downloads in the original's format: sizes and faults of boot/ORIGINAL.md section 3 and firmware/boot/DIFFERENCES.md."""
 
 import pytest
 
@@ -15,7 +14,7 @@ def board():
 
 
 def check_flash(board, before, address, data):
-    """Exactly `data` at `address`, everything else as before."""
+    """Checks for exactly `data` at `address` and no other change."""
     after = bytes(board.flash)
     assert after[address : address + len(data)] == data
     assert after[:address] == before[:address]
@@ -55,7 +54,7 @@ def test_long_downloads_at_line_rate(board, address, count):
     check_flash(board, before, address, data)
     line = (count + 1) / LINE_RATE
     print(f"load of {count} bytes: {seconds:.2f} s, line {line:.2f} s")
-    assert seconds < line * 1.05 + 0.15  # its end: 111 ms of silence, and the last page
+    assert seconds < line * 1.05 + 0.15  # its end takes 111 ms of silence plus the last page
 
 
 def test_type_ahead_needs_no_ready(board):
@@ -178,7 +177,7 @@ def test_cr_lf_is_no_data(board):
 
 
 def test_flash_that_does_not_take_the_data_is_tried_ten_times_and_is_an_error(board):
-    board.lock(0xFB)  # BLB01: SPM may not write the application section
+    board.lock(0xFB)  # BLB01: no SPM into the application section
     data = noise(600, 5)
     result = load(board, 0x2000, data)
     assert result[:3] == ("Error", 30, 601)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What the boot section does for applications: the page-write service behind the call table, through the application of
-tests/sim/service, and the page journal with both of them. Power cuts: tools/prove power."""
+"""Services of the boot section for applications: the page-write service of the call table, through the application of tests/sim/service,
+and the page journal with both kinds of service. Power cuts: tools/prove power."""
 
 import pytest
 
@@ -20,7 +20,7 @@ def service_board(**options):
 
 
 def hello(board, ms=500):
-    """Kind of service, what the recovery did, what the mailbox said."""
+    """Kind of service, result of the recovery, result of the mailbox."""
     board.expect("R", ms=ms)
     end, got = board.now_ms + 200, b""
     while len(got) < 3 and board.now_ms < end:
@@ -61,7 +61,7 @@ def test_write(board, page):
 
 
 def test_write_waits_for_the_eeprom(board):
-    """SPM during an EEPROM write does nothing on the chip; the board model stops it (spm-eeprom)."""
+    """SPM during an EEPROM write does nothing on the chip; the board model reports it (spm-eeprom)."""
     data = noise(256)
     assert ask(board, b"V" + at(0xE0) + data) == bytes([OK])
     assert bytes(board.flash[0xE000:0xE100]) == data
@@ -170,7 +170,7 @@ def test_factory_routine_writes_pages_and_leaves_ram_alone(factory):
     board = factory_board(factory)
     assert hello(board) == (FACTORY, CLEAN, 0)
     data = noise(256, 41)
-    board.ram[0xC00:0xE00] = noise(512, 42)  # where its buffer lies
+    board.ram[0xC00:0xE00] = noise(512, 42)  # place of its buffer
     assert ask(board, b"W" + at(0x1D0) + data) == bytes([OK])
     assert bytes(board.flash[0x1D000:0x1D100]) == data
     assert bytes(board.ram[0xC00:0xE00]) == noise(512, 42)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the loader does from reset on: stay or start, the state it hands over, the mailbox, the application's record."""
+"""The loader after a reset: stay or start, the state at the start of the application, the mailbox, the application's record."""
 
 import pathlib
 import struct
@@ -31,11 +31,11 @@ from tests.sim.boot_board import (
 APPLICATION = 0x11
 
 
-SHIPPED_BYTES = 46 * 1024  # Edit and Play: the loader's CRC of them takes longer than its window
+SHIPPED_BYTES = 46 * 1024  # size of Edit and Play: their CRC takes longer than the loader's window
 
 
 def application(length=SHIPPED_BYTES, record=True, good=True):
-    """A program that leaves SREG, UCSR0A and UCSR1A at 0x200 and ends in a loop; with a record of ours where asked for."""
+    """A program that stores SREG, UCSR0A and UCSR1A at 0x200 and ends in a loop; with one of our records if requested."""
     image = bytearray(length)
     image[0:4] = b"\x0c\x94\x60\x00"  # jmp 0xC0
     program = (
@@ -101,7 +101,7 @@ def test_the_last_byte_of_the_window_counts(typed, stays):
 @pytest.mark.parametrize("sent", [b"#", b"x#", b"0 ", b"x0 ", b"0 0 ", b"0 x#", b"@reset\r#", b"\xff\x55\x01\xfe\x00\xff#"])
 @pytest.mark.parametrize("delay", [2, 10, 40])
 def test_whatever_came_before_it_in_the_window(length, sent, delay):
-    """avrdude and m512 send more than one byte, and a PC that talked to the application may be in the middle of it."""
+    """avrdude and m512 send more than one byte, and a PC that communicated with the application may be in the middle of a line."""
     board = board_with(application(length))
     board.power_on()
     while not board.console:
@@ -134,7 +134,7 @@ def test_boot_mode(mode, stays):
 
 
 def test_start_held_stays_and_its_release_does_nothing():
-    """Whatever the contact does when it is let go."""
+    """However the contact bounces on release."""
     board = board_with(application())
     board.press("MODE")
     board.press("START")
@@ -153,7 +153,7 @@ def test_start_held_stays_and_its_release_does_nothing():
         board.release("START")
         board.run(ms=200)
         assert not started(board)
-        board.run(ms=0.7)  # other chatter each time
+        board.run(ms=0.7)  # shifts the bounces each time
     board.press("START")
     board.run(ms=200)
     assert started(board)
@@ -392,7 +392,7 @@ def test_a_pending_page_of_the_journal_is_finished_first():
 
 
 def test_a_download_drops_a_pending_page():
-    """A page that the recovery could not finish must not come back over what was loaded later."""
+    """A page that the recovery could not finish must not overwrite a later download."""
     board = prompt_board()
     pending_record(board, 0, noise(512, 31))
     data = noise(256, 32)

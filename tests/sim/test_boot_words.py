@@ -13,7 +13,7 @@ BAD_ADDRESS = "\r\n Bad Address."
 
 
 def dump_lines(memory, address, size):
-    """Eight lines of a dump as section 2 describes them."""
+    """Eight lines of a dump in the format of section 2."""
     text = ""
     for row in range(8):
         start = (address + 16 * row) % size
@@ -371,12 +371,12 @@ def test_check_tells_every_page_and_repeats_it_as_one_line():
 
 
 def test_check_keeps_what_is_typed_while_it_tests_the_ram():
-    """The test of the RAM writes patterns over the count of the bytes received, too. A byte that comes at any instruction
-    of that moment has to be there afterwards."""
+    """The RAM test also writes patterns over the count of received bytes. A byte that arrives at any instruction of that moment must not be
+    lost."""
     head, at_test = prompt_board().variable("head"), []
 
     def at_the_test():
-        """A board shortly before the test, which begins while " ram=" is leaving. expect() would look every 20 ms, and the test takes 6."""
+        """A board shortly before the test, which begins while " ram=" is being sent. expect() polls every 20 ms, but the test takes only 6."""
         board = prompt_board()
         board.send("check\r")
         start = len(board.console)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""The programs' channel (firmware/common/PROTOCOL.md): a person types in every mode of Edit and Play while a program asks at
-moments chosen by a seed. The same is typed once more without the program. What the terminal shows behind each step is the same,
-and each request is answered or refused by its name in time. M512_CHANNEL_SEEDS sets how many seeds are tried, 1 by default."""
+"""The programs' channel (firmware/common/PROTOCOL.md): a user types in every mode of Edit and Play while a program sends requests at random
+moments. The same input is typed once more without the program. The terminal must show the same after each step, and each request must be
+answered, or refused by its name, in time. M512_CHANNEL_SEEDS sets the number of seeds, default 1."""
 
 import os
 import random
@@ -15,10 +15,10 @@ from tests.sim.made_page import page
 
 SEEDS = int(os.environ.get("M512_CHANNEL_SEEDS", "1"))
 BYTE_MS = 10 / 57.6
-# A request waits for what a person has begun: a whole screen of Edit's takes 0.5 s, Play's help 0.4 s.
+# A request waits for output that a user has started: a whole screen of Edit takes 0.5 s, Play's help 0.4 s.
 WAIT_MS = 700
 CUT_OFF_MS = 250
-SETTLE_MS = 1200  # the page's play, from the approach on
+SETTLE_MS = 1200  # the play of the page, including its approach
 SERVOS = (1, 2, 3, 4)
 
 PAGES = {
@@ -27,7 +27,7 @@ PAGES = {
     **{n: page(f"page {n}", [(30, {1: 500 + n})]) for n in range(20, 70)},
 }
 
-# (what is typed, split where a program may ask in between; what the terminal must show then, or None)
+# (input, split where a program may send; expected terminal text, or None)
 UP, DOWN, PAGE_UP = [b"\x1b", b"[", b"A"], [b"\x1b", b"[B"], [b"\x1b[", b"5", b"~"]
 EDIT = [
     ("a table", [*DOWN, *DOWN, *UP, *PAGE_UP, *DOWN, b"]", b"["], None),
@@ -97,7 +97,7 @@ class EditSide:
 
 
 class PlaySide:
-    """Play and what its terminal has shown."""
+    """Play and the output on its terminal."""
 
     def __init__(self):
         image = Image.empty()
@@ -118,7 +118,7 @@ class PlaySide:
 
 
 class Program:
-    """Asks when `may_ask` is called and chance says so, one request at a time."""
+    """Sends random requests when `may_ask` is called, one at a time."""
 
     def __init__(self, side, seed):
         self.side, self.rng = side, random.Random(seed)
@@ -146,7 +146,7 @@ class Program:
 
 
 def typed(side, seed, with_program):
-    """Pictures behind each step, the program's figures."""
+    """The pictures after each step, and the program's figures."""
     hands, program = random.Random(seed), Program(side, seed if with_program else None)
     pictures = []
 
@@ -161,7 +161,7 @@ def typed(side, seed, with_program):
             side.board.send(key)
             if with_program:
                 program.may_ask()
-            # Within a key nobody pauses; between keys a person does, now and then.
+            # No pause within a key; sometimes one between keys.
             is_part = isinstance(key, bytes) and len(keys) > 1
             run(0 if is_part else hands.choice((0, 0, 1, 3, 40)))
         for _ in range(SETTLE_MS // 100):
@@ -187,7 +187,7 @@ def test_a_program_that_asks_changes_nothing_for_a_person(side, seed):
 
 
 def answers_to(side, data, ms=400):
-    """What the program is answered, and what the terminal gets meanwhile."""
+    """The answers to the program, and the terminal's output meanwhile."""
     side.pump()
     side.board.send(data, wait=True)
     side.board.run(ms=ms)
@@ -208,7 +208,7 @@ def test_a_request_that_has_lost_a_byte_is_refused_by_name(side):
         assert len(answers) == 1 and shown == "", lost
         word = (whole[1:lost] + whole[lost + 1 :]).decode().split()[0]
         assert answers[0] == f"{word} ERR 15 Bytes of this line were lost: nothing was done", lost
-    # Its CRC says that only the CR is missing. Without its first byte it is a line like any other, with a word too many.
+    # The CRC shows that only the CR is missing. Without its first byte it is an ordinary line with one word too many.
     assert " ERR 15 " not in answers_to(side, whole[:-1])[0][0]
     answers, shown = answers_to(side, whole[1:])
     assert answers == [] and "@save ERR " in shown
@@ -284,12 +284,12 @@ def test_a_list_that_is_printed_keeps_no_program_waiting():
     while not side.ear.answers and side.board.now_ms - start < 300:
         side.board.run(ms=1)
         side.pump()
-    assert side.board.now_ms - start < 60  # the bytes of both, and one line of the list
+    assert side.board.now_ms - start < 60  # the bytes of request and answer, and one line of the list
     assert "-- more" not in side.picture()[0]
 
 
 def test_a_long_answer_within_a_key_leaves_it_one_key():
-    """ESC alone is a key, too, 50 ms later; @crcs takes 250 ms."""
+    """ESC alone counts as a key after 50 ms; @crcs takes 250 ms."""
     side = EditSide()
     row, column = side.robot.cursor
     answers, _ = answers_to(side, b"\x1b" + request("@crcs") + b"[B", 900)

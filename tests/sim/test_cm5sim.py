@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The command cm5sim with a small robot (robot/robot.c): its ways in, exit codes, wrong usage."""
+"""The command cm5sim with a small robot (robot/robot.c): interfaces, exit codes, wrong usage."""
 
 import io
 import os
@@ -15,7 +15,7 @@ import serial
 
 from tests.sim.sim_command import CM5SIM, ROBOT, Running, run
 
-# --- ways in ---
+# --- interfaces ---
 
 
 def test_pipe_is_answered_and_the_run_ends_by_itself():
@@ -58,7 +58,7 @@ def test_pty_at_a_wrong_rate_is_garbage_as_on_a_cable():
         path = robot.message(r"serial port: (/dev/pts/\d+)")
         with serial.Serial(path, 115200, timeout=1) as port:
             port.write(b"ho")
-            assert robot.message(r"rate was set to (\d+) bps") == "115200"  # it has taken them
+            assert robot.message(r"rate was set to (\d+) bps") == "115200"  # the bytes have arrived
             assert b"ho" not in port.read(20)
         with serial.Serial(path, 57600, timeout=60) as port:
             port.write(b"ho")
@@ -76,7 +76,7 @@ def test_tcp_session_one_client_at_a_time():
             with socket.create_connection(("127.0.0.1", port), 60) as second:
                 assert b"Somebody else" in second.recv(100)
         heard = b"Somebody else"
-        while b"Somebody else" in heard:  # until it has noticed that the first has gone
+        while b"Somebody else" in heard:  # until it has noticed that the first client has left
             with socket.create_connection(("127.0.0.1", port), 60) as third:
                 third.sendall(b"h")
                 heard = third.recv(100)
@@ -103,7 +103,7 @@ def _terminal():
 def test_terminal_leaves_by_ctrl_bracket_and_restores_the_terminal(terminal):
     terminal.send("h")
     terminal.expect("h")
-    terminal.send("\x03x")  # Ctrl-C is for the robot
+    terminal.send("\x03x")  # Ctrl-C goes to the robot
     terminal.expect("\x03x")
     terminal.send("\x1d")
     terminal.expect(pexpect.EOF)
@@ -124,17 +124,17 @@ def test_terminal_is_as_before_after_a_signal(tmp_path):
 
 
 def test_terminal_knobs(terminal):
-    terminal.send("\x14s")  # START of the panel
+    terminal.send("\x14s")  # START button of the panel
     terminal.expect("START")
     terminal.send("\x14?")
     terminal.expect("MODE button")
     terminal.send("\x14v")
     terminal.expect("3 +512 +512  off")
-    terminal.send("\x14m")  # MODE is reset
+    terminal.send("\x14m")  # the MODE button resets
     terminal.expect("ready")
     terminal.send("\x14p")
     terminal.expect("power off")
-    for key in ("x", "\x14s"):  # a board without power hears nothing, and that is said
+    for key in ("x", "\x14s"):  # a board without power receives nothing, and the user is informed
         terminal.send(key)
         terminal.expect("the power is off: Ctrl-T p switches it on")
     terminal.send("\x14p")
@@ -148,7 +148,7 @@ OVERLAY = re.compile(rb"\x1b\[\?1049h(.*?)\x1b\[\?1049l", re.S)
 
 
 def until(terminal, holds):
-    """Reads until that holds."""
+    """Reads until the condition holds."""
     end = time.monotonic() + 300
     while not holds():
         assert time.monotonic() < end
@@ -156,8 +156,8 @@ def until(terminal, holds):
 
 
 def test_terminal_words_for_the_user_leave_the_robots_screen_alone(terminal):
-    """They stand on the terminal's other screen: without them, what came is what the robot said, byte for byte; also what
-    it said meanwhile."""
+    """Messages appear on the terminal's alternate screen. Without them, the output must be exactly the robot's, including output during a
+    message."""
     heard = io.BytesIO()
     terminal.logfile_read = heard
     for keys in ("p\x14?", "xp\x14v", "x\x14hbattery 9\r", "p\x14h", "\x1b[A\r", "\x14r\x14rp", "\x14?"):
@@ -182,7 +182,7 @@ def test_terminal_hand_pushes_holds_and_lets_go(terminal):
     terminal.send("\x14hpush 3 400\r\x14v")
     terminal.expect("3 +600 +400  on +0x.. +held")
     terminal.send("x\x14hlet go\r\x14v")
-    while terminal.expect(["3 +600 +(599|600|601)  on", "3 +600 +[0-9]+  on"]):  # still on its way: look again
+    while terminal.expect(["3 +600 +(599|600|601)  on", "3 +600 +[0-9]+  on"]):  # still moving, so look again
         terminal.send("x\x14v")
 
 
@@ -207,7 +207,7 @@ def test_terminal_hand_says_what_is_wrong_and_asks_again(terminal, line, says):
 def test_terminal_keys_as_remote(terminal):
     terminal.send("\x14r")
     terminal.expect("RC-100")
-    terminal.send("\x1b[A")  # arrow up: held for a while, then let go
+    terminal.send("\x1b[A")  # arrow up: held for a while, then released
     terminal.expect("rc 0001")
     terminal.expect("rc 0000")
     terminal.send("1d")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the command cm5sim keeps and writes: flash, EEPROM, traces, plots; and its port for avr-gdb."""
+"""Files of the command cm5sim: flash, EEPROM, traces, plots; and its port for avr-gdb."""
 
 import csv
 import socket
@@ -10,7 +10,7 @@ import xml.etree.ElementTree
 
 from tests.sim.sim_command import ROBOT, TOP, Running, play, run
 
-# --- what is kept, what is written ---
+# --- stored and written files ---
 
 
 def test_flash_and_eeprom_are_kept(tmp_path):
@@ -18,10 +18,10 @@ def test_flash_and_eeprom_are_kept(tmp_path):
     motions = tmp_path / "motions.bin"
     motions.write_bytes(bytes([0x42]) + bytes(65535))
     assert run(ROBOT, *kept, "--motions", motions, stdin=b"ew").stdout == b"ready\r\neeprom 00\r\nflash 42\r\n"
-    again = run(*kept, stdin=b"ew")  # no image: it is in the flash
+    again = run(*kept, stdin=b"ew")  # without an image, which is in the flash
     assert again.stdout == b"ready\r\neeprom 01\r\nflash 42\r\n"
     motions.write_bytes(bytes([0x77]) + bytes(65535))
-    careful = run(ROBOT, *kept, "--motions", motions, stdin=b"ew")  # the robot's own pages win
+    careful = run(ROBOT, *kept, "--motions", motions, stdin=b"ew")  # the robot's own pages take precedence
     assert careful.stdout == b"ready\r\neeprom 02\r\nflash 42\r\n"
     assert b"not loaded over them" in careful.stderr
     assert (tmp_path / "robot.bin").stat().st_size == 0x20000
@@ -56,11 +56,11 @@ def test_trace_has_goal_and_present_of_every_servo_by_tick(tmp_path):
     assert list(rows[0]) == ["tick", "ms"] + [f"{what}{n}" for n in (1, 2, 3, 4) for what in ("goal", "present")]
     assert [int(row["tick"]) for row in rows] == list(range(1, 129))  # 1 s
     assert abs(float(rows[127]["ms"]) - 1000) < 0.01
-    assert rows[11]["goal3"] == "" and rows[11]["present3"] == "512"  # limp before the order
+    assert rows[11]["goal3"] == "" and rows[11]["present3"] == "512"  # limp before the command
     assert rows[127]["goal3"] == "600" and rows[127]["present3"] in ("599", "600")
     middle = [int(row["present3"]) for row in rows]
     assert sorted(middle) == middle and any(520 < position < 590 for position in middle)  # it takes time
-    assert {row["present4"] for row in rows} == {"512"}  # not part of the order
+    assert {row["present4"] for row in rows} == {"512"}  # not part of the command
 
 
 def test_plot_is_a_picture(tmp_path):

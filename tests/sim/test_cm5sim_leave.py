@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a person sees of the way out when the robot fills the terminal: cm5sim with Edit before a terminal emulator (pyte)."""
+"""Whether the user can see how to leave cm5sim when the robot fills the terminal: Edit on a terminal emulator (pyte)."""
 
 import os
 import re
@@ -21,7 +21,7 @@ HINT = "Ctrl-] ends the simulator"
 
 
 class Seen:
-    """cm5sim on a terminal of so many rows and columns, and what stands on it."""
+    """cm5sim on a terminal of this size, and its screen."""
 
     def __init__(self, rows, columns, tmp_path, term="xterm"):
         self.screen = pyte.Screen(columns, rows)
@@ -44,7 +44,7 @@ class Seen:
         self.child.close(force=True)
 
     def until(self, holds):
-        """Looks until that holds."""
+        """Reads until the condition holds."""
         end = time.monotonic() + PATIENCE_S
         while not holds():
             assert time.monotonic() < end, "\n".join(self.screen.display)
@@ -74,17 +74,17 @@ def test_way_out_stands_on_the_screen_of_edit_and_in_the_title(tmp_path, rows, c
                 and "Ctrl-] ends it" in seen.screen.title
                 and (seen.screen.cursor.x, seen.screen.cursor.y) == (19, 0)
             )
-        )  # where Edit has put it
+        )  # cursor position set by Edit
         seen.child.send("page 3\r")
         seen.until(lambda: seen.shows("wave"))
         if rows > 35:
-            assert seen.shows(HINT, rows)  # below Edit's screen it stays
+            assert seen.shows(HINT, rows)  # it stays below Edit's screen
         else:
-            assert not seen.shows(HINT)  # Edit has written there
-            seen.child.send("exit\r")  # who tries to leave that way sees it again
+            assert not seen.shows(HINT)  # Edit has overwritten it
+            seen.child.send("exit\r")  # a user who tries to leave this way sees it again
             seen.until(lambda: seen.shows(HINT, rows))
         seen.leave()
-        assert seen.raw.count(b"\x1b[22;2t") == 1 and seen.raw.count(b"\x1b[23;2t") == 1  # the title before is back
+        assert seen.raw.count(b"\x1b[22;2t") == 1 and seen.raw.count(b"\x1b[23;2t") == 1  # the previous title is restored
 
 
 def test_way_out_is_told_to_who_presses_ctrl_c_once(tmp_path):
@@ -92,7 +92,7 @@ def test_way_out_is_told_to_who_presses_ctrl_c_once(tmp_path):
         seen.until(lambda: seen.shows("HELP explains"))
         seen.child.send("\x03")
         seen.until(lambda: seen.shows("Ctrl-C goes to the robot. Ctrl-] ends the simulator"))
-        seen.until(lambda: b"\x1b[?1049l" in seen.raw)  # it goes by itself, and the robot's screen is back
+        seen.until(lambda: b"\x1b[?1049l" in seen.raw)  # it disappears by itself, and the robot's screen is back
         seen.child.send("\x03page 3\r")
         seen.until(lambda: seen.shows("wave"))
         assert seen.raw.count(b"Ctrl-C goes to the robot") == 1
@@ -125,7 +125,7 @@ command.main()
 
 
 def test_signal_waits_for_no_board_that_is_closed_under_it():
-    """The thread that takes the signal was held up while the run ended: it stopped a board that was freed."""
+    """The thread that handles the signal was delayed while the run ended, and stopped a board that was already freed."""
     command = [sys.executable, "-c", SLOW_THREAD, str(BUILD / "firmware" / "play-cm5.hex")]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as process:
         assert process.stdout.read(1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Scripts of the command cm5sim, with a small robot (robot/robot.c): what they do, and how failures and mistakes are named."""
+"""Scripts of the command cm5sim with a small robot (robot/robot.c): effects, and reports of failures and mistakes."""
 
 import subprocess
 
@@ -189,7 +189,7 @@ def test_script_tells_all_mistakes_at_once(tmp_path):
         ("1.5s", 24000000),
         ("500ms", 8000000),
         ("20us", 320),
-        ("128ticks", 16000000),  # 128 to a second
+        ("128ticks", 16000000),  # 128 ticks a second
         ("1tick", 125000),
         ("2min", 1920000000),
         ("7cycles", 7),
@@ -239,6 +239,6 @@ PING = bytes([0xFF, 0xFF, 3, 2, 1, 0xF9])
 
 @pytest.mark.parametrize("before", [b"", b"\x00", b"\xff", PING, PING[:5]])
 def test_end_of_a_packet_is_seen(before):
-    """Not behind one that is cut short: what follows fills it."""
+    """Not after a packet that is cut short: later bytes complete it."""
     assert ends_whole(before + PING) == (before != PING[:5])
     assert not any(ends_whole(PING[:count]) for count in range(len(PING)))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""tools/demo at a terminal: one robot for both images, kept from run to run, used by one terminal at a time."""
+"""tools/demo at a terminal: one robot for both images, stored between runs, used by one terminal at a time."""
 
 import pathlib
 import shutil
@@ -13,7 +13,7 @@ WORN = b"worn before"
 
 @pytest.fixture(name="demo")
 def _demo(tmp_path):
-    """demo(words) -> the terminal of tools/demo, where a stand-in for cm5sim says its words and ends with Enter. Nothing is built."""
+    """demo(words): the terminal of tools/demo, with a stand-in for cm5sim that prints its words and ends on Enter. Builds nothing."""
     for path, text in (("tools/dev/build", ""), ("tools/sim/cm5sim", 'echo "cm5sim $*"; read -r line')):
         stub = tmp_path / path
         stub.parent.mkdir(parents=True, exist_ok=True)

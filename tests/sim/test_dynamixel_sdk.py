@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Other people's code against our servos: the real dynamixel-sdk (PyPI), protocol 1.0, on cm5sim --bus-pty."""
+"""Third-party code against our servos: the real dynamixel-sdk (PyPI), protocol 1.0, on cm5sim --bus-pty."""
 
 import itertools
 import signal
@@ -16,8 +16,7 @@ PATIENCE_S = 300  # the bus runs in real time, on a PC that may be busy
 
 
 class PatientPort(PortHandler):
-    """Waits three seconds longer than the SDK does: on a busy PC the wall clock must not decide a verdict. It sleeps meanwhile, where
-    the SDK goes round and round."""
+    """Waits three seconds longer than the SDK, so that a busy PC does not change a result. It sleeps where the SDK polls."""
 
     patience_ms = 3000
 
@@ -44,7 +43,7 @@ class Bus:
         return self.packets.ping(self.port, number)
 
     def unheard(self, number):
-        """The result of a ping that nobody answers: not worth three seconds."""
+        """The result of a ping without an answer, which is not worth three seconds."""
         self.port.patience_ms = 300
         result = self.ping(number)[1]
         self.port.patience_ms = PatientPort.patience_ms
@@ -61,7 +60,7 @@ class Bus:
         return value
 
     def until_at(self, number, goal):
-        """Waits until the servo says that it is at its goal, give or take a unit."""
+        """Waits until the servo reports its goal position, within one unit."""
         end = time.monotonic() + PATIENCE_S
         while abs(self.read2(number, PRESENT) - goal) > 1:
             assert time.monotonic() < end, f"servo {number} stands at {self.read2(number, PRESENT)}, not {goal}"
@@ -92,7 +91,7 @@ def test_ping_names_the_model(make):
 def test_wrong_id_times_out(make):
     bus = make("--servos", "1-3")
     assert bus.unheard(4) == COMM_RX_TIMEOUT
-    assert bus.ping(3)[1] == COMM_SUCCESS  # and nothing is left over from it
+    assert bus.ping(3)[1] == COMM_SUCCESS  # and no late bytes are left
 
 
 def test_read_and_write(make):
@@ -120,7 +119,7 @@ def test_motion_takes_real_time(make):
         after_look = time.monotonic()
         at_most = 227.1 * (after_look - before_order) + 5
         assert min(227.1 * (before_look - after_order) - 5, 298) < gone < at_most
-        if at_most < 300:  # it was still on its way: neither bound came from the goal
+        if at_most < 300:  # still moving: neither bound came from the goal
             return
         assert time.monotonic() < end, "no look came while the servo was moving"
         bus.until_at(1, start + 300 * way)
@@ -159,12 +158,12 @@ def test_faults_look_like_faults(make):
     bus = make("--servos", "1-4", "--fault", "1:silent", "--fault", "2:checksum", "--fault", "3:noise")
     assert bus.unheard(1) == COMM_RX_TIMEOUT
     assert bus.ping(2)[1] in (COMM_RX_CORRUPT, COMM_RX_TIMEOUT)
-    assert bus.ping(3)[1] == COMM_SUCCESS  # the SDK finds the header behind noise
+    assert bus.ping(3)[1] == COMM_SUCCESS  # the SDK finds the header after noise
     assert bus.ping(4)[1] == COMM_SUCCESS
 
 
 def test_rates_must_agree(make):
-    bus = make("--servos", "1,20:dx117", rate=57_600)  # what the SDK offers for 57,142
+    bus = make("--servos", "1,20:dx117", rate=57_600)  # the SDK's closest rate to 57,142
     assert bus.unheard(1) != COMM_SUCCESS
     assert bus.ping(20) == (DX117, COMM_SUCCESS, 0)
     assert bus.packets.write1ByteTxRx(bus.port, 20, BAUD, 1)[0] == COMM_SUCCESS  # moved to 1 Mbps
@@ -192,14 +191,15 @@ def test_idle_bus_costs_no_cpu(make):
 
 
 def rows_of(trace):
-    """The rows that are in the file so far, as numbers; a last one without its line end is not whole yet."""
+    """The rows in the file so far, as numbers, without an unfinished last line."""
     head, *rows = trace.read_text().splitlines(keepends=True)
     assert head == "tick,ms,goal1,present1,goal2,present2\n"
     return [[float(field or "nan") for field in row.split(",")] for row in rows if row.endswith("\n")]
 
 
 def until_traced(trace, seen):
-    """Waits until a row of the trace shows it. The bus writes a row for every tick of its clock, and to the file some later."""
+    """Waits until a row of the trace satisfies `seen`. The bus makes one row per tick of its clock and writes them to the file somewhat
+    later."""
     end = time.monotonic() + PATIENCE_S
     while not (trace.read_text() and any(seen(row) for row in rows_of(trace))):
         assert time.monotonic() < end, trace.read_text()[-500:]
@@ -214,14 +214,14 @@ def test_trace_and_servo_eeprom_of_the_bus(make, tmp_path):
     until_traced(trace, lambda row: row[3] >= 599)
     assert bus.sim.stop() == 0
     rows = rows_of(trace)
-    assert [row[0] for row in rows] == list(range(len(rows)))  # a row a tick
+    assert [row[0] for row in rows] == list(range(len(rows)))  # one row per tick
     assert rows[0][3] == 512
-    assert rows[-1][2] == 600 and abs(rows[-1][3] - 600) <= 1  # the compliance margin: there the motor rests
+    assert rows[-1][2] == 600 and abs(rows[-1][3] - 600) <= 1  # the motor rests within the compliance margin
     assert kept.read_bytes()[24 + 3] == 5
 
 
 def test_rows_of_the_trace_are_of_their_time(make, tmp_path):
-    """Also when the bus comes late: it is stopped for a second while the servo turns, and the first thing that it finds is a packet."""
+    """Even if the bus is late: it is stopped for a second while the servo moves, and a packet is the first input afterwards."""
     trace, units_a_tick = tmp_path / "trace.csv", 5 * 2.271 / 128  # SPEED 5, Dynamixel's 0.111 rpm a unit
     bus = make("--servos", "1-2", "--trace", trace)
     bus.packets.write2ByteTxRx(bus.port, 1, SPEED, 5)
@@ -229,7 +229,7 @@ def test_rows_of_the_trace_are_of_their_time(make, tmp_path):
     for goal in itertools.cycle((1000, 24)):
         bus.packets.write2ByteTxRx(bus.port, 1, GOAL, goal)
         begun = bus.read2(1, PRESENT)
-        while abs(bus.read2(1, PRESENT) - begun) < 10:  # on its way
+        while abs(bus.read2(1, PRESENT) - begun) < 10:  # it is moving
             time.sleep(0.05)
         bus.sim.process.send_signal(signal.SIGSTOP)
         time.sleep(1)
@@ -239,7 +239,7 @@ def test_rows_of_the_trace_are_of_their_time(make, tmp_path):
         while len(answer) < 8:
             answer += bytes(bus.port.readPort(8 - len(answer)))
         found = answer[5] | answer[6] << 8
-        if abs(goal - found) > 20:  # it was still on its way when the bus went on
+        if abs(goal - found) > 20:  # still moving when the bus continued
             break
         assert time.monotonic() < end, "no look came while the servo was moving"
         bus.until_at(1, goal)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""CHECK names what is wrong with a page, and how fast its servos would have to be (firmware/edit/DIFFERENCES.md)."""
+"""CHECK names the faults of a page and the speeds it needs from its servos (firmware/edit/DIFFERENCES.md)."""
 
 import pytest
 
@@ -7,19 +7,19 @@ from tests.sim.edit_robot import page, robot
 
 
 def test_check_knows_how_fast_a_servo_is_at_this_battery():
-    """100 units in 12 ticks are 313 degrees/s: an AX-12 does 283 at 9.6 V and 354 at 12 V."""
+    """100 units in 12 ticks are 313 degrees/s: an AX-12 reaches 283 at 9.6 V and 354 at 12 V."""
     pages = {1: page("fast", [(30, {5: 400}), (12, {5: 500})], code=1)}
     for volts, too_fast in ((9.6, True), (12, False)):
         with robot(pages=pages) as r:
             r.board.battery(volts)
-            r.board.run(ms=600)  # CHECK knows the supply from a whole round over the servos
+            r.board.run(ms=600)  # CHECK knows the supply after a whole round of polls
             r.line("check", ms=3000)
             assert ("Page   1: step 1 ID 5 too fast" in r.show()) == too_fast, r.show()
 
 
 @pytest.mark.parametrize("units, said", [(90, None), (91, 284)])
 def test_check_counts_units_as_the_servo_does(units, said):
-    """An AX-12 does 59 rpm at 12 V, 300 degrees are 1024 units: 283.2 degrees/s = 90.6 units in 12 ticks at 9.6 V."""
+    """An AX-12 reaches 59 rpm at 12 V, 300 degrees are 1024 units: 283.2 degrees/s = 90.6 units in 12 ticks at 9.6 V."""
     with robot(pages={1: page("fast", [(30, {5: 400}), (12, {5: 400 + units})], code=1)}) as r:
         r.board.battery(9.6)
         r.board.run(ms=600)
@@ -48,7 +48,7 @@ def test_check_names_what_is_wrong():
 
 
 def test_check_names_partners_that_cannot_be_blended():
-    """Bytes 17 and 18. A partner needs no code and no link to be in use."""
+    """Bytes 17 and 18. A partner needs neither a code nor a link."""
     two = [(30, {}), (30, {})]
     torn = page("torn", two)
     torn.data[100] ^= 1
@@ -73,7 +73,7 @@ def test_check_names_partners_that_cannot_be_blended():
 
 
 def test_check_of_a_page_that_fills_many_lines_is_no_hang():
-    """126 lines take longer than the watchdog waits."""
+    """126 lines take longer than the watchdog time."""
     with robot(pages={5: page("far", [(30, {})] * 7, code=1)}) as r:
         for servo in r.board.servos:
             servo.write(6, [600 & 255, 600 >> 8, 700 & 255, 700 >> 8])

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Editing commands of edit/ORIGINAL.md sections 4 to 6: messages, questions, pages, the line, lists. The message, the screen, and the 512
-bytes, worked out here from the specification. Intended differences: firmware/edit/DIFFERENCES.md."""
+"""Editing commands of edit/ORIGINAL.md sections 4 to 6: messages, questions, pages, the line, lists. Checks the message, the screen, and
+the 512 bytes, which the tests derive from the specification. Intended differences: firmware/edit/DIFFERENCES.md."""
 
 import pytest
 
@@ -129,7 +129,7 @@ def test_page_change_with_y_drops_edits(r):
 
 
 def test_two_pages_of_one_name_are_told():
-    """`play base` of Play would not know which."""
+    """`play base` of Play would be ambiguous."""
     with robot(pages=PAGES) as r:
         assert r.line("copy 2") == "copy 2 Page 2 has this name too"
         assert r.line("save") == "save OK Page 2 has this name too"
@@ -138,13 +138,13 @@ def test_two_pages_of_one_name_are_told():
         assert r.line("save 5") == "save 5 OK Page 1 has this name too"
         assert r.line("copy 1") == "copy 1 Page 5 has this name too"
         r.line("page 0")
-        assert r.flash_page(0)[0] in (0, 0xFF)  # no name, as other pages: that is no name which two have
+        assert r.flash_page(0)[0] in (0, 0xFF)  # no name, like other pages; that does not count as a common name
         r.line("goto 1 1")
         r.line("set 401")
         assert r.line("save") == "save OK"
         r.line("page 1")
         r.line("name")
-        r.line(" ")  # no name at all
+        r.line(" ")  # clears the name
         assert r.line("save") == "save OK" and r.line("save 6") == "save 6 OK"
 
 
@@ -216,7 +216,7 @@ def test_each_line_end_ends_a_line_once(r, ending):
 
 
 def test_line_longer_than_the_row_is_rubbed_out_from_its_end(r):
-    """The row shows the first 77 characters of the 111 that a line may have (columns 3 to 79)."""
+    """The row shows the first 77 of at most 111 characters (columns 3 to 79)."""
     text = "".join(chr(ord("A") + k % 26) for k in range(111))
     table = r.terminal.screen.display[:34]
     r.keys(text)

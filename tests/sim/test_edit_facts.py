@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Facts of edit/ORIGINAL.md that the other test_edit_*.py do not touch, one short session each: keys, lines, steps, servos, the
-monitor, lists. Which test holds which fact: README.md."""
+"""Facts of edit/ORIGINAL.md that the other test_edit_*.py do not test, one short session each: keys, lines, steps, servos, the monitor,
+lists. README.md says which test checks which fact."""
 
 import re
 
@@ -26,7 +26,7 @@ PAGES = {1: BASE, 2: page("other", [(11, {1: 900}), (22, {2: 100})]), 8: NEUTRAL
 
 @pytest.fixture
 def r(shared):
-    """Page 1 as it is in flash, X1 Y0, decimal, all servos let go."""
+    """Page 1 as in flash, X1 Y0, decimal, all servos without torque."""
     shared.keys("\x03")
     shared.line("dec")
     opened(shared).page_address()
@@ -38,7 +38,7 @@ def r(shared):
 
 
 def sent(r):
-    """Packets on the bus, without the reading of states that goes on all the time (READ of 20 bytes at 24)."""
+    """Packets on the bus, without the constant polls (READ of 20 bytes at 24)."""
     return [packet for _, packet in r.board.packets if packet[4:7] != bytes([2, 24, 20])]
 
 
@@ -89,7 +89,7 @@ def test_nul_and_escape_sequences_do_not_reach_a_line(r):
 
 def test_bracket_typed_after_a_lone_escape_is_a_character(r):
     r.keys("name a\x1b")
-    r.settle(ms=100)  # a terminal sends a sequence at once, a person types later
+    r.settle(ms=100)  # a terminal sends a sequence at once, a user types later
     r.keys("[O]\r")
     assert r.text(1, 65, 6) == "a[O]  "
     r.line("undo")
@@ -165,7 +165,7 @@ def test_ctrl_c_leaves_line_question_and_name(r):
 def test_a_recalled_command_in_the_name(r):
     r.line("step 3")
     r.keys("name\r\x01\r")
-    assert r.ram_page()[:14] == b"name".ljust(14, b"\0")  # the line before this one
+    assert r.ram_page()[:14] == b"name".ljust(14, b"\0")  # the previous line
 
 
 def test_name_on_the_line_and_same_name_is_no_edit(r):
@@ -193,7 +193,7 @@ def test_work_pose_of_absent_joints_and_its_pause_and_speed(r):
     assert r.xya == ("00", "32", "0575")
     r.line("set 70")
     assert r.cell(0, 31) == "009" and r.cell(0, 32) == "070" and not r.unsaved
-    assert sent(r) == []  # nothing was written to a servo
+    assert sent(r) == []  # no WRITE to a servo
     r.line("write 5")
     assert r.ram_page()[64 * 6 + 62 : 64 * 6 + 64] == bytes([9, 70])
 
@@ -269,20 +269,20 @@ def test_mirror_about_the_first_step_of_page_1_in_flash():
     with robot(pages={1: NEUTRAL, 5: page("pose", [(40, {1: 350, 2: 712, 3: 900, 4: 990}, 9)])}) as r:
         r.line("pairs page1")
         r.line("goto 1 1")
-        r.line("set 1000")  # page 1 in RAM: not the one that counts
+        r.line("set 1000")  # page 1 in RAM, which does not matter: the one in flash does
         r.line("page 5", "y")
         r.line("on")
         r.line("mirror 0")
         shown = goals(r)
         assert shown[1] == 300 - (712 - 700) and shown[2] == 700 - (350 - 300)
         assert shown[3] == 30 and shown[4] == 120  # 20 + 1000 - 990, 1000 + 20 - 900
-        assert r.cell(0, 31) == "009" and r.text(34, 72, 3).strip() == ""  # the pause too; Go Step is GO's
+        assert r.cell(0, 31) == "009" and r.text(34, 72, 3).strip() == ""  # the pause is copied too; Go Step belongs to GO
         r.line("pairs 512")
         r.line("mirror 0")
         shown = goals(r)
         assert shown[1] == 1024 - 712 and shown[3] == 1024 - 990 and shown[4] == 124
         r.settle(ms=600)
-        r.board.reset()  # the setting is kept
+        r.board.reset()  # the setting survives a reset
         r.terminal.screen.reset()
         r.settle(ms=1500)
         assert r.line("pairs").startswith("pairs about 512: 1-2 3-4")
@@ -315,7 +315,7 @@ def test_mirror_stays_inside_the_range(r):
     r.line("goto 1 2")
     r.line("set 1023")
     r.line("mirror 0")
-    assert goals(r)[1] == 1 and goals(r)[2] == 1023  # 1024 - 1023, and 1024 - 0 kept inside
+    assert goals(r)[1] == 1 and goals(r)[2] == 1023  # 1024 - 1023, and 1024 - 0 limited to the range
 
 
 def test_on_does_not_touch_joints_that_hold(r):
@@ -332,7 +332,7 @@ def test_off_lets_go_with_one_packet_before_it_asks_each_servo(r):
     r.line("on")
     r.board.clear_trace()
     r.line("off 2 5 9")
-    writes = [packet for packet in sent(r) if packet[4] != 2]  # and the poses are read
+    writes = [packet for packet in sent(r) if packet[4] != 2]  # the poses are read as well
     assert writes[0][4:13] == bytes([0x83, 24, 1, 2, 0, 5, 0, 9, 0])
     assert [(packet[2], packet[4:7]) for packet in writes[1:]] == [(j, bytes([3, 24, 0])) for j in (2, 5, 9)]
     assert [r.board.servos[j].torque for j in (2, 5, 9, 1)] == [False, False, False, True]
@@ -352,7 +352,7 @@ def test_ids_outside_the_table_are_left_alone():
 
 
 def test_play_ignores_other_keys_and_the_last_of_stop_and_exit_counts():
-    """The exit is chosen when a repetition's last step begins, after 1.6 s: all keys come well before, or after."""
+    """The exit is chosen when the last step of a repetition begins, after 1.6 s: all keys come well before or after that."""
     pages = {1: page("one", [(200, {1: 560}), (200, {1: 464})], schedule=10, repeat=20, exit=2), 2: page("two", [(40, {1: 700})])}
     with robot(pages=pages) as r:
         r.keys("play\r", ms=2200)
@@ -408,7 +408,7 @@ def test_list_shows_every_field(r):
 
 
 def test_list_shows_times_above_512_s():
-    """Seven steps at the slowest speed, whose length is cut to 32,767 ticks of 1/128 s each (motion/step_ticks.h)."""
+    """Seven steps at the slowest speed. The firmware limits each to 32,767 ticks of 1/128 s (motion/step_ticks.h)."""
     slow = page("slow", [(1, {1: 0 if step % 2 else 1023}) for step in range(7)], schedule=0, speed=1)
     with robot(pages={1: slow}) as r:
         r.line("list 1")
@@ -431,12 +431,12 @@ def test_help_of_one_command_by_its_short_form(r):
     assert r.line("help p").startswith("help p page") and r.line("? sav").startswith("? sav save")
 
 
-# ---- 12: weaknesses cured ----
+# ---- 12: fixed weaknesses ----
 def test_links_are_checked_not_cut(r):
     r.line("goto 9 14")
     r.line("set 127")
     r.keys("]")
-    assert r.cell(9, 14) == "000"  # keys wrap at 127
+    assert r.cell(9, 14) == "000"  # the keys wrap at 127
     r.keys("[")
     assert r.cell(9, 14) == "127" and r.ram_page()[25] == 127
 

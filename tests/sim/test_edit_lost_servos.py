@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Servos that are lost or report faults while Edit works: what the message row says, and what goes on."""
+"""Servos that are lost or report faults while Edit runs: the message row, and what continues."""
 
 from cm5sim import Board
 from cm5sim.board import CYCLES_PER_TICK
@@ -38,7 +38,7 @@ def test_all_that_is_wrong_stands_in_one_row():
 
 
 def play_until(r, fault):
-    """A play that this fault of servo 4 ends."""
+    """Starts a play that this fault of servo 4 ends."""
     r.keys("play 8\r", ms=2500)
     r.board.servos[4].fault(fault)
     r.settle(1500)
@@ -57,18 +57,18 @@ def test_work_pose_after_a_play_that_loses_the_bus_is_what_was_sent_last():
         r.board.run(ms=100)
         for joint in range(1, 19):
             r.board.servos[joint].fault("dead")
-        assert goals(r) != before  # they are under way
+        assert goals(r) != before  # the joints are moving
         r.board.clear_trace()
         r.settle(2500)
         assert r.message.strip() == "Ended: a servo failed. No answer: ID 1-18"
-        sent = {}  # dead servos have not heard it
+        sent = {}  # dead servos have not received it
         for frame in r.board.trace:
             sent |= frame.goals
         assert {joint: int(r.cell(0, joint)) for joint in range(1, 19)} == sent
 
 
 def eeprom_with_rule_limp():
-    """A play goes on without a servo that fails. Edit has no command for this setting, so Play writes it."""
+    """EEPROM with the setting that lets a play continue without a failed servo. Edit has no command for it, so Play writes it."""
     with Board(images=["play-cm5.hex"]) as board:
         board.expect("] ", ms=2000)
         board.send("settings fault 2\r")
@@ -81,7 +81,7 @@ def test_play_that_goes_on_without_a_servo_keeps_its_ticks():
         r.line("on")
         r.keys("play 6\r", ms=2200)
         r.board.clear_trace()
-        for joint in range(2, 19):  # each is told at another time within a tick
+        for joint in range(2, 19):  # the faults come at different times within a tick
             r.board.servos[joint].fault("silent")
             r.board.run(ms=300 + joint % 8)
         r.pump()
@@ -95,7 +95,7 @@ def test_servo_that_the_rule_let_go_is_named_limp_when_it_is_back():
     with start(eeprom=eeprom_with_rule_limp()) as r:
         r.line("off 5")
         r.keys("play 8\r", ms=2500)
-        for joint in (4, 5):  # both come back limp, one of them is meant to be
+        for joint in (4, 5):  # both recover without torque, but only one should have it
             r.board.servos[joint].fault("dead")
         r.settle(1500)
         assert r.message.strip() == "No answer: ID 4-5"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""SAVE on a loader that is not known: the page goes through the EEPROM mailbox of boot/ORIGINAL.md section 7a. The
-loader is imitated (service/mailbox.c); one that knows no mailbox is the other imitation, unrecognised (service/factory.c)."""
+"""SAVE with an unknown loader: the page goes through the EEPROM mailbox of boot/ORIGINAL.md section 7a. service/mailbox.c imitates such a
+loader; service/factory.c, if not recognised, is a loader without mailbox."""
 
 import pytest
 
@@ -9,7 +9,7 @@ from tests.sim.edit_robot import MOTION_START, page, robot, seal
 OLD = page("old", [(40, {1: 480}), (50, {3: 300})])
 OTHER = page("other", [(11, {1: 900})])
 STATE, NUMBER, BOOT_MODE, DATA = 0xFF4, 0xFF5, 0xFFF, 0x800
-RESTART_MS = 6500  # at most: 520 EEPROM bytes of 8.5 ms, and a start
+RESTART_MS = 6500  # at most: 520 EEPROM bytes of 8.5 ms each, and a start
 IMAGES = {"images": ("tests/mailbox.hex", "edit-cm5.hex"), "bootrst": True}
 
 
@@ -20,7 +20,7 @@ def new_bytes():
 
 
 def mailbox_robot(fresh=False, **options):
-    """`fresh`: nothing was ever saved; else the mailbox still holds page 1, so that only what differs is written."""
+    """`fresh`: nothing was ever saved. Otherwise the mailbox still holds page 1, so that only differences are written."""
     r = robot(pages={1: OLD, 2: OTHER}, **{**IMAGES, **options})
     if not fresh:
         r.board.eeprom[DATA : DATA + 512] = bytes(OLD.data)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A script pasted at full line rate, saves in it: every line is executed, on the UART that loses a third byte."""
+"""A script pasted at full line rate, with saves in it: every line is executed, although the UART loses a third unread byte."""
 
 from tests.sim.edit_robot import MOTION_START, new_page, page, robot, seal
 
@@ -7,7 +7,7 @@ XON, XOFF = 0x11, 0x13
 
 
 def paste(r, text):
-    """Types at line rate as a terminal with software flow control does: up to 16 bytes still leave behind an XOFF."""
+    """Types at line rate as a terminal with software flow control does: up to 16 bytes still leave after an XOFF."""
     data, sent, may_send = text.encode("latin-1"), 0, True
     output = bytearray()
     while sent < len(data) or r.board.waiting:
@@ -26,7 +26,7 @@ def paste(r, text):
 
 
 def script():
-    """200 lines, and what the flash must hold after them."""
+    """200 lines, and the pages that the flash must hold after them."""
     lines, pages = [], {}
     for number in range(10, 20):
         data = new_page()
@@ -49,7 +49,7 @@ def test_200_lines_with_saves_at_line_rate_lose_nothing():
         for number in pages:
             r.board.flash[MOTION_START + 512 * number : MOTION_START + 512 * (number + 1)] = b"\xff" * 512
         start = r.board.now_ms
-        text = "\r".join(lines) + "\r"  # no question among them: what was typed ahead answers none
+        text = "\r".join(lines) + "\r"  # without questions, because typed-ahead input does not answer them
         paste(r, text)
         print(f"paste: {len(lines)} lines, {len(text)} bytes in {r.board.now_ms - start:.0f} ms, 10 saves")
         for number, data in pages.items():

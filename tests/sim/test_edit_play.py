@@ -29,10 +29,10 @@ def test_play_takes_unsaved_edits_from_ram():
 
 
 def test_while_it_plays_the_screen_shows_goals_and_where_the_servos_are():
-    """Joint 1 moves 100 units a second: what stands there is at most a round of 31 ticks old."""
+    """Joint 1 moves 100 units a second: its position on the screen is at most one round of 31 ticks old."""
     made = page("slow", [(5, {1: 300}), (255, {1: 700})], schedule=10, speed=64)
     with start(pages={20: made}) as r:
-        r.line("go 0", ms=2500)  # near step 0 of page 20: joint 1 stands at 400
+        r.line("go 0", ms=2500)  # near step 0 of page 20: joint 1 is at 400
         r.board.send("play 20\r")
         r.board.run(ms=1500)
         seen = []
@@ -49,7 +49,7 @@ def test_while_it_plays_the_screen_shows_goals_and_where_the_servos_are():
 
 
 def move_ticks(r, line, joint):
-    """Ticks from 300, where the approach has led the joint, to 700 after `line`."""
+    """Ticks after `line` from 300, where the approach has moved the joint, to 700."""
     r.line("go 0", ms=1500)
     mark = len(r.board.trace)
     r.line(line, ms=4000)
@@ -73,7 +73,8 @@ def test_play_n_rate_shortens_and_stretches_steps_and_lasts_for_one_play():
 
 
 def test_play_at_a_high_rate_asks_no_servo_for_more_than_its_battery_gives():
-    """400 units in 32 ticks at rate 400 are 12.5 a tick. body/README.md: 8.7 units a tick at 11.1 V, 90 % of it: 6.8 at 9.6 V."""
+    """400 units in 32 ticks at rate 400 are 12.5 a tick. body/README.md: 8.7 units a tick at 11.1 V, of which 90 % are allowed: 6.8 at 9.6
+    V."""
     made = page("timed", [(10, {1: 300}), (128, {1: 700})], schedule=10, accel=0)
     with start(pages={20: made}) as r:
         r.board.battery(9.6)
@@ -140,7 +141,7 @@ def test_what_is_typed_while_a_broken_play_slows_down_is_kept():
 
 @pytest.mark.parametrize("before", ["", "\r"])
 def test_the_end_of_a_line_that_began_during_a_play_is_no_command(before):
-    """Its blank breaks the play off. `off` behind it would let the robot fall."""
+    """The space in the line breaks the play. `off` after it would let the robot fall."""
     with start() as r:
         r.keys("play 8\r", ms=3000)
         r.keys(before, ms=150)
@@ -171,7 +172,7 @@ def test_play_ends_in_a_loop_of_exit_links():
 
 
 def test_play_says_that_the_classic_law_is_not_here():
-    with Board(images=["boot-cm5.hex", "play-cm5.hex"], servos=range(1, 19)) as other:  # the setting is made with Play
+    with Board(images=["boot-cm5.hex", "play-cm5.hex"], servos=range(1, 19)) as other:  # only Play has this setting
         other.eeprom[0xFFF] = 0x11
         other.run(ms=2500)
         other.send("law classic\r")

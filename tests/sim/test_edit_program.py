@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Line commands for programs in Edit (firmware/common/PROTOCOL.md), and the full screen around them."""
+"""Program requests in Edit (firmware/common/PROTOCOL.md), and the full screen during them."""
 
 import random
 
@@ -43,7 +43,7 @@ def test_a_page_goes_in_and_comes_out():
 
 
 def dense_page(text):
-    """Bytes of an answer of `@dense`, by the words of PROTOCOL.md."""
+    """Bytes of an answer to `@dense`, decoded as in PROTOCOL.md."""
     sixes = [ord(letter) - 0x30 for letter in text]
     assert all(0 <= six <= 63 for six in sixes)
     made = []
@@ -125,7 +125,7 @@ def test_torque_and_move():
         assert (r.board.servos[3].goal, r.board.servos[4].goal, r.board.servos[5].goal) == (0x258, 512, 0x1F4)
         for wrong in ("@move 0 3 258", "@move 90 31 258", "@move 90 3 25", "@move 90 3 400", "@move 90 30 200200", "@move 90 3 xyz"):
             assert ask(r, wrong).startswith("@move ERR 3 "), wrong
-        assert ask(r, "@move 90 25 258").startswith("@move ERR 7 ")  # robots without some joints go on; a pose of none does not
+        assert ask(r, "@move 90 25 258").startswith("@move ERR 7 ")  # missing joints are skipped, but a pose of only missing joints is an error
         assert ask(r, "@move 90 18 258---1F4") == "@move OK"
         r.board.run(ms=1000)
         assert ask(r, "@torque off 3 5") == "@torque OK"
@@ -153,13 +153,13 @@ def test_play_pause_resume_stop():
 
 
 def test_nothing_is_saved_and_nothing_drawn_while_something_plays():
-    """A save holds the interrupts off for seven ticks; the hidden screen, drawn anew, would cost seventy."""
+    """A save blocks interrupts for seven ticks; redrawing the hidden screen would take seventy."""
     with robot(pages=PAGES) as r:
         assert ask(r, "@play 1") == "@play OK"
         r.board.run(ms=1500)
-        operations, missed = r.board.operations, fields(ask(r, "@where"))["missed"]  # some while the servos are got ready
+        operations, missed = r.board.operations, fields(ask(r, "@where"))["missed"]  # some ticks are missed while the servos are prepared
         assert ask(r, f"@save 9 0x{crc16(bytes(PAGES[1].data)):04X}").startswith("@save ERR 4 ")
-        r.keys("save,9\r")  # keys wait until it stands; a blank would be the break
+        r.keys("save,9\r")  # keys wait until the robot stands; a space would be the break
         assert r.board.operations == operations and fields(ask(r, "@where"))["missed"] == missed
 
 
@@ -200,7 +200,7 @@ MOVING_ALLOWED = (
 
 
 def test_what_must_not_be_while_something_moves_is_refused_and_the_rest_is_not():
-    """Each request of PROTOCOL.md, in the middle of a play; the trim, the page and the ticks stay as they are."""
+    """Each request of PROTOCOL.md during a play. Trim, page and ticks must not change."""
     trimmed = {**PAGES, 0: page("Offset", [(0, {1: 512}), (0, {1: 612}), (0, {1: 100})])}
     with robot(pages=trimmed) as r:
         assert ask(r, "@play 1") == "@play OK"
@@ -250,7 +250,7 @@ def test_crcs_of_all_pages():
 
 
 def watched(r, ms):
-    """(ms between, words) of the @now lines of a time."""
+    """Words of the @now lines within `ms`."""
     r.board.take()
     r.board.run(ms=ms)
     return [line.split() for line in r.board.take().translate(None, b"\x11\x13").decode().split("\r\n")[1:-1] if line.startswith("@now")]
@@ -263,14 +263,14 @@ def test_watch_streams_goals_and_positions_and_costs_no_tick():
         assert 19 <= len(idle) <= 21
         assert idle[-1][1:4] == ["0", "0", "0007FFFE"] and idle[-1][4] == "---200" * 18
         r.board.expect("@now", ms=100)
-        r.board.expect("\r\n", ms=100)  # 26 ms are free until the next line
+        r.board.expect("\r\n", ms=100)  # 26 ms are left until the next line
         assert ask(r, "@play 1", ms=20) == "@play OK"
         r.board.run(ms=1500)
         missed = fields(ask(r, "@where", ms=100))["missed"]
         lines = watched(r, 2000)
         assert 36 <= len(lines) <= 42 and {line[1] for line in lines} == {"1"}
-        assert len({line[4][0:3] for line in lines}) > 15  # joint 1 is on its way
-        assert len({line[4][3:6] for line in lines}) > 8  # heard once in 18 ticks
+        assert len({line[4][0:3] for line in lines}) > 15  # joint 1 is moving
+        assert len({line[4][3:6] for line in lines}) > 8  # each servo is read once in 18 ticks
         assert fields(ask(r, "@where", ms=100))["missed"] == missed
         assert ask(r, "@watch 0") == "@watch OK"
         assert watched(r, 300) == []
@@ -290,7 +290,7 @@ def test_a_line_that_is_typed_while_a_program_moves_the_robot_is_carried_out_or_
         r.board.send(request("@move 60 1 3FF"))
         r.board.run(ms=300)
         assert r.line("save") == "save Something moves"
-        r.keys("]1 ")  # no line: these would edit
+        r.keys("]1 ")  # not a line: these keys would edit
         assert r.board.servos[1].torque
         r.line("off")
         assert not any(r.board.servos[joint].torque for joint in range(1, 19))

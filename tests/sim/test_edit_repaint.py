@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the terminal shows after any edits, sent cell by cell as they changed, is what a complete redraw shows."""
+"""After any edits, whose cells are sent one by one, the terminal shows the same as after a complete redraw."""
 
 import random
 

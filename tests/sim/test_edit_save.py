@@ -25,7 +25,7 @@ def edit(r):
 
 @pytest.mark.parametrize("phase_ms", [0, 2, 3, 4])
 def test_save_takes_less_than_60_ms_and_keeps_everything(phase_ms):
-    """Enter at several moments within a tick of 7.8 ms: what the main loop does just then comes before it."""
+    """Enter at several moments within a tick of 7.8 ms: the current work of the main loop comes first."""
     with robot(pages={1: OLD, 2: OTHER}) as r:
         edit(r)
         before = bytes(r.board.flash[MOTION_START:])
@@ -36,7 +36,7 @@ def test_save_takes_less_than_60_ms_and_keeps_everything(phase_ms):
         seen = len(r.board.console)
         r.board.send(b"\r")
         while b"OK" not in r.board.console[seen:] and r.board.now_ms < start + 200:
-            r.board.run(ms=0.1)  # expect() looks every 20 ms only
+            r.board.run(ms=0.1)  # expect() polls every 20 ms only
         took = r.board.now_ms - start
         save_ms = r.board.cycles("cmd_page_save").total_max / 16000
         print(f"save: {save_ms:.1f} ms, both halves changed; {took:.1f} ms from Enter to OK on the terminal (original: 2100)")
@@ -96,7 +96,7 @@ def test_without_a_boot_loader_the_page_stays_in_ram():
 
 
 def test_save_over_page_0_says_that_it_is_the_trim():
-    """A motion there would be every page's trim."""
+    """A motion there would become the trim of every page."""
     with robot(pages={1: OLD}) as r:
         before = r.flash_page(0)
         r.line("save 0", "n")

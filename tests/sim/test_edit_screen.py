@@ -36,7 +36,7 @@ def word_text(word):
 
 
 def frame(data, number, pose, cursor=(0, 0), pose_tail=(0, 64), live=None):
-    """The 34 rows above the command line, worked out from the page's bytes as the specification says."""
+    """The 34 rows above the command row, derived from the page's bytes as in the specification."""
     live = live or {}
     rows = []
     steps = data[20]
@@ -154,7 +154,7 @@ def test_hex_shows_and_takes_hexadecimal_and_dec_ends_it():
         r.line("goto 1 1")
         r.line("hex")
         assert r.cell(1, 1) == "01E0" and r.cell(8, 0) == "55 " and r.xya == ("01", "01", "0042")
-        assert r.text(6, 13, 6) == "(0200)"  # where a joint without torque is
+        assert r.text(6, 13, 6) == "(0200)"  # position of a joint without torque
         r.line("set 1f")
         assert r.cell(1, 1) == "001F"
         r.line("set 0x3ff")
@@ -175,7 +175,7 @@ def test_damaged_pages_are_shown_as_what_they_are():
         3: (nine, "more than 7 steps"),
         4: (page("s", [(30, {})], schedule=5), "unknown schedule"),
         5: (page("p", [(30, {})], speed=0), "page speed is 0"),
-        6: (page("l", [(30, {})], next=200), ""),  # counts as 0; CHECK tells it
+        6: (page("l", [(30, {})], next=200), ""),  # counts as 0; CHECK reports it
         7: (page("w", [(30, {3: 1500})]), "position above 1023"),
     }
     with robot(pages={1: READY, **{n: made for n, (made, _) in cases.items()}}) as r:
@@ -239,7 +239,7 @@ def test_redraw_asks_for_the_size_again_and_rows_sets_it():
 
 
 def test_page_changes_send_a_quarter_of_the_originals_bytes_at_most():
-    """Over real pages: our library, every fourth."""
+    """On real pages: every fourth one of our library."""
     image = (library.build_folder() / "motions" / "motions.bin").read_bytes()
     with robot(motions=image) as r:
         used = [n for n in range(1, 128) if image[512 * n + 20] in range(1, 8) and sum(image[512 * n : 512 * n + 512]) & 0xFF == 0xFF]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What Edit does to servos: GO, MIRROR, ON, OFF, SET on the work pose, the trim, EXIT, MON; edit/ORIGINAL.md sections 7, 8, 10 and 11, and
+"""Effects of Edit on servos: GO, MIRROR, ON, OFF, SET on the work pose, the trim, EXIT, MON; edit/ORIGINAL.md sections 7, 8, 10 and 11, and
 "nothing moves by surprise"."""
 
 import pytest
@@ -29,7 +29,7 @@ def test_off_and_on_take_ranges_of_servos():
         assert [joint for joint in range(1, 19) if not r.board.servos[joint].torque] == [1, 2, 3, 7]
         r.line("on 2-7")
         assert [joint for joint in range(1, 19) if not r.board.servos[joint].torque] == [1]
-        r.line("off 6-4")  # the other way round
+        r.line("off 6-4")  # reversed range
         assert [joint for joint in range(1, 19) if not r.board.servos[joint].torque] == [1, 4, 5, 6]
         r.line("on 4-6")
         for wrong in ("off 3-", "off -3", "off 1-31", "off 1-x"):
@@ -40,7 +40,7 @@ def test_off_and_on_take_ranges_of_servos():
 def test_servos_that_answer_read_only_are_driven_and_not_called_dead():
     with start() as r:
         for joint in range(1, 19):
-            r.board.servos[joint].write(16, [1])  # status return level; Edit looks at it when it starts
+            r.board.servos[joint].write(16, [1])  # status return level; Edit reads it at its start
         r.board.reset()
         r.terminal.screen.reset()
         r.settle(ms=1500)
@@ -50,7 +50,7 @@ def test_servos_that_answer_read_only_are_driven_and_not_called_dead():
         r.line("go 0", ms=2000)
         assert "ervo" not in r.message
         assert goals(r)[1] == 400 and r.board.servos[1].table[32] == (512 - 400) // 4
-        assert len([packet for packet in writes_since(r, mark) if packet[2] == 1]) == 1  # not asked again
+        assert len([packet for packet in writes_since(r, mark) if packet[2] == 1]) == 1  # not polled again
 
 
 def test_teaching_off_pose_on_write():
@@ -153,7 +153,7 @@ def test_page_0_computes_the_trim():
 
 @pytest.mark.parametrize("line", ["go 2", "mirror 2", "write", "write 2", "move 0 2"])
 def test_the_trim_is_no_pose(line):
-    """As goals its numbers would be the end of a joint's travel; a pose there would be the trim."""
+    """As goals its values would be the limits of a joint's range; a pose there would become the trim."""
     with start() as r:
         r.line("page 0")
         r.line("step 2")
@@ -165,7 +165,7 @@ def test_the_trim_is_no_pose(line):
 
 @pytest.mark.parametrize("line", ["insert 1", "insert 0", "delete", "delete 0", "swap 1 2", "int 0 1", "paste 2"])
 def test_the_columns_of_page_0_stay_in_their_places(line):
-    """A pose that is shifted into the trim's column would move every goal."""
+    """A pose shifted into the trim's column would move every goal."""
     with start() as r:
         r.line("take 0")
         r.line("page 0")
@@ -201,7 +201,7 @@ def test_mon_says_where_it_is():
 
 
 def test_space_behind_a_list_switches_no_joint_until_there_was_none_for_a_while():
-    """A person pages with spaces, and has some left over when the table is back."""
+    """A user scrolls with spaces, and some are left over when the table is back."""
     with start(rows=24) as r:
         r.line("on")
         r.line("goto 0 1")

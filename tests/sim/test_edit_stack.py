@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Stack: bytes between the highest variable and the lowest stack ever, measured after the deepest things Edit does: SAVE,
-PLAY with everything that happens meanwhile, UNDO, lists, programs' lines. Budget 384."""
+"""Stack headroom: bytes between the highest variable and the lowest stack so far, after Edit's deepest calls: SAVE, PLAY with all events
+during it, UNDO, lists, program requests. Minimum 384."""
 
 from tests.sim.boot_board import factory_section
 from tests.sim.edit_robot import page, robot
@@ -11,8 +11,8 @@ PAGES = {
     1: page("one", [(40, {1: 480}), (60, {1: 700, 2: 300}), (60, {1: 300, 2: 700})], repeat=3, exit=2),
     2: page("two", [(10 + k, {k: 300 + k}) for k in range(7)], joints=range(31)),
 }
-# Of the ways to save the one that needs most: the factory loader's routine takes its data from a fixed place in RAM, and the 256 bytes
-# there are kept on the stack meanwhile.
+# The way to save that needs the most stack: the factory loader's routine reads its data from a fixed place in RAM, whose 256 bytes are kept
+# on the stack meanwhile.
 LOADER = {"images": ("edit-cm5.hex",), "loader": factory_section(), "bootrst": True}
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Editing commands that make, move, exchange and scale steps, and UNDO: the 512 bytes, worked out here from edit/ORIGINAL.md and
+"""Editing commands that make, move, exchange and scale steps, and UNDO. The tests derive the 512 bytes from edit/ORIGINAL.md and
 firmware/edit/DIFFERENCES.md."""
 
 import pytest
@@ -18,7 +18,7 @@ def test_step_sets_the_count(r):
 
 
 def pose_step(r):
-    """The work pose as the screen shows it, as 64 bytes of a stored step (???? is stored as unused)."""
+    """The work pose as on the screen, as 64 bytes of a stored step (???? is stored as unused)."""
     data = bytearray()
     for y in range(31):
         text = r.cell(0, y)
@@ -52,7 +52,7 @@ def test_write_appends_the_work_pose(r):
 
 @pytest.mark.parametrize("line, step", [("write", 3), ("write 1", 1), ("insert 1", 1)])
 def test_joints_that_are_not_there_are_not_written(r, line, step):
-    """Whatever the work pose shows for them: here ????, by the space bar. So an ordinary SAVE has nothing to say."""
+    """Whatever the work pose shows for them: here ????, by the space bar. So an ordinary SAVE reports nothing."""
     r.line("on")
     for y in (0, 19, 30):
         r.line(f"goto 0 {y}")
@@ -87,7 +87,7 @@ def test_insert_moves_up_and_the_last_step_falls_out(r):
     assert r.line("insert 2").startswith("insert 2 Step 6 fell out")
     full = FULL.data
     assert bytes_of(r) == seal(stored(full, {2: pose, **{k: step(full, k - 1) for k in range(3, 7)}}))
-    r.line("undo")  # what SAVE made of ????
+    r.line("undo")  # undoes the change of ???? by SAVE
     r.line("undo")
     assert bytes_of(r) == bytes(full)
     r.line("page 1")
@@ -130,7 +130,7 @@ def test_swap(r):
 
 
 def between(made, a, b, percent):
-    """The 64 bytes of step a with each joint `percent` of the way to step b, no pause, time 0."""
+    """The 64 bytes of step a with each joint moved by `percent` towards step b, no pause, time 0."""
     data = bytearray(step(made.data, a))
     for joint in range(1, 19):
         first, second = made.word(a, joint), made.word(b, joint)
@@ -143,7 +143,7 @@ def between(made, a, b, percent):
 def test_int_makes_a_step_between_two_and_the_page_takes_as_long_as_before(r):
     r.line("int 0 1 34")
     data = stored(BASE.data, {1: between(BASE, 0, 1, 34), **{k: step(BASE.data, k - 1) for k in range(2, 7)}})
-    data[20], data[64 + 64 + 63], data[64 + 128 + 63] = 4, 17, 33  # of 50: a third of the way, a third of the time
+    data[20], data[64 + 64 + 63], data[64 + 128 + 63] = 4, 17, 33  # of 50: one third of the way takes one third of the time
     assert bytes_of(r) == seal(data)
     r.line("undo")
     assert bytes_of(r) == bytes(BASE.data)
@@ -155,7 +155,7 @@ def test_int_between_steps_that_do_not_follow_each_other_takes_the_time_of_the_s
     data[20], data[64 + 64 + 63] = 4, 60
     assert bytes_of(r) == seal(data)
     r.line("undo")
-    r.line("speed")  # a speed is the same on both halves of a way
+    r.line("speed")  # in speed base, both halves keep the same speed
     r.line("int 0 1")
     data = stored(BASE.data, {1: between(BASE, 0, 1, 50), **{k: step(BASE.data, k - 1) for k in range(2, 7)}})
     data[16], data[20], data[64 + 64 + 63] = 0, 4, 50

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""UNDO and REDO: at least the last eight editing commands; commands that change the whole page among them."""
+"""UNDO and REDO of at least the last eight editing commands, including commands that change the whole page."""
 
 import random
 
@@ -32,7 +32,7 @@ def r(shared):
 
 
 def ram_page(r):
-    """The 512 bytes in RAM, byte 31 left out: SAVE makes it."""
+    """The 512 bytes in RAM without byte 31, which SAVE sets."""
     at = r.page_address()
     data = bytearray(r.board.ram[at : at + 512])
     data[31] = 0
@@ -50,7 +50,7 @@ def edit(r, *lines):
 @pytest.mark.parametrize("saved", [True, False])
 @pytest.mark.parametrize("command", ["new", "copy 2", "copy 3", "scale 37", "paste 0", "swap 0 6"])
 def test_a_whole_page_of_31_joints_and_7_steps_comes_back(r, command, saved):
-    """As it was, with what was not saved; and goes away again."""
+    """UNDO restores it with its unsaved edits; REDO applies the command again."""
     if command == "paste 0":
         edit(r, "page 2", "take 0 6", "page 1")
     if not saved:
@@ -68,7 +68,7 @@ def test_a_whole_page_of_31_joints_and_7_steps_comes_back(r, command, saved):
 
 
 def test_what_a_play_has_overwritten_is_not_brought_back_as_rubbish(r):
-    """The snapshot of a whole page lies in the idle player."""
+    """The snapshot of a whole page is in the memory of the idle player."""
     edit(r, "goto 3 17", "set 999", "new")
     empty = ram_page(r)
     r.line("play 3", ms=3000)
@@ -85,7 +85,7 @@ def test_a_save_between_changes_nothing(r):
 
 @pytest.mark.parametrize("command", ["new", "copy 5", "scale 37", "swap 0 6", "paste 0"])
 def test_a_whole_page_of_a_robot_comes_back_with_what_was_not_saved(r, command):
-    """18 joints, 7 steps, and edits before that only RAM knows; and goes away again."""
+    """18 joints, 7 steps, and earlier edits that exist only in RAM. REDO applies the command again."""
     edit(r, "page 4", "goto 3 17", "set 1000", "goto 9 10", "set 99")
     if command == "paste 0":
         edit(r, "save", "page 5", "take 0 6", "page 4", "goto 3 17", "set 999")
@@ -135,7 +135,7 @@ def test_failed_commands_and_page_changes(r):
     edit(r, "undo")
     assert not r.unsaved
     edit(r, "set 5", "page 2")
-    assert r.line("undo").endswith("Nothing to undo")  # the history is the open page's
+    assert r.line("undo").endswith("Nothing to undo")  # the history belongs to the open page
 
 
 def test_undo_keeps_cursor_and_work_pose(r):

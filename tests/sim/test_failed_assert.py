@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: MIT
-"""A failed ASSERT restarts the board through the loader; the image that starts then says where it failed, once."""
+"""A failed ASSERT restarts the board through the loader. The image then reports once where it failed."""
 
 import pytest
 
 from cm5sim import Board
 
-MAGIC = 0x7A9D  # hal/avr/trap.h: an ASSERT has noted its line and its word address
+MAGIC = 0x7A9D  # hal/avr/trap.h: an ASSERT has stored its line and its word address
 
 
 def noted_at(image):
-    """Where the image keeps trap_record: a HEX file has no symbols."""
+    """Address of trap_record in the image: a HEX file has no symbols."""
     return Board(images=[f"{image}-cm5.elf"], servos=()).variable("trap_record")
 
 
 def restarted(image, marker):
-    """What the image prints up to `marker` after a failed ASSERT in line 321."""
+    """The image's output up to `marker` after a failed ASSERT in line 321."""
     board = Board(images=["boot-cm5.hex", f"{image}-cm5.hex"], servos=(1,))
     board.eeprom[0xFFF] = 0x11  # the loader starts the application
     board.expect(marker, ms=3000)

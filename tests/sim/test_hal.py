@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The rest of the hal, and the common half of the firmware, on the simulated board: time, panel, flash, settings in the EEPROM,
-resets. The bus: test_hal_bus.py. The serial line: test_hal_console.py."""
+"""The rest of the hal and the shared part of the firmware on the simulated board: time, panel, flash, settings in the EEPROM, resets. The
+bus is in test_hal_bus.py, the serial line in test_hal_console.py."""
 
 import pytest
 
@@ -46,7 +46,7 @@ def test_pins_are_safe_from_the_start():
     board = walker(servos=[1])
     assert board.leds == {"power"}
     assert board.pin("B5") == 1  # charger off
-    assert board.pin("D4") == 1  # ZigBee out of reset
+    assert board.pin("D4") == 1  # ZigBee module not in reset
     assert (board.pin("D5"), board.pin("D6")) == (1, 1)
 
 
@@ -65,7 +65,7 @@ def test_far_reads_cross_64_kib():
     board = words()
     data = pattern(512)
     board.flash[0x0FF20:0x10120] = data
-    backwards = b"".join(data[at : at + 64] for at in range(448, -1, -64))  # one block lies across the border
+    backwards = b"".join(data[at : at + 64] for at in range(448, -1, -64))  # one block crosses the border
     board.send("f")
     board.expect(f"flash {crc16(backwards):08X}")
 
@@ -121,7 +121,7 @@ def test_settings_are_kept_over_a_power_cycle_and_stay_in_their_area():
 
 
 def test_application_takes_over_from_the_boot_loader():
-    """The loader hands over with both UARTs running and receive interrupts enabled (boot/ORIGINAL.md, 5)."""
+    """The loader hands over with both UARTs on and receive interrupts enabled (boot/ORIGINAL.md, 5)."""
     board = Board(images=["boot-cm5.hex", "tests/hal_walker_cm5.hex"], servos=range(1, 19))
     board.eeprom[0xFFF:0x1000] = b"\x11"  # start the application
     board.send("typed too early")

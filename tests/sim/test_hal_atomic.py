@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What main loop and interrupts share, with an interrupt at every place: before the first instruction, behind the first,
-the second, and so on to the last (board_sweep in tools/sim/board/board_debug.h). Program: hal/hal_atomic.c."""
+"""Data that main loop and interrupts share, with an interrupt at every place: before the first instruction, after the first, and so on to
+the last (board_sweep in tools/sim/board/board_debug.h). Program: hal/hal_atomic.c."""
 
 import struct
 
@@ -28,7 +28,7 @@ JOBS = (
     "drain",
     "packet",
 )
-TAP_BYTES, TAPS = 21, 14  # a ring and its 16 bytes; the first and the last tap differ in both bytes of their address
+TAP_BYTES, TAPS = 21, 14  # a ring and its 16 bytes; both address bytes of the first and the last tap differ
 XON, XOFF = 0x11, 0x13
 
 
@@ -38,7 +38,7 @@ class Atomic(Board):
         self.run(ms=10)
 
     def do(self, job, ms=100):
-        """One job of the program, to its end."""
+        """Runs one job of the program to its end."""
         self.poke("atomic_job", JOBS.index(job))
         self.run_to("atomic_done", ms=ms)
         self.run(cycles=100)
@@ -58,8 +58,8 @@ class Atomic(Board):
         return self.ram[address + 3] - self.ram[address + 4] & 0xFF
 
     def places(self, function, vector, byte=0):
-        """Each place of a function in turn: the loop's body has to make it run once. Sees to it that interrupts were
-        served inside the function, or nothing was tried."""
+        """Yields each place of a function in turn; the loop's body must make the function run once. Checks that interrupts were served
+        inside the function."""
         self.sweep(function, vector, byte)
         while not self.swept(function).rounds:
             calls = self.swept(function).calls
@@ -103,8 +103,7 @@ def test_a_tick_is_given_once_and_none_is_missed():
 
 @pytest.mark.parametrize("before", range(0x12F8, 0x1300))
 def test_clock_is_read_whole_while_a_packet_ends(before):
-    """The interrupt of transmit complete reads the same timer, through the same buffer of its high byte, which changes
-    meanwhile."""
+    """The transmit complete interrupt reads the same timer through the same high-byte buffer, which changes meanwhile."""
     board = Atomic()
     for place in board.places("try_clock_now", "bus sent"):
         board.poke("atomic_before", before, 2)
@@ -161,15 +160,15 @@ def test_noise_in_the_moment_of_sending_spoils_nothing():
 
 
 def numbered_packet(size):
-    """As hal_atomic.c builds it."""
+    """Builds the packet of hal_atomic.c."""
     body = bytes([254, size - 4, 0x55, *range(1, size - 5)])
     return b"\xff\xff" + body + bytes([~sum(body) & 0xFF])
 
 
 def test_packets_of_every_length_leave_whole():
-    """Two bytes at a time: an odd one begins alone."""
+    """Two bytes at a time; an odd packet starts with a single one."""
     board = Atomic(servos=[1])
-    for size in range(6, 144):  # servos take 143 at most
+    for size in range(6, 144):  # servos accept at most 143
         board.clear_trace()
         board.poke("atomic_byte", size)
         board.do("packet")
@@ -179,7 +178,7 @@ def test_packets_of_every_length_leave_whole():
 
 @pytest.mark.parametrize("size", [9, 10])
 def test_packets_leave_whole_whatever_interrupts_their_first_bytes(size):
-    """A byte of the PC and the tick together take longer than a character of the bus."""
+    """A byte from the PC and the tick together take longer than a character of the bus."""
     board = Atomic(servos=[1])
     inside = 0
     for place in range(120):
@@ -189,7 +188,7 @@ def test_packets_leave_whole_whatever_interrupts_their_first_bytes(size):
         board.run_to("try_bus_send", ms=100)
         for _ in range(place):
             board.step()
-        inside += board.ram[board.variable("core")] == 0  # IDLE: not submitted yet
+        inside += board.ram[board.variable("core")] == 0  # IDLE: not yet submitted
         board.interrupt("console byte", 0x55)
         board.interrupt("tick")
         board.run_to("atomic_done", ms=100)
@@ -204,7 +203,7 @@ def test_packets_leave_whole_whatever_interrupts_their_first_bytes(size):
 
 @pytest.mark.parametrize("vector", ["tick", "console byte", "bus byte"])
 def test_eeprom_write_begins_at_once_or_not_at_all(vector):
-    """The chip takes a write within four cycles; the board model stops a later one (eeprom-sequence)."""
+    """The chip accepts a write within four cycles; the board model reports a later one (eeprom-sequence)."""
     board = Atomic()
     for place in board.places("try_eeprom_start", vector):
         board.poke("atomic_byte", place & 0x7F)
@@ -217,7 +216,7 @@ def test_eeprom_write_begins_at_once_or_not_at_all(vector):
 
 @pytest.mark.parametrize("vector", ["tick", "console byte"])
 def test_nothing_slips_in_between_looking_and_sleeping(vector):
-    """What comes while board_idle() looks for work must not wait for the next tick."""
+    """An event while board_idle() looks for work must not wait for the next tick."""
     board = Atomic()
     for place in board.places("try_board_idle", vector):
         board.do("idle")
@@ -250,7 +249,7 @@ def test_bytes_leave_once_and_in_order():
     board.take()
     put = bytearray()
     for place in board.places("try_console_put", "console room"):
-        board.do("stars")  # one leaves, one waits, one is in the ring
+        board.do("stars")  # one is being sent, one waits, one is in the ring
         board.poke("atomic_byte", place & 0x7F)
         board.do("put")
         assert board.peek("atomic_got") == 1
@@ -271,7 +270,7 @@ def test_flush_waits_for_the_last_stop_bit():
 
 @pytest.mark.parametrize("job, function", [("get", "try_console_get"), ("resume", "try_console_resume")])
 def test_a_sender_is_never_left_waiting(job, function):
-    """At the mark where XON is due: whatever comes meanwhile, XON has come when everything was taken."""
+    """At the level where XON is due: whatever arrives meanwhile, XON must have been sent when everything has been read."""
     board = Atomic()
     board.do("flow on")
     for place in board.places(function, "console byte", 0x21):
@@ -280,7 +279,7 @@ def test_a_sender_is_never_left_waiting(job, function):
         board.send(bytes(count), wait=True)
         board.run(ms=1)
         if job == "get":
-            board.do("resume")  # not yet: 33 wait
+            board.do("resume")  # no XON yet: 33 are unread
         board.do(job)
         board.do("drain")
         board.run(ms=2)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The bus on the simulated board: what a frame costs, half duplex, pauses in packets, servos that fail, servos of other kinds."""
+"""The bus on the simulated board: cycles of a frame, half duplex, pauses in packets, servos that fail, other servo models."""
 
 import pytest
 
@@ -24,8 +24,8 @@ def test_frame_of_31_joints_is_one_packet_a_tick_in_under_10000_cycles(capsys):
     assert len(frames) in (127, 128, 129)
     assert all(len(frame.goals) == 31 for frame in frames)
     build = board.cycles("servo_link_goals").max
-    # Each interrupt: its own cycles, 4 of response and 3 of the vector's jump. One sends two bytes, the last one turns the line
-    # round: 51 for the goals of 31 joints. The packet that asks a servo needs 4 more, which the sum leaves out.
+    # Each interrupt: its own cycles, 4 of response and 3 of the vector's jump. An interrupt sends two bytes, the last one turns the line
+    # round: 51 for the goals of 31 joints. The packet that polls a servo needs 4 more, which are not in the sum.
     sent, heard = (board.cycles(name).total_mean + 7 for name in ("__vector_20", "__vector_18"))
     assert board.cycles("__vector_20").count / len(frames) == pytest.approx(51 + 4, abs=0.6)
     total = build + 51 * sent
@@ -37,7 +37,7 @@ def test_frame_of_31_joints_is_one_packet_a_tick_in_under_10000_cycles(capsys):
 
 @pytest.mark.parametrize("kind, return_delay", [("cm5", 0), ("cm5", 254), ("cm2", 0)])
 def test_turn_round_loses_no_answer(kind, return_delay):
-    """With a return delay of 0 a servo answers within 20 us of our last stop bit."""
+    """With a return delay of 0 a servo answers within 20 us after our last stop bit."""
     board = walker(kind, servos=range(1, 19), table=[(5, return_delay)])
     before = bus_counts(board)
     board.run(ticks=250)
@@ -48,14 +48,13 @@ def test_turn_round_loses_no_answer(kind, return_delay):
 
 
 BUS_TURNING = 2  # bus_core.h
-INTERRUPT_INSTRUCTIONS = 80  # of the one that sends: it takes 82 cycles
+INTERRUPT_INSTRUCTIONS = 80  # of the transmit interrupt: it takes 82 cycles
 TURN_US = 20  # DYNAMIXEL.md: with a return delay of 0 an answer begins within about 20 us
 
 
 def test_turn_round_is_bounded_whatever_else_interrupts(capsys):
-    """The tick, bytes of the PC in both directions and the program's own locks may all stand in its way. Two seconds of all
-    of them at the full rate, and then the same on purpose: a byte comes from the PC at every place of the interrupt that
-    ends a packet, and the tick with it."""
+    """The tick, bytes of the PC in both directions and locks of the program can all delay it. First two seconds of all of them at the full
+    rate. Then on purpose: a byte from the PC at every place of the interrupt that ends a packet, together with the tick."""
     board = walker()
     board.bus_turn_us(forget=True)
     board.send(pattern(int(2 * LINE_BYTES_PER_S)), wait=True)
@@ -63,14 +62,14 @@ def test_turn_round_is_bounded_whatever_else_interrupts(capsys):
     longest = 0
     state = board.variable("core")
     for place in range(0, 480, 13):
-        while board.ram[state] != BUS_TURNING:  # a packet is being sent, up to its last two bytes
+        while board.ram[state] != BUS_TURNING:  # a packet is sent, except for its last two bytes
             board.run_to("__vector_20", ms=20)
             for _ in range(INTERRUPT_INSTRUCTIONS):
                 if board.ram[state] != BUS_TURNING:
                     board.step()
         board.run(cycles=480 - place)
         board.interrupt("console byte", 0x55)
-        board.run(cycles=20)  # its interrupt has begun: the tick's comes before that of the bus
+        board.run(cycles=20)  # its interrupt has begun: the tick's has priority over the bus's
         board.interrupt("tick")
         board.run(ms=3)
         longest = max(longest, board.bus_turn_us(forget=True))
@@ -80,8 +79,8 @@ def test_turn_round_is_bounded_whatever_else_interrupts(capsys):
 
 
 def test_pauses_inside_a_packet_are_short_whatever_else_interrupts(capsys):
-    """Two characters leave without a pause; before the next two the interrupt must be served. Servos allow far more:
-    the simulated ones 100 us."""
+    """Two characters leave without a pause; the interrupt must be served before the next two. Servos allow far longer pauses: the simulated
+    ones 100 us."""
     board = walker()
     board.send(pattern(int(LINE_BYTES_PER_S)))
     board.bus_pause_us(forget=True)
@@ -136,8 +135,8 @@ def test_errors_of_a_servo_are_named_within_a_second(fault, bit):
 
 @pytest.mark.parametrize("return_delay, count, late", [(250, 6, False), (0, 18, False), (250, 18, True)])
 def test_servos_deaf_to_sync_write_follow_all_the_same(return_delay, count, late):
-    """REG WRITE to each and one ACTION: 0.7 ms each, 0.2 ms with a return delay of 0. What does not fit into a tick goes
-    on in the next, and is counted."""
+    """REG WRITE to each and one ACTION: 0.7 ms per servo, 0.2 ms with a return delay of 0. What does not fit into a tick continues in the
+    next one and is counted."""
     board = walker(servos=[20, 21], deaf=range(1, count + 1), table=[(5, return_delay)])
     seen = {number: set() for number in range(1, count + 1)}
     for _ in range(120):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The serial line to the PC on the simulated board: nothing is lost at the full rate, flow control, changes of rate."""
+"""The serial line to the PC on the simulated board: no loss at the full rate, flow control, changes of rate."""
 
 from m512.crc16 import crc16
 from tests.sim.hal_board import LINE_BYTES_PER_S, bus_counts, pattern, walker, word, words
@@ -22,8 +22,7 @@ def test_flood_at_line_rate_beside_31_joints_loses_nothing():
 
 
 def test_flow_control_stops_a_sender_in_time():
-    """The reader takes 4,000 bytes/s, the line carries 5,714: XOFF must come early enough for a PC that sends on for 64
-    more bytes."""
+    """The program reads 4,000 bytes/s, the line carries 5,714: XOFF must come early enough for a PC that sends 64 more bytes."""
     board = words()
     board.send("x", wait=True)
     data = pattern(6000, seed=7)

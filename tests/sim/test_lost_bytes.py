@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""A line in which bytes were lost on its way is not run, in any image: a sender that ignores XOFF, a character without a
-stop bit (a stray baud rate does that). The image says so."""
+"""No image executes a line of which bytes were lost: the sender ignores XOFF, or a character has no stop bit (for example, from a wrong
+baud rate). The image reports the loss."""
 
 import pytest
 
@@ -30,7 +30,7 @@ def test_play_refuses_the_line():
     garble(board, "settings ta", "lk 0\r")
     text = board.take().decode("latin-1")
     assert LOST in text and " OK" not in text
-    assert " OK" in ask(board, "settings talk 0")  # the next one is whole
+    assert " OK" in ask(board, "settings talk 0")  # the next line is complete
 
 
 def test_play_refuses_a_program_line_and_ctrl_u_begins_anew():
@@ -44,7 +44,7 @@ def test_play_refuses_a_program_line_and_ctrl_u_begins_anew():
 
 
 def test_play_does_not_make_one_line_of_two():
-    """The sender ignores XOFF while a long list is printed; all it sends is harmless, and `reset` is not in it as a line."""
+    """The sender ignores XOFF while a long list is printed. None of its lines restarts the robot, but two merged into `@reset` would."""
     board = robot()
     starts = len(board.console)
     for _ in range(30):

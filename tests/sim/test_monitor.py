@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The Monitor image: words and packets as edit/ORIGINAL.md section 11 has them, and what it refuses."""
+"""The Monitor image: words and packets of edit/ORIGINAL.md section 11, and refusals."""
 
 import pytest
 

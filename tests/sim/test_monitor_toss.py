@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""TOSS, the bridge of Monitor: what the PC sends is a packet on the servo bus, what a servo answers is bytes on the console, and
-three ESC outside a packet end it. Packets are made here from the Dynamixel protocol, not with our code."""
+"""TOSS, the bridge of Monitor: bytes from the PC become packets on the servo bus, answers of servos become bytes on the console, and three
+ESC outside a packet end it. The test builds packets from the Dynamixel protocol, without our code."""
 
 import pytest
 
@@ -28,7 +28,7 @@ def shared():
 
 @pytest.fixture
 def r(shared):
-    """In the bridge, with nothing said yet."""
+    """In the bridge, before any output."""
     shared.take()
     shared.send(b"toss\r")
     shared.run(ms=60)
@@ -41,7 +41,7 @@ def r(shared):
 
 
 def ask(r, sent, ms=None):
-    """What comes back on the console."""
+    """The output on the console."""
     r.send(sent)
     r.run(ms=len(sent) * 0.18 + 25 if ms is None else ms)
     return r.take()
@@ -102,7 +102,7 @@ def test_broadcasts_have_no_answer(r):
 
 
 def test_requests_back_to_back_are_sent_in_order(r):
-    """Those that nobody answers may follow each other at line rate: what a PC streams as poses."""
+    """Packets without answer may follow each other at line rate, as when a PC streams poses."""
     frames = [packet(ALL, SYNC_WRITE, 30, 2, *(byte for ident in range(1, 19) for byte in (ident, n, 2))) for n in range(30)]
     assert ask(r, b"".join(frames), ms=400) == b""
     assert packets(r) == frames
@@ -110,8 +110,8 @@ def test_requests_back_to_back_are_sent_in_order(r):
 
 @pytest.mark.parametrize("missing", [2, 3, 5])
 def test_a_packet_that_lost_a_byte_costs_itself_only(r, missing):
-    """Its length asks for as many bytes as 22 PINGs have. (A packet whose length was lost may look whole: the servo answers that
-    its checksum is wrong.)"""
+    """Its length announces as many bytes as 22 PINGs have. (A packet that lost its length byte may look complete: the servo reports a wrong
+    checksum.)"""
     long = packet(1, WRITE, *[30] * 130)
     assert ask(r, long[:missing] + long[missing + 1 : 40], ms=60) in (b"", status(1, error=0x10))
     for ident in (1, 2, 3):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The motion library (tools/motions) on the shipped Play image: pages of every kind to their end, and a walk driven by the remote. What
-the pages promise by themselves is checked in tools/motions/test_motions.py; every page is played in tests/models/test_library_speeds.py."""
+"""The motion library (tools/motions) on the shipped Play image: pages of every kind to their end, and a walk driven by the remote.
+tools/motions/test_motions.py checks the pages alone; tests/models/test_library_speeds.py plays every page."""
 
 import os
 import pathlib
@@ -15,7 +15,7 @@ from tests.sim.play_robot import DOWN, JOINTS, LEFT, RIGHT, STOP, UP, ask, robot
 MOTIONS = (pathlib.Path(os.environ["M512_BUILD"]) / "motions" / "motions.bin").read_bytes()
 LIBRARY = from_bytes(MOTIONS)
 WALK_JOINT = 11
-PAGES = {number: page for number, page in LIBRARY.items() if number and page.is_playable and page.word(0, WALK_JOINT) < 1024}  # not the layers
+PAGES = {number: page for number, page in LIBRARY.items() if number and page.is_playable and page.word(0, WALK_JOINT) < 1024}  # no layers
 NUMBER = {page.title: number for number, page in PAGES.items()}
 TICK_CYCLES = 125_000
 MOST_UNITS_PER_TICK = 0.9 * no_load_units_per_tick(11.1) + 1  # goals are whole units
@@ -32,7 +32,7 @@ def last_pose(page):
 
 
 def fastest(trace):
-    """Units per tick of the fastest joint between any two frames; the ticks between them count."""
+    """Units per tick of the fastest joint between any two frames, with the ticks between them taken into account."""
     most = 0.0
     for before, after in zip(trace, trace[1:]):
         ticks = max(1, round((after.cycle - before.cycle) / TICK_CYCLES))
@@ -44,7 +44,7 @@ LEFT_ALONE = {"get_up": {1, 2}}  # its first steps do not use them
 
 
 def get_ready(board):
-    """Plays `ready`, unless the page before has ended there."""
+    """Plays `ready`, unless the robot stands in its last pose already."""
     if any(board.servos[joint].goal != target for joint, target in last_pose(PAGES[NUMBER["ready"]]).items()):
         assert ask(board, "play ready").endswith("OK")
         board.expect("Ended", ms=8000)
@@ -53,8 +53,8 @@ def get_ready(board):
 
 @pytest.mark.parametrize("name", ["ready", "bow", "clap", "sit", "get_up", "walk", "side_r", "kick_r", "dance"])
 def test_page_plays_to_its_end(library, name):
-    """By name; a page that leads on is stopped there, and goes through its exit. The robot stands where the last page of the
-    way ends, no joint was left out, none asked for more than it can do, and the servos followed."""
+    """Started by name; a page with a next link is stopped and ends through its exit page. The robot must stand in the pose of the last
+    page, every joint must be driven, none faster than it can move, and the servos must have followed."""
     board, page = library, PAGES[NUMBER[name]]
     get_ready(board)
     assert ask(board, f"play {name}").endswith("OK")
@@ -76,7 +76,7 @@ def test_page_plays_to_its_end(library, name):
 
 
 def drive(board, value, until, ms=6000):
-    """Holds buttons until the status lines tell of a page, then lets go; returns the pages played on the way."""
+    """Holds buttons until the status lines name a page, then releases them. Returns the pages played until then."""
     board.rc(value)
     text = board.expect(f"({until}) step 1", ms=ms)
     board.rc(0)
@@ -91,10 +91,10 @@ def test_remote_drives_a_walk():
     board.clear_trace()
     assert drive(board, UP, "walk_l") == ["(walk)", "(walk_r)", "(walk_l)"]
     assert drive(board, LEFT, "turn_l") == ["(walk_r)", "(turn_l)"]
-    assert drive(board, LEFT, "turn_l") == ["(turn_l2)", "(turn_l)"]  # goes on turning
+    assert drive(board, LEFT, "turn_l") == ["(turn_l2)", "(turn_l)"]  # keeps turning
     assert drive(board, UP, "walk_l") == ["(walk_r)", "(walk_l)"]
     assert drive(board, RIGHT, "turn_r") == ["(turn_r)"]
-    assert drive(board, LEFT, "turn_l") == ["(walk_l)", "(walk_r)", "(turn_l)"]  # by the walk
+    assert drive(board, LEFT, "turn_l") == ["(walk_l)", "(walk_r)", "(turn_l)"]  # through the walk
     assert drive(board, UP, "walk_r") == ["(walk_r)"]
     board.rc(STOP)
     board.expect("Stopped after page 26 (end_l)", ms=5000)
@@ -108,7 +108,7 @@ def test_remote_drives_a_walk():
 
 
 def test_every_code_calls_its_page():
-    """From the remote, in a robot that stands; 1, 2, 3, 4 of the remote are 16, 32, 64, 128."""
+    """From the remote, robot at rest; buttons 1, 2, 3, 4 of the remote are 16, 32, 64, 128."""
     board = robot(pages=MOTIONS)
     for number, page in PAGES.items():
         if page.code:

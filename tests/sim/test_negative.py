@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Each strictness of the board catches its wrong program, and lets the right twin pass (sources: negative/)."""
+"""Each check of the board detects its wrong program and accepts the right variant (sources: negative/)."""
 
 import pathlib
 
@@ -10,7 +10,7 @@ from cm5sim.library import build_folder
 
 PAGE = 0x4000 // 256
 
-# program: (violation, function it happens in)
+# program: (violation, function in which it happens)
 EXPECTED = {
     "spm_place": ("spm-place", "erase_from_here"),
     "spm_sequence_boot": ("spm-sequence", "late_erase"),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Play on the simulated robot: what it does beside talking. The words are in test_play_sessions.py."""
+"""Play on the simulated robot: its effects other than text. test_play_sessions.py tests the words."""
 
 import re
 
@@ -13,7 +13,7 @@ UNITS_PER_DEGREE = 1024 / 300
 
 
 def writes(board):
-    """Packets that could move somebody: WRITE, REG WRITE, SYNC WRITE that reach torque, goal or anything between."""
+    """Packets that could move a joint: WRITE, REG WRITE, SYNC WRITE to torque, goal or any address between them."""
     moving = []
     for cycle, packet in board.packets:
         if packet[4] in (3, 4, 0x83) and TORQUE <= packet[5] + packet[6] and packet[5] < PUNCH and packet[5] != 25:
@@ -22,7 +22,7 @@ def writes(board):
 
 
 def counts(board):
-    """What `faults` counts: {"missed": 0, "late": 0, "overruns": 0, ...}."""
+    """The counters of `faults`: {"missed": 0, "late": 0, "overruns": 0, ...}."""
     board.run(ms=50)
     board.take()
     board.send("faults\r", wait=True)
@@ -94,7 +94,7 @@ def test_name_with_a_foreign_letter_is_not_the_name_without_it():
     assert "No page is named gr??n" in board.expect("\r\n] ")
 
 
-# --- who is driven ---
+# --- which joints are driven ---
 
 
 def test_absent_unused_and_torque_off_joints_are_never_driven():
@@ -104,7 +104,7 @@ def test_absent_unused_and_torque_off_joints_are_never_driven():
     ask(board, "play 22")
     board.expect("Ended", ms=4000)
     driven = set().union(*(frame.goals for frame in board.trace))
-    assert driven == {1, 2}  # 3 is unused and 5 torque-off in the page, 19 is in no page, the others are not there
+    assert driven == {1, 2}  # 3 is unused and 5 torque-off in the page, 19 is in no page, the others are missing
     assert board.servos[1].goal == 560
 
 
@@ -148,7 +148,7 @@ def test_approach_starts_at_the_pose_and_keeps_to_60_degrees_a_second():
         goals = [frame.goals[joint] for frame in frames if joint in frame.goals]
         assert abs(goals[0] - (200 + 30 * joint)) <= 2
         steps = [abs(b - a) for a, b in zip(goals, goals[1:])]
-        assert max(steps) <= 60 * UNITS_PER_DEGREE / 128 + 1  # whole units
+        assert max(steps) <= 60 * UNITS_PER_DEGREE / 128 + 1  # goals are whole units
         assert sum(steps) == abs(goals[-1] - goals[0])  # straight there
 
 
@@ -166,7 +166,7 @@ def goals_of(board, joint):
 
 
 def slows_down_to_a_stand(goals, ticks):
-    """Speeds that only fall, without turning back (to a unit, which rounding may cost)."""
+    """Whether speeds only decrease, without turning back (with a tolerance of one unit for rounding)."""
     steps = [b - a for a, b in zip(goals, goals[1:])][:ticks]
     sign = 1 if sum(steps) >= 0 else -1
     sizes = [sign * step for step in steps]
@@ -206,7 +206,7 @@ def test_resume_goes_on_to_the_target():
 
 @pytest.mark.parametrize("word, said", [("resume", "Ended after"), ("stop", "Stopped after")])
 def test_a_word_right_behind_pause_is_not_lost(word, said):
-    """It comes while the robot still slows down."""
+    """It comes during the braking."""
     board = robot()
     ask(board, "play 14")
     board.expect("Playing", ms=8000)
@@ -283,14 +283,14 @@ def test_wrong_answers_are_retried_and_end_nothing():
 def test_bracket_typed_after_a_lone_escape_is_a_character():
     board = robot()
     board.take()
-    board.send("a\x1b[A\x1b")  # a terminal sends a sequence at once, a person types later
+    board.send("a\x1b[A\x1b")  # a terminal sends a sequence at once, a user types later
     board.run(ms=100)
     board.send("[O")
     board.run(ms=50)
     assert board.take().decode() == "a[O"
 
 
-# --- lamps ---
+# --- LEDs ---
 
 
 def test_lamps():
@@ -317,7 +317,7 @@ def test_lamps():
     assert board.leds == {"power"}
 
 
-# --- nothing waits for text ---
+# --- text delays nothing ---
 
 
 def test_long_answers_while_walking_make_no_tick_late():
@@ -348,7 +348,7 @@ def test_stop_on_the_remote_does_not_wait_for_a_long_answer():
 
 
 def test_flood_that_ignores_xoff_harms_nobody():
-    """4,000 characters at line rate into a shell that answers: typed bytes are lost and counted, nothing else is."""
+    """4,000 characters at line rate into a shell that answers: typed bytes are lost and counted, nothing else is lost."""
     board = walking()
     board.send("status\r" * 571)
     for value in (UP, 0) * 10:
@@ -433,7 +433,7 @@ def test_a_name_that_two_pages_have_starts_none():
 
 
 def test_where_names_a_page_and_a_step_of_it():
-    """At a page's end the next step is planned a tick before it moves: then, too, page and step belong together."""
+    """At a page's end the next step is planned a tick before it starts. Page and step must belong together even then."""
     image = Image.empty()
     image[5] = page("two", [(9, {1: 560}), (9, {1: 464})], next=6)
     image[6] = page("three", [(9, {1: 560}), (9, {1: 464}), (9, {1: 512})], next=5)
@@ -445,7 +445,7 @@ def test_where_names_a_page_and_a_step_of_it():
         board.run(ms=60)
         found = re.search(r"@where state=play\w* page=(\d) step=(\d)", board.take().decode("latin-1"))
         places.append(found and (int(found[1]), int(found[2])))
-    order = [(5, 1), (5, 2), (6, 1), (6, 2), (6, 3)]  # 60 ms and a step's 70: the next place is the same, or one or two further
+    order = [(5, 1), (5, 2), (6, 1), (6, 2), (6, 3)]  # 60 ms, and a step takes 70: the next place is the same, or one or two further
     told = [(before, after) for before, after in zip(places, places[1:]) if before and after]
     assert len(told) > 200 and set(place for pair in told for place in pair) == set(order)
     assert [pair for pair in told if (order.index(pair[1]) - order.index(pair[0])) % 5 > 2] == []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Joints moved by code, `aim`, `swing`, `free` (SHAPING.md), in the shipped Play image, with and without a play."""
+"""Joints moved by code with `aim`, `swing`, `free` (SHAPING.md), in the shipped Play image, with and without a play."""
 
 import math
 import random
@@ -15,7 +15,7 @@ HAND_OVER = 2  # 60 degrees/s are 1.6 units a tick
 
 
 def row_of(board, joint):
-    """Every goal that a joint was sent, in order."""
+    """All goals sent to a joint, in order."""
     return [frame.goals[joint] for frame in board.trace if joint in frame.goals]
 
 
@@ -53,7 +53,7 @@ def test_swing_is_a_sine_of_its_period():
     last = next(at for at in range(first, 300) if row[at + 1] < 612)
     for at in range(first, first + 200):
         wanted = 512 + 100 * math.cos(2 * math.pi * (at - (first + last) / 2) / 256)
-        assert abs(row[at] - wanted) <= 1.3, at  # whole units; the top is known to half a tick
+        assert abs(row[at] - wanted) <= 1.3, at  # whole units; the time of the top is known to half a tick
     assert row[:200] == row[256:456]
 
 
@@ -94,12 +94,12 @@ def test_refused_words_say_one_sentence_and_change_nothing():
     for joint in (1, 2, 19, 20):
         assert ask(board, f"aim {joint} 520") == " OK"
     assert ask(board, "aim 3 520") == "Four joints are moved already: free one"
-    assert ask(board, "aim 20 530") == " OK"  # one of them again
+    assert ask(board, "aim 20 530") == " OK"  # replaces the aim of the same joint
     ask(board, "off 5")
     ask(board, "free 1")
     assert ask(board, "aim 5 520") == "None of these servos can be moved: missing, or off (stop, then on)"  # switched off by hand
     assert ask(board, f"play {LOOP}") == " OK"
-    assert ask(board, "aim 4 520") == "Busy: stop what is playing first"  # on its way to the first pose
+    assert ask(board, "aim 4 520") == "Busy: stop what is playing first"  # in its approach
     assert not board.servos[5].torque
 
 
@@ -156,7 +156,7 @@ def test_an_aim_holds_in_a_pause_and_after_it():
     assert board.servos[3].goal == 600
 
 
-# --- code's joints and the rest of the robot ---
+# --- code-made motion and the rest of the robot ---
 
 
 def test_a_joint_that_is_freed_in_an_approach_goes_to_the_first_pose_slowly():
@@ -168,7 +168,7 @@ def test_a_joint_that_is_freed_in_an_approach_goes_to_the_first_pose_slowly():
     board.run(ms=300)
     assert ask(board, "free") == " OK"
     text = board.expect("Ended after", ms=15000)
-    assert text.count("Going to the first pose") == 1  # the second time: the first was in the answer to `play`
+    assert text.count("Going to the first pose") == 1  # the second approach: the first was in the answer to `play`
     row = row_of(board, 8)
     assert row[0] < 10 and row[-1] == 512 and max(map(abs, speeds(row))) <= HAND_OVER
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The bench of the shipped Play image: it runs, and every figure is within its budget. (tools/bench --strict is the judge.)"""
+"""The bench of the shipped Play image runs, and every figure is within its budget. (tools/bench --strict decides.)"""
 
 import importlib.machinery
 import importlib.util
@@ -7,7 +7,7 @@ import pathlib
 import subprocess
 
 BENCH = pathlib.Path(__file__).resolve().parents[2] / "tools" / "bench"
-KINDS, LENGTHS = 5, 9  # of plays with nothing set; of steps with everything in force
+KINDS, LENGTHS = 5, 9  # kinds of plays without shaping; step lengths with all shaping
 
 
 def test_bench_prints_its_table_and_every_budget_holds():

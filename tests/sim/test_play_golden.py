@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Golden traces of the classic law, from the shipped Play image: goals on the servo bus, tick by tick, approach off. All of them:
-tests/unit/test_player_golden.c."""
+"""Golden traces of the classic law on the shipped Play image: goals on the servo bus, tick by tick, approach off.
+tests/unit/test_player_golden.c checks all of them."""
 
 import csv
 
@@ -27,7 +27,7 @@ def played_trace(name, servos):
     ask(board, "play 1")
     board.expect("Ended after", ms=60_000)
     board.run(ms=20)
-    # A single servo's goal is its pose, when torque is switched on; the play sends SYNC WRITEs.
+    # At torque-on, a single servo gets its own position as goal; a play sends SYNC WRITEs.
     frames = [frame for frame in board.trace if len(frame.goals) > 1]
     first = tick(frames[0].cycle)
     return [(tick(frame.cycle) - first, frame.goals) for frame in frames]
@@ -42,7 +42,7 @@ def test_classic_equals_the_original_sample_by_sample(name):
 
 
 def test_six_more_servos_change_nothing():
-    """With 18 servos the original departs from its own law after a page join; ours must not."""
+    """With 18 servos the original deviates from its own law after a page join; ours must not."""
     wanted = wanted_trace("repeats_and_chain")
     played = played_trace("repeats_and_chain", range(1, 19))
     assert [(tick, {i: goals[i] for i in range(1, 13)}) for tick, goals in played] == wanted

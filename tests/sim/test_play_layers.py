@@ -11,7 +11,7 @@ from tests.sim.walking_robot import LOOP, WAVE, looping, pages, run_of_a_walk, w
 def test_layer_in_a_walk_leaves_the_other_joints_goals_as_they_are():
     plain = run_of_a_walk([(0, "version"), (4000, "version")])
     assert len(plain) > 700
-    for seed in (1, 7):  # 1: off in the tick between two steps, when the next is planned already
+    for seed in (1, 7):  # 1: the layer ends in the tick between two steps, when the next is already planned
         chance = random.Random(seed)
         layer_in_a_walk(plain, on_ms=chance.randrange(1000), off_ms=3000 + chance.randrange(1000))
 
@@ -26,8 +26,8 @@ def layer_in_a_walk(plain, on_ms, off_ms):
         row = [goals[joint] for _, goals in sorted(lent.items())]
         assert row[0] == row[-1] == 512 and max(row) == high
         speeds = [b - a for a, b in zip(row, row[1:])]
-        # The pages' own speed is 3 units a tick at most, that of the hand-over 1 or 2. No leap, neither away nor back: the largest
-        # change is that of a joint that meets what comes the other way.
+        # The pages move at most 3 units a tick, the hand-over 1 or 2. There is no jump at either end: the largest change is that of a joint
+        # that meets a source moving the other way.
         assert max(map(abs, speeds)) <= 3
         assert max(abs(b - a) for a, b in zip(speeds, speeds[1:])) <= 3 + 2
 
@@ -106,7 +106,7 @@ def test_no_tick_is_missed_with_all_of_it_in_force():
 
 
 def slopes(board, joint):
-    """CW and CCW compliance slope, as the servo has them."""
+    """CW and CCW compliance slope in the servo's table."""
     return tuple(board.servos[joint].table[28:30])
 
 
@@ -122,7 +122,7 @@ def test_a_layer_brings_the_slopes_of_its_own_page_and_takes_them_away_again():
     assert ask(board, f"layer {WAVE}") == " OK"
     board.run(ms=300)
     assert slopes(board, 3) == slopes(board, 5) == (8, 8) and slopes(board, 1) == (64, 64)
-    board.run(ms=3000)  # the main page has begun anew
+    board.run(ms=3000)  # the main page has started again
     assert slopes(board, 3) == (8, 8) and slopes(board, 1) == (64, 64)
     assert ask(board, "layer off") == " OK"
     board.run(ms=300)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A thumb that stays on the remote: a play starts on a press only. The remote repeats its packet every 50 ms."""
+"""A held button of the remote: only a press starts a play. The remote repeats its packet every 50 ms."""
 
 import pytest
 
@@ -10,7 +10,7 @@ REPEAT_MS = 50
 
 
 def hold(board, buttons, ms):
-    """What the board says while the buttons are held."""
+    """The board's output while the buttons are held."""
     start = len(board.console)
     for _ in range(ms // REPEAT_MS):
         board.rc(buttons)
@@ -19,7 +19,7 @@ def hold(board, buttons, ms):
 
 
 def starts(text):
-    """How many plays began: by their first pages."""
+    """Number of plays started, counted by their first pages."""
     return text.count("Playing page 2 (bow) step 1") + text.count("Playing page 3 (walk start) step 1")
 
 
@@ -87,7 +87,7 @@ def test_silence_of_less_than_half_a_second_is_no_release():
 
 @pytest.mark.parametrize("mode", ["latch", "hold", "drive"])
 def test_a_silent_servo_starts_one_play_a_press(mode):
-    """Nobody can be driven: the play ends at once, and would begin anew with each packet."""
+    """No servo can be driven: the play ends at once, and would restart with each packet."""
     board = robot()
     ask(board, f"remote {mode}")
     for servo in JOINTS:
@@ -164,7 +164,7 @@ def test_letting_go_of_a_steering_button_starts_nothing():
     assert starts(hold(board, UP | LEFT, 1000) + hold(board, UP, 1000)) == 0
 
 
-# --- fingers leave a chord one after the other, behind a stop ---
+# --- releasing the buttons of a chord one by one after a stop ---
 
 
 @pytest.mark.parametrize("mode", ["latch", "hold", "drive"])

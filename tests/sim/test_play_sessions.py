@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Every word of Play with good and bad arguments, as recorded sessions: what the terminal shows, line by line.
-With M512_RECORD=1 the sessions are written anew (read them before you keep them)."""
+"""Every word of Play with good and bad arguments, as recorded sessions: the terminal's text, line by line. M512_RECORD=1 records the
+sessions anew (read them before you keep them)."""
 
 import os
 

@@ -70,7 +70,7 @@ def test_rate_changes_the_speed_of_a_walk_from_the_next_step_on():
     times = {}
     for rate in (100, 200, 50):
         ask(board, f"rate {rate}")
-        board.run(ms=2500)  # what was looked at before is played
+        board.run(ms=2500)  # the steps planned before are played
         board.take()
         board.expect("Page 30 step 2", ms=5000)
         begin = board.now_ms
@@ -89,7 +89,7 @@ def test_amplitude_makes_a_walk_smaller_about_the_centre_page():
     board.clear_trace()
     board.run(ms=2000)
     reached = {frame.goals[11] for frame in board.trace if 11 in frame.goals}
-    assert (min(reached), max(reached)) == (488, 536)  # page 1 has 512; the walk 464 and 560
+    assert (min(reached), max(reached)) == (488, 536)  # page 1 has 512, the walk 464 and 560
     assert {frame.goals[1] for frame in board.trace if 1 in frame.goals} == {496}  # page 1 has 480, the walk 512
 
 
@@ -114,7 +114,7 @@ def test_drive_at_20_hz_keeps_a_walk_going_and_a_pulled_cable_ends_it_on_its_exi
     fields = where(board)
     assert (fields["state"], fields["rate"], fields["blend"], fields["amplitude"]) == ("playing", "120", "30", "80")
     board.take()
-    text = board.expect("Stopped after page 33 (stand)", ms=6000)  # the cable is pulled: nothing comes any more
+    text = board.expect("Stopped after page 33 (stand)", ms=6000)  # the cable is unplugged: no more lines arrive
     assert "Nobody drives any more: stopping" in text
     board.run(ms=100)
     # With an amplitude of 80 % about page 1 (480 and 544) the stand of the exit page is 506 and 518 for the arms.
@@ -140,7 +140,7 @@ def test_nobody_drives_in_a_pause_and_nothing_moves_before_the_resume():
     board = looping()
     ask(board, "@drive 0 100 100")
     assert ask(board, "@pause") == "@pause OK"
-    board.run(ms=500)  # it comes to rest
+    board.run(ms=500)  # it slows down and stops
     resting = [board.servos[joint].goal for joint in range(1, 19)]
     board.run(ms=4000)
     assert where(board)["state"] == "paused"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""A quarter of a minute of walking, with packets of the remote and typed commands filling the serial line: nothing is lost, no tick
-is missed, no frame is late. M512_WALK_MINUTES makes it longer or shorter; `tools/prove endurance` walks for an hour."""
+"""A quarter of a minute of walking, with remote packets and typed commands filling the serial line: no loss, no missed tick, no late frame.
+M512_WALK_MINUTES sets the duration; `tools/prove endurance` walks for an hour."""
 
 import os
 
@@ -8,7 +8,7 @@ from tests.sim.play_robot import LEFT, RIGHT, UP, ask, robot
 
 MINUTES = float(os.environ.get("M512_WALK_MINUTES", "0.25"))
 SLICE_MS = 10
-BYTES_A_SLICE = 58  # what the line carries in that time: it never falls idle
+BYTES_A_SLICE = 58  # capacity of the line in that time, so it is never idle
 XON, XOFF = 0x11, 0x13
 COMMANDS = [
     "status",
@@ -32,7 +32,7 @@ TICK_CYCLES = 125_000
 
 
 class Typist:
-    """A PC that types without a pause, but obeys XOFF."""
+    """A PC that types without pauses but obeys XOFF."""
 
     def __init__(self, board):
         self.board, self.allowed, self.rest, self.lines = board, True, b"", 0
@@ -53,7 +53,7 @@ class Typist:
 
 
 def frames_are_in_time(board, last_tick, phase):
-    """Every tick has exactly one frame, sent within it. Returns the tick of the last frame."""
+    """Checks that every tick has exactly one frame, sent within it. Returns the tick of the last frame."""
     for frame in board.trace:
         if len(frame.goals) > 1:
             tick = (frame.cycle - phase) // TICK_CYCLES
@@ -74,7 +74,7 @@ def test_walking_with_a_full_line():
     board.take()
     typist, before = Typist(board), len(board.console)
     for number in range(int(MINUTES * 60_000 / SLICE_MS)):
-        if number % 10 == 0:  # ten packets a second: a hand on the stick, turning now and then, letting go at times
+        if number % 10 == 0:  # ten packets a second: now and then a turn or a release
             board.rc((LEFT, 0, RIGHT, UP)[number // 300 % 4])
             sent += 1
         typist.type()
@@ -88,7 +88,7 @@ def test_walking_with_a_full_line():
     board.send("\r", wait=True)
     board.run(ms=100)
     text = ask(board, "faults")
-    heard = board.console[before:].translate(None, bytes((XON, XOFF)))  # these come between any two characters
+    heard = board.console[before:].translate(None, bytes((XON, XOFF)))  # XON and XOFF come between any two characters
     answers = heard.count(b"\n] ")
     print(f"\n{MINUTES:g} minutes, {sent} packets, {typist.lines} commands, {answers} prompts\n{text}")
     assert "Serial: overruns 0 framing 0 lost 0 " in text

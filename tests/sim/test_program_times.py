@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""How long the line commands of firmware/common/PROTOCOL.md take on a robot of 18 servos, in the shipped Play and Edit: simulated
-time, as a PC sees it, from the first byte of a request to the last of its answer, without the lines that come in between:
-@now, and Play's news of pages and steps, up to 36 ms of them. `pytest -s` prints the figures."""
+"""Duration of the requests of firmware/common/PROTOCOL.md on a robot of 18 servos, in the shipped Play and Edit: simulated time at the PC
+from the first byte of a request to the last of its answer. Lines in between do not count: @now, and Play's reports of pages and steps, up
+to 36 ms of them. `pytest -s` prints the figures."""
 
 import pytest
 
@@ -19,7 +19,7 @@ TICK_HZ = 128
 
 
 def motions():
-    """A page that moves four joints for ever, and 127 new ones."""
+    """A page that moves four joints forever, and 127 new ones."""
     image = Image.empty()
     image[LOOP] = page("loop", [(40, {1: 600, 11: 560}), (40, {1: 424, 11: 464})], next=LOOP)
     return image.to_bytes()
@@ -39,8 +39,8 @@ def board(request):
 
 
 def timed(board, request, most_ms=3000):
-    """(ms, words of the answer). @now lines, what Play says of its steps, and its prompt may come in between: the time that
-    they take on the line is not counted."""
+    """(ms, words of the answer). @now lines, Play's reports of steps, and its prompt may come in between: their time on the line does not
+    count."""
     board.take()
     start, heard = board.now_ms, b""
     board.send(request.encode() + b"\r")
@@ -54,16 +54,16 @@ def timed(board, request, most_ms=3000):
 
 
 def start_loop(board):
-    """The robot plays; returns a function that gives the ticks with a frame of goals from now on."""
+    """Starts a play. The returned function lists the ticks since then that have a frame of goals."""
     assert timed(board, f"@play {LOOP}")[1] == ["@play", "OK"]
-    board.run(ms=3000)  # torque on, and the way to the first pose
+    board.run(ms=3000)  # torque on, and the approach
     tick = play_robot.tick_of(board)
     board.clear_trace()
     return lambda: [tick(frame.cycle) for frame in board.trace if len(frame.goals) > 1]
 
 
 def watched(board):
-    """How many whole @now lines came in WATCH_SECONDS."""
+    """Number of complete @now lines in WATCH_SECONDS."""
     board.take()
     board.run(ms=1000 * WATCH_SECONDS)
     lines = board.take().translate(None, b"\x11\x13").split(b"\r\n")[1:-1]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Every command line of the simulator's README, executed; and every option of cm5sim must occur there."""
+"""Runs every command line of the simulator's README. Every option of cm5sim must occur there."""
 
 import os
 import re
@@ -16,7 +16,7 @@ from tests.sim.sim_command import BUILD, CM5SIM, TOP, run
 
 README = (TOP / "tools" / "sim" / "README.md").read_text(encoding="utf-8")
 COMMANDS = [line.split("  #")[0].strip() for block in re.findall(r"```sh\n(.*?)```", README, re.S) for line in block.splitlines() if "cm5sim" in line]
-SHOWN_S = 0.5  # so long a command without an end of its own is left running once it has said something
+SHOWN_S = 0.5  # how long a command without an end of its own runs after its first output
 BEGUN_S = 120
 
 # One page; joint 3 ends at 600. No other joint is used.
@@ -31,7 +31,7 @@ step 60 | 3:600
 
 
 def needs(command):
-    """Images of a command that are not built."""
+    """Images of a command that are missing."""
     return [name for name in re.findall(r"\S+\.hex", command) if not (BUILD / "firmware" / name).exists()]
 
 
@@ -45,8 +45,8 @@ def _folder(tmp_path):
 
 
 def execute(command, folder):
-    """Runs a command line as a shell would; one that waits for a user is asked to end by SIGINT."""
-    for port in re.findall(r"=(\d{4})\b", command):  # of --tcp and --gdb: one that is free
+    """Runs a command line in a shell. Ends a command that waits for a user by SIGINT."""
+    for port in re.findall(r"=(\d{4})\b", command):  # replaces the ports of --tcp and --gdb by free ones
         with socket.socket() as probe:
             probe.bind(("127.0.0.1", 0))
             command = command.replace(f"={port}", f"={probe.getsockname()[1]}")
@@ -103,7 +103,7 @@ def test_every_example_of_the_help_runs(folder):
 def test_bench_prints_its_figures():
     done = subprocess.run([sys.executable, TOP / "tools" / "sim" / "bench", "--seconds", "5"], capture_output=True, text=True, check=False)
     print(done.stdout)
-    # Whether this PC is quick enough now is for who runs the bench.
+    # The result depends on the speed of this PC, so it does not matter here.
     assert re.search(r"^18 joints moving +[\d.]+ % +[\d.]+$", done.stdout, re.M), done.stdout + done.stderr
     assert (done.returncode, done.stdout.split()[-1]) in ((0, "reached"), (1, "MISSED")), done.stdout
 

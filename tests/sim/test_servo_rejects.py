@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""WRITEs that arrive at a servo with a wrong bit: it does nothing, and says so in its answer (the fault "mishears"). Each
-image tries again, counts it, and names the servo at last; torque comes on only onto a goal that has arrived."""
+"""WRITEs that arrive at a servo with a wrong bit: the servo ignores them and reports it in its answer (the fault "mishears"). Each image
+retries, counts the rejection, and finally names the servo. Torque goes on only after the goal has arrived."""
 
 import pytest
 
@@ -37,7 +37,7 @@ def test_edit_names_a_servo_that_does_not_take_its_goal():
 
 @pytest.mark.parametrize("level", [1, 2])
 def test_edit_does_not_switch_torque_on_onto_an_old_goal(level):
-    """The robot was bent by hand while limp. A servo that cannot be told its place must not leap to its old goal."""
+    """The limp robot was bent by hand. A servo that cannot get its position as goal must not jump to its old goal."""
     with start() as r:
         servo = r.board.servos[3]
         servo.write(RETURN_LEVEL, [level])
@@ -55,7 +55,7 @@ def test_edit_does_not_switch_torque_on_onto_an_old_goal(level):
 
 
 def test_edit_names_a_servo_that_does_not_let_go():
-    """The first WRITE of off is a SYNC WRITE, which has no answer; it must be lost as well."""
+    """The first WRITE of off is a SYNC WRITE without answer, which must be lost as well."""
     with start() as r:
         r.line("on")
         r.board.servos[3].fault("mishears")
@@ -83,7 +83,7 @@ def test_play_names_a_servo_that_does_not_take_torque():
 
 
 def test_play_names_a_servo_that_keeps_a_slow_speed():
-    """Edit has left it a moving speed; a play needs full speed."""
+    """Edit has left the servo a moving speed; a play needs full speed."""
     board = robot()
     ask(board, "on")
     board.servos[3].write(32, [20, 0])
@@ -102,7 +102,7 @@ def test_monitor_shows_the_rejection_and_keeps_its_id():
 
 
 def test_servos_in_trouble_have_obeyed():
-    """Overload, heat, voltage, angle limit in the answer are no rejection (hal/DYNAMIXEL.md)."""
+    """Overload, heat, voltage and angle limit in the answer do not mean a rejection (hal/DYNAMIXEL.md)."""
     for fault in ("overheating", "low-voltage", "angle-limit"):
         board = robot()
         board.servos[3].write(18, [0])  # no alarm shuts it down

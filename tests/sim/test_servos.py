@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Servos through the Python binding, behind a whole board: what a controller sees of each fault."""
+"""Servos through the Python binding on a whole board: what a controller sees of each fault."""
 
 import pytest
 
@@ -16,7 +16,7 @@ def _robot():
 
 
 def ping(robot):
-    """The robot asks servo 3; what it says of it."""
+    """Makes the robot ping servo 3 and returns its report."""
     robot.send(b"p")
     robot.expect("servo 3: ")
     return robot.expect("\r\n").strip()
@@ -32,7 +32,7 @@ def test_goals_reach_the_servos_and_motion_follows(robot):
     robot.send(b"m")
     robot.expect("moving")
     assert robot.servos[3].goal == 600 and robot.servos[3].torque and robot.servos[3].moving
-    assert 512 <= robot.servos[3].present < 600  # it lags
+    assert 512 <= robot.servos[3].present < 600  # it lags behind
     robot.run(ms=300)
     assert robot.servos[3].present in (599, 600) and not robot.servos[3].moving
     assert robot.servos[4].goal == 512 and not robot.servos[4].torque
@@ -58,7 +58,7 @@ def test_fault_is_seen_and_goes_when_cleared(robot, name, says):
     robot.servos[3].fault(name)
     assert ping(robot) == says
     robot.servos[3].clear()
-    robot.run(ms=30)  # a late answer is still on its way
+    robot.run(ms=30)  # a late answer may still arrive
     assert ping(robot) == FINE
 
 
@@ -107,7 +107,7 @@ def test_gravity_makes_it_droop(robot):
     robot.expect("moving")
     robot.servos[3].outside_load = -0.3
     robot.run(ms=500)
-    # 0.45 N m, give or take the friction of 0.05; the motor has 1.24 at 9.6 V: duty 0.32 .. 0.40, 10.6 .. 13.3 units off
+    # 0.45 N m plus or minus the friction of 0.05; the motor has 1.24 at 9.6 V: duty 0.32 .. 0.40, 10.6 .. 13.3 units off
     assert 586 <= robot.servos[3].present <= 590 and robot.servos[3].load == pytest.approx(0.36, abs=0.045)
 
 

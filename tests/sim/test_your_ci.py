@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The example of tools/sim/YOUR_CI.md, executed: its files make a repository, its script checks it; and it fails where it must."""
+"""Runs the example of tools/sim/YOUR_CI.md: its files make a repository, its script checks it, and it fails where it must."""
 
 import os
 import re
@@ -29,7 +29,7 @@ def _repository(tmp_path):
 
 
 def check(repository, steps=None):
-    """Runs what the workflow runs, but for pip. steps: how many commands of check.sh; None is all of them."""
+    """Runs the workflow without pip. steps: number of commands of check.sh to run; None: all."""
     if steps is not None:
         kept, seen = [], 0
         for line in (repository / "check.sh").read_text().splitlines():
@@ -58,7 +58,7 @@ def spoil(repository, name, before, after):
 
 
 def without_plot(repository):
-    """What the example draws is seen where it is good; it takes most of a run."""
+    """Removes the plot, which takes most of a run; the test of the good example covers it."""
     spoil(repository, "check.sh", " --plot out/joints.svg", "")
 
 
@@ -75,7 +75,7 @@ def test_the_example_is_good_and_leaves_its_artefacts(repository):
 
 
 def test_a_motion_that_falls_is_told(repository):
-    """The same bow, to the back: both checks before the body are content."""
+    """The same bow, backwards: both checks before the body succeed."""
     spoil(repository, "motions.m512", "11:+120 12:-120", "11:-150 12:+150")
     without_plot(repository)
     done = check(repository)
