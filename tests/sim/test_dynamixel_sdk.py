@@ -163,7 +163,7 @@ def test_faults_look_like_faults(make):
 
 
 def test_rates_must_agree(make):
-    bus = make("--servos", "1,20:dx117", rate=57_600)  # the SDK's closest rate to 57,142
+    bus = make("--servos", "1,20:dx117", rate=57_600)  # the SDK's rate for 57,142
     assert bus.unheard(1) != COMM_SUCCESS
     assert bus.ping(20) == (DX117, COMM_SUCCESS, 0)
     assert bus.packets.write1ByteTxRx(bus.port, 20, BAUD, 1)[0] == COMM_SUCCESS  # moved to 1 Mbps

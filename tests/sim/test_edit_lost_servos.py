@@ -95,7 +95,7 @@ def test_servo_that_the_rule_let_go_is_named_limp_when_it_is_back():
     with start(eeprom=eeprom_with_rule_limp()) as r:
         r.line("off 5")
         r.keys("play 8\r", ms=2500)
-        for joint in (4, 5):  # both recover without torque, but only one should have it
+        for joint in (4, 5):  # both recover without torque, which is intended for joint 5 only
             r.board.servos[joint].fault("dead")
         r.settle(1500)
         assert r.message.strip() == "No answer: ID 4-5"

@@ -73,8 +73,7 @@ def test_play_n_rate_shortens_and_stretches_steps_and_lasts_for_one_play():
 
 
 def test_play_at_a_high_rate_asks_no_servo_for_more_than_its_battery_gives():
-    """400 units in 32 ticks at rate 400 are 12.5 a tick. body/README.md: 8.7 units a tick at 11.1 V, of which 90 % are allowed: 6.8 at 9.6
-    V."""
+    """400 units in 32 ticks at rate 400 are 12.5 a tick. body/README.md: 8.7 units a tick at 11.1 V, 90 % allowed: 6.8 at 9.6 V."""
     made = page("timed", [(10, {1: 300}), (128, {1: 700})], schedule=10, accel=0)
     with start(pages={20: made}) as r:
         r.board.battery(9.6)
@@ -172,7 +171,7 @@ def test_play_ends_in_a_loop_of_exit_links():
 
 
 def test_play_says_that_the_classic_law_is_not_here():
-    with Board(images=["boot-cm5.hex", "play-cm5.hex"], servos=range(1, 19)) as other:  # only Play has this setting
+    with Board(images=["boot-cm5.hex", "play-cm5.hex"], servos=range(1, 19)) as other:  # Play writes this setting
         other.eeprom[0xFFF] = 0x11
         other.run(ms=2500)
         other.send("law classic\r")

@@ -125,7 +125,7 @@ def test_torque_and_move():
         assert (r.board.servos[3].goal, r.board.servos[4].goal, r.board.servos[5].goal) == (0x258, 512, 0x1F4)
         for wrong in ("@move 0 3 258", "@move 90 31 258", "@move 90 3 25", "@move 90 3 400", "@move 90 30 200200", "@move 90 3 xyz"):
             assert ask(r, wrong).startswith("@move ERR 3 "), wrong
-        assert ask(r, "@move 90 25 258").startswith("@move ERR 7 ")  # missing joints are skipped, but a pose of only missing joints is an error
+        assert ask(r, "@move 90 25 258").startswith("@move ERR 7 ")  # missing joints are skipped, but a pose of only these is an error
         assert ask(r, "@move 90 18 258---1F4") == "@move OK"
         r.board.run(ms=1000)
         assert ask(r, "@torque off 3 5") == "@torque OK"

@@ -50,7 +50,7 @@ def test_servos_that_answer_read_only_are_driven_and_not_called_dead():
         r.line("go 0", ms=2000)
         assert "ervo" not in r.message
         assert goals(r)[1] == 400 and r.board.servos[1].table[32] == (512 - 400) // 4
-        assert len([packet for packet in writes_since(r, mark) if packet[2] == 1]) == 1  # not polled again
+        assert len([packet for packet in writes_since(r, mark) if packet[2] == 1]) == 1  # not sent again
 
 
 def test_teaching_off_pose_on_write():

@@ -31,7 +31,7 @@ step 60 | 3:600
 
 
 def needs(command):
-    """Images of a command that are missing."""
+    """Images of a command that are not built."""
     return [name for name in re.findall(r"\S+\.hex", command) if not (BUILD / "firmware" / name).exists()]
 
 
