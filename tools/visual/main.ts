@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Starts the page.
+// The entry point of the page.
 
 import './view/theme.css';
 import { fileFormats, motionInstance, motionLibrary, robotBody } from './app/assets.ts';

@@ -13,10 +13,10 @@ import type { Documents, DocumentsState } from '../view/session/documents.ts';
 import { Store } from '../view/store.ts';
 import { TEXTS } from '../view/texts/texts.ts';
 
-/** Where a document is shown. */
+/** The view of the open document. */
 export interface Shown {
     open(document: MotionDocument, history: History): void;
-    /** The same document under another name. */
+    /** Changes only the name. */
     rename(name: string): void;
     edited(): Edited;
 }

@@ -24,7 +24,7 @@ import { Store } from '../view/store.ts';
 
 const CURVE_TICKS = 4096;
 
-/** What an editor begins with. */
+/** Inputs of a new editor. */
 export interface EditorParts {
     readonly format: PageFormat;
     /** Used by this editor only. */

@@ -41,7 +41,7 @@ export class RobotImages {
             .catch((cause: unknown) => fail(new RobotError('no-image', '', { cause })));
     }
 
-    /** Only Edit saves pages. The robot restarts with it, stands up, and keeps it until somebody drives the robot. */
+    /** Only Edit saves pages. The robot restarts with Edit, stands up, and keeps Edit until somebody drives it. */
     async becomeEdit(): Promise<void> {
         if (this.state.image !== 'edit') {
             this.parts.say({ text: TEXTS.robot.startsEdit, tone: 'calm' });
@@ -69,7 +69,7 @@ export class RobotImages {
      *  request does. */
     private async leaveEdit(): Promise<void> {
         if (this.state.stopped === null) {
-            // a stopped robot has nothing left in RAM
+            // a stopped robot has no edits in RAM to lose
             await this.untilReady();
             if (this.state.image === 'play') return; // changed meanwhile
             const { connection } = this.parts.robot();

@@ -6,7 +6,7 @@
 //            v                                                              |
 //   waiting (old) --@open, @data, @crc--> sending (old) --@save--> saving (old or new) --OK--> written --@crcs--> verified
 //                                                                       |
-//                                  the line was lost: asked when run() begins anew
+//                                  the line was lost: checked at the next run()
 
 import type { PageFormat } from '../model/page-format.ts';
 import { DATA_BYTES, ERR_UNSAVED, askPageCrcs, askRamCrc, openPage, savePage, sendData } from './page-requests.ts';

@@ -68,7 +68,7 @@ test.each(['play', 'edit'] as const)('%s: 20 poses a second and more, while the 
     follower.start();
     const SECONDS = 5;
     for (let ms = 0; ms < SECONDS * 1000; ms += 300) {
-        // app/robot-session.ts: WHERE_MS
+        // every 300 ms, as WHERE_MS in app/status.ts
         void askWhere(connection.requests);
         await bench.run(300);
     }
