@@ -129,7 +129,7 @@ void fake_bus_clear_log(void)
     waited = 0;
 }
 
-/* ---- what servos do ---- */
+/* ---- behaviour of the servos ---- */
 
 static void write_table(fake_servo_t *servo, uint8_t at, const uint8_t *data, uint8_t count)
 {

@@ -17,7 +17,7 @@ SECONDS = 5
 
 
 def motions():
-    """Page 1 stands, page 2 swings all joints for some seconds, page 3 does so for hours."""
+    """Page 1 stands, page 2 swings all joints for some seconds, page 3 for hours."""
     image = Image.empty()
     image[1] = page("stand", [(40, {joint: 512 for joint in JOINTS})])
     left, right = ({joint: 512 + way * (20 + 5 * joint) for joint in JOINTS} for way in (1, -1))

@@ -243,7 +243,7 @@ def test_the_block_protocol_refuses_a_damaged_application():
     board.expect(PROMPT, ms=600)
     blocks = Blocks(board)
     assert blocks.ask(LEAVE, page_body(1))[0] == REFUSED
-    assert blocks.ask(HELLO)[:2] == (OK, 3)  # the session goes on
+    assert blocks.ask(HELLO)[:2] == (OK, 3)  # the session continues
     assert blocks.ask(LEAVE, page_body(3))[0] == OK
     board.run(ms=50)
     assert started(board)

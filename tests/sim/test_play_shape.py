@@ -117,7 +117,7 @@ def test_drive_at_20_hz_keeps_a_walk_going_and_a_pulled_cable_ends_it_on_its_exi
     text = board.expect("Stopped after page 33 (stand)", ms=6000)  # the cable is unplugged: no more lines arrive
     assert "Nobody drives any more: stopping" in text
     board.run(ms=100)
-    # With an amplitude of 80 % about page 1 (480 and 544) the stand of the exit page is 506 and 518 for the arms.
+    # With an amplitude of 80 % about page 1 (480 and 544) the pose of the exit page is 506 and 518 for the arms.
     assert [board.servos[joint].goal for joint in (1, 2, 11, 12, 13)] == [506, 518, 512, 512, 512]
     fields = where(board)
     assert (fields["state"], fields["rate"], fields["blend"]) == ("idle", "100", "0")

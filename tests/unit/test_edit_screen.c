@@ -84,7 +84,7 @@ static void test_cursor_rests_on_its_cell(void)
     }
 }
 
-/* ---- what is sent ---- */
+/* ---- output to the terminal ---- */
 
 /* Pages 1 and 2 differ only in STP0 of joint 3, page speed, name, number and address. */
 static void test_page_change_sends_the_cells_that_differ_and_no_other(void)

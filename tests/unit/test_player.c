@@ -113,7 +113,7 @@ static void test_player_exact_stands_at_a_turning_point_a_pause_and_the_end(void
         uint16_t before = player_goal(&player, 0), target = sparse_pages[1].step[step].pos[0];
         (void)player_tick(&player, &l);
         TEST_ASSERT_EQUAL_UINT16(target, player_goal(&player, 0));
-        TEST_ASSERT_UINT16_WITHIN(1, target, before); /* way of the last of 16 decelerating ticks: 400 / 32 / 16 / 2 */
+        TEST_ASSERT_UINT16_WITHIN(1, target, before); /* the last of 16 decelerating ticks: 400 / 32 / 16 / 2 units */
         if (step == 1) {
             (void)player_tick(&player, &l);
         }
