@@ -10,9 +10,9 @@
 
 #define GAP_TICKS UART_TICKS(100)  /* inside a frame */
 #define IDLE_TICKS UART_TICKS(4000) /* between frames */
-#define NOISE_MAX 1000u             /* bytes outside of frames: someone is typing */
+#define NOISE_MAX 1000u             /* bytes without a frame: a person is typing */
 #define SUMS_MAX 64u               /* pages in one answer */
-#define EEPROM_WRITE_MAX 32u       /* takes 0.27 s, in which the ring does not run over */
+#define EEPROM_WRITE_MAX 32u       /* takes 0.27 s, in which the ring does not overflow */
 #define RAM_PAGES_END ((MEMORY_RAM + MEM_RAM_END) / 256u)
 #define EEPROM_PAGES (MEMORY_EEPROM / 256u)
 STATIC_ASSERT(MEM_RAM_END % 256u == 0, "RAM ends with a page");
@@ -41,7 +41,7 @@ static void put(uint8_t byte)
     uart_put(byte);
 }
 
-/* Sends an answer up to its data: head, status, detail. `bytes` (even) of data and answer_end must follow. */
+/* Sends the beginning of an answer: head, status, detail. `bytes` (even) of data and answer_end must follow. */
 static void answer_begin(const uint8_t *request, uint8_t status, uint8_t detail, uint16_t bytes)
 {
     uart_put(FRAME_ANSWER);
@@ -60,7 +60,7 @@ static void answer_end(void)
     uart_put((uint8_t)end);
 }
 
-/* Sends CRC and plain sum of each page: two different checks, so that a changed page does not pass as equal. */
+/* Sends CRC and plain sum of each page: two different checks, so that a changed page does not appear equal. */
 static void put_sums(uint16_t page, uint16_t count)
 {
     for (; count > 0; count--) {
@@ -73,8 +73,8 @@ static void put_sums(uint16_t page, uint16_t count)
     }
 }
 
-/* Does what must be done before the answer to a good request. Returns the answer's status. *bytes of data are to follow,
- * read from the cursor on (SUMS: computed while they are sent). */
+/* Does the part of a good request that precedes its answer. Returns the answer's status. *bytes of data must follow, read
+ * from the cursor on (SUMS: computed while they are sent). */
 static uint8_t perform(uint8_t command, const uint8_t *request, uint16_t *bytes)
 {
     const block_body_t *body = (const block_body_t *)(request + FRAME_AT_BODY);
@@ -88,7 +88,7 @@ static uint8_t perform(uint8_t command, const uint8_t *request, uint16_t *bytes)
         return body->page == UART_UBRR_57143 || body->page == UART_UBRR_117647 ? OK : REFUSED;
     case READ:
         if (body->page >= RAM_PAGES_END && body->page < EEPROM_PAGES) {
-            return REFUSED; /* no memory there: reads would return leftovers of the chip's bus */
+            return REFUSED; /* no memory here: reads would return leftovers of the chip's bus */
         }
         memory_seek(flash_addr(body->page));
         *bytes = FLASH_PAGE_BYTES;
@@ -112,7 +112,7 @@ static uint8_t perform(uint8_t command, const uint8_t *request, uint16_t *bytes)
     }
 }
 
-/* Does what must be done after the answer. false: the session is over. */
+/* Does the part of a request that follows its answer. false: the session is over. */
 static bool follow_up(uint8_t command, uint16_t where)
 {
     if (command == RATE) {
@@ -178,7 +178,7 @@ void block_session(void)
             if (!is_proven) {
                 break;
             }
-            noise = 0; /* still a program: if the session ended, the prompt would take the rest for typed text */
+            noise = 0; /* still a program: after an end of the session, the prompt would take the rest for typed text */
             answer_begin(memory_work, BAD_FRAME, 0, 0); /* command and number may be damaged too (BLOCK_PROTOCOL.md) */
             answer_end();
         }

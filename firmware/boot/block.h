@@ -5,8 +5,8 @@
 
 #include "frame.h"
 
-/* Runs a session. The caller has taken the first byte of the first frame. Ends with LEAVE, after 4 s without a good frame,
- * or at once if the first frame is bad. Afterwards the line runs at 57,143 again. */
+/* Runs a session. The caller has taken the first byte of the first frame. Ends with LEAVE, after 4 s of silence or 1,000
+ * bytes without a frame, or at once if the first frame is bad. Afterwards the line runs at 57,143 again. */
 void block_session(void);
 
 #endif

@@ -9,7 +9,7 @@
 #define STEADY_TICKS UART_TICKS(10)
 
 static bool was_pressed;       /* at the last look */
-static uint16_t changed_ticks; /* when that changed */
+static uint16_t changed_ticks; /* clock of its last change */
 
 button_t button_look(void)
 {

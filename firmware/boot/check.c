@@ -13,7 +13,7 @@
 
 #define PAGE_BYTES 512u
 #define ROW 64u /* flash pages: 32 motion pages */
-/* Bytes of the page header that say whether there is anything to play (page.h); a page's bytes sum to 0xFF. */
+/* Bytes of the page header that are 0 if there is nothing to play (page.h). The bytes of a page sum to 0xFF. */
 #define AT_PLAY_COUNT 15u
 #define AT_STEPS 20u
 #define GOOD_SUM 0xFFu
@@ -29,7 +29,7 @@ static uint16_t crc_of(uint16_t page, uint16_t end)
 
 typedef enum { PAGE_VALID, PAGE_EMPTY, PAGE_BAD } page_kind_t;
 
-/* Judges a motion page: empty when erased or without steps, valid when its sum is right. Continues the area's CRC. */
+/* Classifies a motion page: empty if erased or without steps or PlayCount, bad if its sum is wrong. Continues the CRC. */
 static page_kind_t page_kind(uint16_t flash_page)
 {
     memory_scan_start();

@@ -4,10 +4,10 @@
 #define CHECK_H
 
 
-/* In words, then the same as one line that begins with "CHECK" (RECOVERY.md explains both). */
+/* Prints a map of the motion pages, then one line that begins with "CHECK" (RECOVERY.md explains both). */
 void check_all(void);
 
-/* One line: versions, board, features, application. */
+/* Prints one line: versions, board, features, application. */
 void check_id(void);
 
 #endif

@@ -3,7 +3,7 @@
  *
  *   0xA5 | command | number | n | 2 n bytes of body | CRC-16 high, low      CRC over command .. body (crc16.h)
  *
- * The CRC of a good frame, run over its own two bytes as well, is 0. */
+ * The CRC of a good frame, including its own two bytes, is 0. */
 #ifndef FRAME_H
 #define FRAME_H
 
@@ -26,7 +26,7 @@ typedef struct {
 typedef enum {
     FRAME_MORE = 0, /* nothing to do yet */
     FRAME_GOOD,     /* bytes[] holds a frame */
-    FRAME_BAD       /* CRC or count wrong: dropped, waiting for FRAME_REQUEST again */
+    FRAME_BAD       /* CRC or count wrong: dropped; waits for FRAME_REQUEST again */
 } frame_status_t;
 
 /* Begins to wait for FRAME_REQUEST. */
@@ -35,7 +35,7 @@ void frame_init(frame_t *frame, uint8_t *bytes);
 /* true between FRAME_REQUEST and the end of the CRC. */
 bool frame_is_open(const frame_t *frame);
 
-/* Takes the next byte. After FRAME_GOOD bytes[] stays until the next byte comes. */
+/* Takes the next byte. After FRAME_GOOD, bytes[] is valid until the next call. */
 frame_status_t frame_feed(frame_t *frame, uint8_t byte);
 
 #endif

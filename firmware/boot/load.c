@@ -16,7 +16,7 @@
 #define PATIENCE_TICKS UART_TICKS(2000)
 
 /* Prints the address line and `ready`, then waits for data. false: a lone ESC, START, or a minute of silence. The ESC
- * stays in the ring, where the prompt ignores it. */
+ * stays in the ring; the prompt ignores it. */
 static bool begin(uint32_t addr, const char *ready)
 {
     SAY("Write Address : ");
@@ -63,7 +63,7 @@ static void report(const load_record_t *record, bool is_good)
     print_hex8(record->last);
 }
 
-/* Keeps each byte back until the next one comes, because the last one is the sum. memory_work holds the page being
+/* Holds each byte back until the next one arrives, because the last one is the sum. memory_work has the page being
  * filled. */
 void load_flash(uint32_t addr)
 {

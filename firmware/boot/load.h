@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * load.h - the transfers of the original's words: raw bytes, ended by silence or a length. */
+ * load.h - the transfers of the original's words: raw bytes that end with silence or at a length. */
 #ifndef LOAD_H
 #define LOAD_H
 
@@ -13,10 +13,10 @@ typedef struct __attribute__((packed)) {
 } load_record_t;
 
 /* LOAD: receives raw data for flash from `addr` on, then an 8-bit sum byte, then 111 ms of silence. Writes neither the sum
- * byte nor anything after the end of the region that addr is in. Keeps the rest of the first and the last flash page. */
+ * byte nor anything beyond the region of `addr`. Keeps the rest of the first and the last flash page. */
 void load_flash(uint32_t addr);
 
-/* UP, EEP_UP: sends `count` raw bytes from address `addr` (memory.h) on to the PC. Waits until START was pressed and
+/* UP, EEP_UP: sends `count` raw bytes from address `addr` (memory.h) on to the PC. First waits until START was pressed and
  * released, or any byte came (ESC: sends nothing). */
 void load_send(uint32_t addr, uint32_t count);
 

@@ -2,7 +2,7 @@
  * main.c - the boot loader from reset on: completes a save that a power cut interrupted, serves the mailbox, then stays or
  * starts the application.
  *
- *   reset -> journal -> mailbox -> window of 60 ms ---- stay asked for, or no application ----> prompt
+ *   reset -> journal -> mailbox -> window of 60 ms ---- stay requested, or no application ----> prompt
  *                                        \---- else ----> application */
 #include "button.h"
 #include "journal.h"
@@ -17,14 +17,14 @@
 #include <avr/io.h>
 
 #define WINDOW_TICKS UART_TICKS(60)
-#define START_TICKS UART_TICKS(12) /* a little more than START needs to stand still (button.c) */
+#define START_TICKS UART_TICKS(12) /* a little longer than START's debounce time (button.c) */
 #define LEDS_TICKS UART_TICKS(100)
 #define MAIL_POSTED 0xAAu
 #define MAIL_WRITTEN 0x55u
 #define MAIL_REFUSED 0xFFu
 
 /* Writes the motion page that the factory's application left in EEPROM (section 7a). The state stays AA until both flash
- * pages are right, so after a power cut the next start does it again. A page above 127 lies in the boot section or beyond;
+ * pages are handled, so after a power cut the next start repeats it. A page above 127 is in the boot section or beyond;
  * memory_commit refuses it. */
 static void answer_mailbox(void)
 {
@@ -46,9 +46,9 @@ static void answer_mailbox(void)
 
 typedef enum { STAY_NO, STAY_PROMPT, STAY_STK500 } stay_t;
 
-/* Looks at START first: it counts when it is down from the beginning until it has stood still. Then listens until 60 ms
- * have passed, or for as long as the application's CRC takes; the receiver's interrupt keeps what comes meanwhile. Only the
- * last byte counts, as in the original; the sync of avrdude is two bytes. */
+/* First debounces START, which must be down from the beginning. Then listens until 60 ms have passed, or longer if the
+ * application's CRC takes longer; the receiver's interrupt keeps the bytes that arrive meanwhile. Only the last byte counts,
+ * as in the original; the sync of avrdude is two bytes. */
 static stay_t ask_to_stay(void)
 {
     uint8_t last = 0, byte = 0;
@@ -72,7 +72,7 @@ static stay_t ask_to_stay(void)
                : STAY_NO;
 }
 
-/* Our own vectors: only two of the 35 are used, and tables fill the gap between them (boot.ld.in). */
+/* Our own vectors: only two of the 35 are used; tables fill the gap between them (boot.ld.in). */
 static void __attribute__((naked, used, section(".vectors"))) reset_vector(void)
 {
     asm volatile("jmp __init");

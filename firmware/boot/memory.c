@@ -156,9 +156,9 @@ void memory_scan(uint16_t page)
 #define LENGTH_AT (MEM_APP_RECORD + APP_RECORD_AT_LENGTH)
 #define CRC_AT (MEM_APP_RECORD + APP_RECORD_AT_CRC)
 
-/* A magic with extra bits set was half erased or half written when the power failed: that image is ours and damaged. The
- * CRC counts its own two bytes as 0xFF (app_record.h). The application lies below 64 KiB, within reach of short reads:
- * 46 cycles a byte, 60 ms for 20 KiB. The low half of the length is enough, because the CRC covers the high one. */
+/* A magic with extra bits set was half erased or half written when the power failed: the image is ours and damaged. The
+ * CRC treats its own two bytes as 0xFF (app_record.h). The application is below 64 KiB, so near reads suffice: 46 cycles
+ * per byte, 60 ms for 20 KiB. The low half of the length is enough, because the CRC covers the high one. */
 memory_app_t memory_app(void)
 {
     uint16_t length = pgm_read_word(LENGTH_AT);

@@ -25,7 +25,7 @@ static char *take_token(char **line)
     return token;
 }
 
-/* The number, or PARSE_NUMBER_MAX + 1 if it is none. */
+/* Returns the number, or a value above PARSE_NUMBER_MAX if it is not valid. */
 static uint32_t parse_hex(const char *token)
 {
     uint32_t value = 0;

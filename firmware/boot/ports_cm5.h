@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * ports_cm5.h - the CM-5's pins as the loader sets them (BOARD.md) and as an application finds them
+ * ports_cm5.h - the CM-5's pins as the loader sets them (BOARD.md) and as it hands them to an application
  * (ORIGINAL.md, section 5). */
 #ifndef PORTS_H
 #define PORTS_H
@@ -9,10 +9,10 @@
 #define BOOT_BOARD 1 /* app_record.h: CM-5 */
 #define PORTS_BOARD_NAME "CM5"
 
-/* While the loader runs, the gate of the PC's line is open (PD5) and that of the radio is closed. */
+/* While the loader runs, the gate of the PC's line (PD5) is open and that of the radio is closed. */
 #define PORTS_OPEN() \
     (DDRB = 0x20, PORTB = 0x20, PORTC = 0x7E, DDRC = 0x77, PORTD = 0x31, DDRD = 0x70, PORTE = 0x00, DDRE = 0x0C)
-#define PORTS_HAND_OVER() (PORTD = 0x51) /* the others are as PORTS_OPEN left them */
+#define PORTS_HAND_OVER() (PORTD = 0x51) /* the other ports stay as PORTS_OPEN set them */
 
 #define PORTS_START_PRESSED() (!(PIND & 1 << PD0))
 

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT
  * print.h - prints strings of the boot section and hexadecimal numbers.
- * The boot section lies above 64 KiB, so its PROGMEM addresses of 16 bits are read with RAMPZ = 1. */
+ * The boot section is above 64 KiB, so its 16-bit PROGMEM addresses are read with RAMPZ = 1. */
 #ifndef PRINT_H
 #define PRINT_H
 
 #include <avr/pgmspace.h>
 #include <stdint.h>
 
-/* PROGMEM for small tables in the gap between the two vectors in use: 112 bytes in all. */
+/* PROGMEM for small tables in the gap between the two used vectors: 112 bytes in total. */
 #define PROGMEM_GAP __attribute__((section(".progmem.gap")))
 
-/* One byte of a PROGMEM object of the loader. */
+/* Reads one byte of a PROGMEM object of the loader. */
 uint8_t print_byte(const void *progmem);
 
 /* Prints a PROGMEM string; print_say prints CR LF and a space before it, as the original does. */
@@ -19,7 +19,7 @@ void print_say(const char *progmem);
 #define SAY(literal) print_say(PSTR(literal))
 #define PUT(literal) print_put(PSTR(literal))
 
-/* The n-th (0..) of several strings, each ended by a NUL. */
+/* Prints the n-th (from 0) of several NUL-terminated strings. */
 void print_nth(const char *progmem, uint8_t n);
 
 void print_line(void); /* CR LF space */

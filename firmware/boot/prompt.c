@@ -19,8 +19,8 @@ enum { BACKSPACE = 8, ESC = 27, CR = 13, LF = 10 };
 
 static char line[LINE_BYTES];
 static uint8_t length;
-static bool is_binary;    /* the line has bytes that nobody types, so it is no command */
-static bool was_released; /* START was up since the prompt came */
+static bool is_binary;    /* the line has bytes that nobody types, so it is not a command */
+static bool was_released; /* START has been up since the prompt appeared */
 
 static void prompt(void)
 {
@@ -44,7 +44,7 @@ static void __attribute__((noinline)) run_line(void)
     prompt();
 }
 
-/* true: the byte began a binary protocol, whose session has run and ended. */
+/* true: the byte began a binary protocol, and its session is over. */
 static bool is_protocol(uint8_t byte)
 {
     if (byte == FRAME_REQUEST) {
@@ -75,7 +75,7 @@ static void edit_line(uint8_t byte)
     }
 }
 
-/* START at the prompt means GO, unless it has been down since before the prompt came. */
+/* START at the prompt means GO, unless it has been down since before the prompt appeared. */
 static void watch_start(void)
 {
     button_t start = button_look();

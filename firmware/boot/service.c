@@ -40,8 +40,8 @@ static void wait(const boot_rx_t *rx)
     }
 }
 
-/* Polls the UART for some bytes only, because a character takes 2,780 cycles: polling for each of the 512 would cost
- * 0.5 ms a page. */
+/* Polls the UART only for some bytes of the page, because a character takes 2,780 cycles. Polling for every byte would cost
+ * 0.5 ms per page. */
 static void poll_now_and_then(uint8_t at, const boot_rx_t *rx)
 {
     if ((at & 0x1E) == 0) {
@@ -49,7 +49,7 @@ static void poll_now_and_then(uint8_t at, const boot_rx_t *rx)
     }
 }
 
-/* Fill, erase, write, compare. RAMPZ selects the 64 KiB half of the page throughout. */
+/* Fills the buffer, erases, writes, compares. RAMPZ must select the 64 KiB half of the page. */
 static bool write_once(uint16_t addr, const uint8_t *data, uint16_t bytes, uint8_t mode, const boot_rx_t *rx)
 {
     uint8_t at = 0;
@@ -100,7 +100,7 @@ boot_write_page(uint32_t addr, const uint8_t *data, uint16_t bytes, uint8_t mode
     return failed << 8 | result;
 }
 
-/* The call table; 0x940C is JMP, and the address of a function is its word address. */
+/* The call table. 0x940C is JMP; a function pointer is a word address. */
 typedef struct {
     boot_api_head_t head;
     uint16_t jmp;

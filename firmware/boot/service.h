@@ -12,7 +12,7 @@
 /* The entry at BOOT_API_WRITE_PAGE; contract in boot_api.h. */
 boot_write_page_t boot_write_page;
 
-/* Moves a byte from UART1 into the ring, if one has come. rx may be NULL: does nothing. */
+/* Moves a received byte, if any, from UART1 into the ring. Does nothing if rx is NULL. */
 void service_poll(const boot_rx_t *rx);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * spm.h - the four uses of the SPM instruction, in this file only. Before a call: RAMPZ selects the 64 KiB half, interrupts
- * are off, no EEPROM write is under way. addr is a byte address in that half; a page address for all but spm_fill and
- * spm_read. Touches no RAM. Inlined: an erase is three instructions.
+ * are off, no EEPROM write is pending. addr is a byte address in that half; for all but spm_fill and spm_read, a page
+ * address. Touches no RAM. Inlined: an erase is three instructions.
  * Assembly, because SPM must follow the store to SPMCSR within four cycles, with address and data in Z and r1:r0. */
 #ifndef SPM_H
 #define SPM_H
@@ -31,7 +31,7 @@ static inline void spm_fill(uint16_t addr, uint16_t word)
                  : "r0", "memory");
 }
 
-/* Start to erase a page or to write the page buffer: 4.5 ms. spm_is_busy says when it is done. */
+/* Start to erase a page or to write the page buffer: 4.5 ms, until spm_is_busy returns false. */
 static inline void spm_erase(uint16_t addr)
 {
     spm_command(addr, 1 << PGERS | 1 << SPMEN);
@@ -47,7 +47,7 @@ static inline bool spm_is_busy(void)
     return (SPMCSR & 1 << SPMEN) != 0;
 }
 
-/* Makes the flash below 0x1E000 readable again and empties the page buffer. */
+/* Makes the flash below 0x1E000 readable again and clears the page buffer. */
 static inline void spm_release(void)
 {
     spm_command(0, 1 << RWWSRE | 1 << SPMEN);

@@ -6,9 +6,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Jumps to word address `word`, in the state that ORIGINAL.md lists in section 5: interrupts off, vectors
- * at 0, UART1 on at 57,143 with its receive interrupt, UART0 on, timers as after reset. MCUCSR is untouched, so the
- * application still sees the reset cause. */
+/* Jumps to word address `word`, in the state of ORIGINAL.md, section 5: interrupts off, vectors at 0, UART1 on at 57,143
+ * with its receive interrupt, UART0 on, timers as after reset. MCUCSR is unchanged, so the application still sees the reset
+ * cause. */
 void start_jump(uint16_t word) __attribute__((noreturn));
 
 /* Resets the chip by its watchdog, after 16 ms. */

@@ -28,7 +28,7 @@ static struct {
     uint8_t args[20];
     uint16_t address;  /* of LOAD_ADDRESS, in words: avrdude's arduino programmer halves EEPROM addresses too */
     bool is_entered;
-    bool is_broken;    /* the line fell silent inside a command */
+    bool is_broken;    /* the line went silent inside a command */
 } stk;
 
 static uint8_t take(void)
@@ -40,7 +40,7 @@ static uint8_t take(void)
     return 0;
 }
 
-/* 0xFF: unknown command. */
+/* Returns 0xFF for an unknown command. */
 static uint8_t arg_count(uint8_t command)
 {
     for (uint8_t i = 0;; i += 2) {
@@ -64,7 +64,7 @@ static bool is_flash(void)
     return stk.args[2] == 'F';
 }
 
-/* A block for part of a flash page has been merged with the rest of that page already (take_command). */
+/* take_command has already merged a partial block with the rest of its flash page. */
 static bool program(void)
 {
     uint16_t count = length();
@@ -90,9 +90,9 @@ static void read(void)
     }
 }
 
-/* An instruction of serial programming. 50 00, 58 00, 50 08, 58 08 read low fuse, lock bits, extended and high fuse, which
- * have the numbers 0 to 3 here (data sheet, "Reading the Fuse and Lock Bits from Software"); AC 80 is chip erase. The rest,
- * such as a new fuse, is refused. */
+/* An instruction of serial programming. 50 00, 58 00, 50 08, 58 08 read low fuse, lock bits, extended and high fuse: numbers
+ * 0 to 3 here (data sheet, "Reading the Fuse and Lock Bits from Software"). AC 80 is chip erase. The rest, such as writing a
+ * fuse, is refused. */
 static uint8_t universal(void)
 {
     uint8_t first = stk.args[0], second = stk.args[1];
@@ -103,14 +103,14 @@ static uint8_t universal(void)
     if (second & 8) {
         number += 2;
     }
-    cli(); /* the receiver's interrupt between its two instructions would make it read flash */
+    cli(); /* an interrupt between the two instructions of the read would make it read flash */
     uint8_t value = boot_lock_fuse_bits_get(number);
     sei();
     uart_put(value);
     return (first & ~8) == READ_FUSE || second == ERASE_CHIP ? OK : FAILED;
 }
 
-/* Sends the answer between INSYNC and OK; returns its last byte. */
+/* Sends the data between INSYNC and OK; returns the last byte of the answer. */
 static uint8_t carry_out(uint8_t command)
 {
     switch (command) {

@@ -9,7 +9,7 @@
 
 static uint8_t ring[256];
 static volatile uint8_t head; /* written by the interrupt and service_poll */
-static volatile uint8_t tail; /* written by uart_get */
+static volatile uint8_t tail; /* written by uart_next */
 static volatile uint8_t lost;
 
 const boot_rx_t uart_rx = {.buffer = ring, .head = &head, .tail = &tail, .lost = &lost, .mask = 0xFF};
@@ -29,7 +29,7 @@ void uart_put(uint8_t byte)
         wdt_reset();
     }
     UDR1 = byte;
-    UCSR1A = 1 << U2X1 | 1 << TXC1; /* cleared after UDR1: the byte before could still set the flag until then */
+    UCSR1A = 1 << U2X1 | 1 << TXC1; /* cleared after UDR1: until then the previous byte could still set the flag */
 }
 
 void uart_flush(void)
@@ -104,7 +104,7 @@ uint8_t uart_lost(void)
     return lost;
 }
 
-/* One byte into the ring: about 110 cycles with entry and exit; at 117,647 a byte comes every 1,360. */
+/* About 110 cycles with entry and exit; at 117,647 baud a byte arrives every 1,360. */
 ISR(USART1_RX_vect)
 {
     service_poll(&uart_rx);

@@ -19,20 +19,20 @@
 enum { HELP, FLASH, EEPROM, RAM, LOAD, UP, EEP_UP, EEP_DN, VERIFY, CLEAR, GO, FORCE, RESET, APP, SYS, CHECK, ID,
        PLAY, TOSS, MON, EDIT, DUMP, WORD_CODES, UNKNOWN = 0xFF };
 
-/* Words, each ended by 0x80 + code, in the order of HELP. */
+/* Words, each followed by 0x80 + code, in the order of HELP. */
 static const char words[] PROGMEM =
     "HELP\x80" "FLASH\x81" "F\x81" "EEPROM\x82" "EEP\x82" "E\x82" "RAM\x83" "R\x83"
     "LOAD\x84" "LD\x84" "L\x84" "DOWN\x84" "DN\x84" "UP\x85" "EEP_UP\x86" "EEP_DN\x87" "VERIFY\x88" "V\x88"
     "CLEAR_EEPROM\x89" "GO\x8A" "G\x8A" "FORCE\x8B" "RESET\x8C" "APPLICATION\x8D" "APP\x8D" "SYSTEM\x8E" "SYS\x8E"
     "CHECK\x8F" "ID\x90" "PLAY\x91" "TOSS\x92" "MONITOR\x93" "MON\x93" "EDIT\x94" "DUMP\x95";
 
-/* Numbers of arguments: the fewest in the high nibble, the most in the low one. */
+/* Numbers of arguments: the minimum in the high nibble, the maximum in the low one. */
 static const uint8_t limits[WORD_CODES] PROGMEM_GAP = {
     [FLASH] = 0x01, [EEPROM] = 0x01, [RAM] = 0x01, [LOAD] = 0x01, [UP] = 0x22, [EEP_UP] = 0x22, [EEP_DN] = 0x22,
     [CLEAR] = 0x02, [GO] = 0x01};
 
-/* The end of the memory that the word's address and length are about, in units of 4 KiB; 1 for words without. A dump of
- * RAM that would leave it begins at 0. */
+/* The end of the memory that the word's address and length refer to, in units of 4 KiB; 1 for words without. A dump that
+ * would run past the end of RAM begins at 0. */
 static const uint8_t ends[WORD_CODES] PROGMEM_GAP = {
     [HELP] = 1, [FLASH] = MEM_BOOT_END / 4096, [EEPROM] = MEM_EEPROM_BYTES / 4096, [RAM] = MEM_RAM_END / 4096 + 1,
     [LOAD] = MEM_BOOT_START / 4096, [UP] = MEM_BOOT_END / 4096, [EEP_UP ... CLEAR] = MEM_EEPROM_BYTES / 4096,
@@ -56,7 +56,7 @@ static uint8_t find(const char *word)
     return UNKNOWN;
 }
 
-/* Prints all words, then what a newcomer must know. */
+/* Prints all words, then a line for newcomers. */
 static void help(void)
 {
     print_line();
@@ -99,7 +99,7 @@ static void dump(uint8_t code, const parse_t *line)
     PUT("\r\n");
 }
 
-/* Sums flash from 0 on, so it checks downloads to 0 only: they are right when the second sum equals the third. */
+/* Sums flash from 0 on, so it checks only downloads to 0: they are correct if the second sum equals the third. */
 static void verify(void)
 {
     load_record_t record;
@@ -170,8 +170,8 @@ static void set_start(uint8_t code)
     PUT(" Mode");
 }
 
-/* Whether address and length lie in the word's memory. Numbers have 20 bits: the sum does not overflow, and as a number of
- * pages it fits 16. */
+/* Whether address and length are within the word's memory. Numbers have 20 bits, so the sum does not overflow, and as a
+ * number of pages it fits 16. */
 static bool is_in_range(uint8_t code, const parse_t *line)
 {
     uint16_t pages = (uint16_t)((line->arg[0] + line->arg[1] + 0xFF) >> 8);

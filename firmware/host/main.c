@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * main.c - how Play and Edit begin on a PC: options, the computer's ports and files, then program.c. */
+ * main.c - start of Play and Edit on a PC: options, the computer's ports and files, then program.c. */
 #include "program.h"
 
 #include "hal/host/pc/pc.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * program.c - what the boot loader does on the chip: fetches what was kept, completes the save that a power cut has
- * interrupted, then runs the image's own main, which the build calls image_main. */
+ * program.c - the part of the boot loader on the chip: loads the kept memories, completes a save that a power cut
+ * interrupted, then runs the image's own main, which the build renames to image_main. */
 #include "program.h"
 
 #include "hal/host/host.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * program.h - how Play and Edit begin over any machine of hal/host, once it is open. */
+ * program.h - start of Play and Edit on any machine of hal/host, once it is open. */
 #ifndef PROGRAM_H
 #define PROGRAM_H
 

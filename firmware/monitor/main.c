@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * main.c - Monitor: the image for setting servos up. Lines in, packets out; nothing moves by itself. */
+ * main.c - Monitor: the image for setting up servos. Lines in, packets out; nothing moves by itself. */
 #include "board.h"
 #include "console.h"
 #include "monitor.h"

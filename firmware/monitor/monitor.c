@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * monitor.c - prompt, lines and table of the servo bus monitor (edit/ORIGINAL.md section 11), and the words for the whole
- * bus. The words for one servo: servo_words.c. */
+ * bus. servo_words.c has the words for one servo. */
 #include "monitor.h"
 
 #include "console.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * monitor.h - what the files of the Monitor image share. */
+ * monitor.h - the declarations shared by the files of the Monitor image. */
 #ifndef MONITOR_H
 #define MONITOR_H
 
@@ -8,8 +8,8 @@
 
 #define TOSS_BUFFER_BYTES 64u   /* a power of two */
 
-/* toss.c: connects the PC to the servos. Packets from the console go to the bus unchanged, everything heard on the bus goes
- * to the console. Blocks until three ESC come outside a packet; kicks the watchdog. */
+/* toss.c: connects the PC to the servos. Forwards packets from the console to the bus, and all bytes from the bus to the
+ * console, unchanged. Blocks until three ESC arrive outside a packet; kicks the watchdog. */
 void toss_run(uint8_t buffer[TOSS_BUFFER_BYTES]);
 
 /* monitor.c: prints the prompt, runs a line. */

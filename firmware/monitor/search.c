@@ -46,7 +46,7 @@ void search_make_fast(void)
     for (uint8_t id = 0; id <= ID_MAX; id++) {
         system_kick();
         if (bus_call_ping(id, 1, NULL) == BUS_OK) {
-            /* A servo may answer at the old rate, at the new one, or not at all. The search at the end tells. */
+            /* A servo may answer at the old rate, at the new one, or not at all. The final search shows the result. */
             (void)bus_call(id, DXL_WRITE, change, sizeof change, 0, BUS_CALL_TRIES, NULL);
             text_put(' ');
             text_padded(id, 3, '0');

@@ -23,7 +23,7 @@ static uint8_t send(uint8_t instruction, uint8_t count)
     return SHELL_OK;
 }
 
-/* Takes all words as parameters. Returns their number; 0: one of them is no byte (SHELL_ERR_RANGE). */
+/* Takes all words as parameters. Returns their number; 0: too many, or one is not a byte (SHELL_ERR_RANGE). */
 static uint8_t take_bytes(const shell_args_t *args)
 {
     uint8_t count = (uint8_t)(args->count - 1u);
@@ -54,7 +54,7 @@ static bool write_number(const shell_args_t *args, uint8_t address)
     return packets_exchange(current, DXL_WRITE, 2);
 }
 
-/* Refuses words that would ruin all servos at once. */
+/* Refuses words that would misconfigure all servos at once. */
 static bool is_one_servo(void)
 {
     if (current == DXL_BROADCAST) {

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT
- * servo_words.h - the words for the current servo, which CID chooses. Each sends a packet and shows it and its answer, byte
- * by byte (DUMP: the bytes alone). Handlers of shell.h. Main loop only. */
+ * servo_words.h - the words for the current servo, which CID selects. Each sends a packet and shows it and its answer, byte
+ * by byte (DUMP: only the bytes read). Handlers of shell.h. Main loop only. */
 #ifndef SERVO_WORDS_H
 #define SERVO_WORDS_H
 
 #include <stdint.h>
 #include "shell.h"
 
-/* Heads the handler of a word. */
+/* The signature of a word's handler. */
 #define WORD(name) uint8_t name(const shell_args_t *args)
 
-/* Chooses servo 1. */
+/* Selects servo 1. */
 void servo_words_init(void);
 
 /* The current servo's ID, 0..253; DXL_BROADCAST: all. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * toss.c - the bridge between PC and servos. Packets from the console go to the bus unchanged, everything heard on the bus
- * goes to the console. Silence or a lost byte ends a packet that is not whole, so that it swallows none of the next.
+ * toss.c - the bridge between PC and servos. Forwards packets from the console to the bus, and all bytes from the bus to the
+ * console, unchanged. Silence or a lost byte drops an incomplete packet, so that it swallows no bytes of the next.
  * Three ESC outside a packet end the bridge. */
 #include "monitor.h"
 
@@ -12,11 +12,11 @@
 #include "tick.h"
 
 enum { ESC = 0x1B, ESCAPES = 3, HEADER_BYTES = 4, LENGTH_AT = 3, LENGTH_MIN = 2 };
-enum { SILENCE_TICKS = 3 };   /* 16 to 23 ms: a USB adapter holds bytes back for less, a PC waits longer for an answer */
+enum { SILENCE_TICKS = 3 };   /* 16 to 23 ms: longer than a USB adapter delays bytes, shorter than a PC awaits an answer */
 
 typedef struct {
-    uint8_t count;     /* bytes of the packet from the PC so far */
-    uint8_t escapes;   /* ESC in a row, outside a packet */
+    uint8_t count;     /* bytes of the PC's packet so far */
+    uint8_t escapes;   /* consecutive ESCs outside a packet */
     uint16_t since;    /* the tick of the last byte */
     uint8_t packet[BUS_PACKET_BYTES];
 } toss_t;
@@ -35,14 +35,14 @@ static bool collect(toss_t *toss, uint8_t byte)
     toss->escapes = 0;
     toss->packet[toss->count++] = byte;
     bool is_whole = toss->count > HEADER_BYTES && toss->count == toss->packet[LENGTH_AT] + HEADER_BYTES;
-    /* A length that no packet has: drops the bytes, which were no packet. */
+    /* A length that no packet has: the bytes were not a packet. */
     if (!is_whole && (toss->count >= BUS_PACKET_BYTES || (toss->count == HEADER_BYTES && byte < LENGTH_MIN))) {
         toss->count = 0;
     }
     return is_whole;
 }
 
-/* Takes what the PC has sent. true: a packet is complete. */
+/* Takes the PC's next byte. true: a packet is complete. */
 static bool listen(toss_t *toss)
 {
     uint8_t byte;
