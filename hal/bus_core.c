@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Address 5 goes up to 254 units of 2 us. */
+/* Address 5 has at most 254 units of 2 us. */
 #define RETURN_DELAY_MAX_HALF_US (254u * 4u)
 
 static void bump(uint16_t *count)
@@ -73,7 +73,7 @@ void bus_core_on_sent(bus_core_t *core, bus_time_t now_half_us)
     }
 }
 
-/* Notes why this try failed. An error of the UART is taken for the cause, whatever it led to. */
+/* Records why this try failed. A UART error counts as the cause, whatever it led to. */
 static void fail(bus_core_t *core, bus_status_t why, uint16_t *count)
 {
     uint8_t flags = core->heard_flags;
@@ -88,13 +88,13 @@ static void fail(bus_core_t *core, bus_status_t why, uint16_t *count)
     bump(count);
 }
 
-/* Judges a status packet with a good checksum. */
+/* Handles a status packet with a good checksum. */
 static void take_packet(bus_core_t *core)
 {
     const uint8_t *status = core->status;
     if (status[2] != core->asked_id) {
         fail(core, BUS_ERR_WRONG_ID, &core->counts.wrong_ids);
-    } else if (status[3] == 2u && (status[4] & DXL_REJECTED) != 0) { /* data with such a bit is data all the same */
+    } else if (status[3] == 2u && (status[4] & DXL_REJECTED) != 0) { /* an answer with data is valid despite such a bit */
         fail(core, BUS_ERR_REJECTED, &core->counts.rejected);
     } else if ((uint8_t)(status[3] - 2u) != core->answer_params) {
         fail(core, BUS_ERR_LENGTH, &core->counts.lengths);
@@ -105,7 +105,7 @@ static void take_packet(bus_core_t *core)
     }
 }
 
-/* Looks at the bytes that came since the last call. Returns whether there were any. */
+/* Parses the bytes received since the last call. Returns whether there were any. */
 static bool take_heard(bus_core_t *core)
 {
     uint8_t count = core->heard_count;
@@ -132,7 +132,7 @@ static bool take_heard(bus_core_t *core)
     return true;
 }
 
-/* LISTENING, and this try has failed: tries again once the line is quiet, or ends the packet. */
+/* In LISTENING, after a failed try: tries again once the line is quiet, or ends the packet. */
 static void after_failure(bus_core_t *core, bus_time_t silence)
 {
     if (silence <= BUS_QUIET_HALF_US + core->byte_half_us) {
@@ -156,7 +156,7 @@ static void listen(bus_core_t *core, bus_time_t now)
     if (core->state != BUS_LISTENING) {
         return;
     }
-    /* Negative when transmit complete came after `now` was read. */
+    /* Negative if transmit complete came after `now` was read. */
     bus_span_t silence = (bus_span_t)(now - core->since);
     if (silence <= 0) {
         return;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * clock.h - a free-running count of half microseconds (Timer 3), for time-outs and for measuring.
- * 16 bits, wraps every 32.768 ms: use it for spans below that, ticks (tick.h) above. Main loop only (an ISR may
+ * clock.h - a free-running count of half microseconds (Timer 3), for time-outs and measurements.
+ * 16 bits, wraps every 32.768 ms: use it for shorter spans, and ticks (tick.h) for longer ones. Main loop only (an ISR may
  * call clock_now_noirq). No RAM. */
 #ifndef CLOCK_H
 #define CLOCK_H
@@ -19,8 +19,8 @@ uint16_t clock_now(void);
 /* The same, for ISRs and for code that runs with interrupts off. */
 uint16_t clock_now_noirq(void);
 
-/* true when more than `span` half microseconds (below 32768) have gone by since `since`; meaningless when asked less
- * often than every 16 ms. */
+/* Whether more than `span` half microseconds (below 32768) have passed since `since`; meaningless if called less often than
+ * every 16 ms. */
 static inline bool clock_is_past(uint16_t now, uint16_t since, uint16_t span)
 {
     return (uint16_t)(now - since) > span;

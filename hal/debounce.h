@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * debounce.h - up to eight contacts at once. A change counts when it was seen in several samples in a row.
+ * debounce.h - debounces up to eight contacts at once. A change takes effect after several equal samples in a row.
  * Pure; caller-owned; main loop only. */
 #ifndef DEBOUNCE_H
 #define DEBOUNCE_H
@@ -9,13 +9,13 @@
 typedef struct {
     uint8_t steady;   /* the debounced state */
     uint8_t last;     /* the last sample */
-    uint8_t seen;     /* how many samples in a row were equal to it */
+    uint8_t seen;     /* consecutive samples equal to it */
 } debounce_t;
 
 /* Starts with `now` as the steady state. */
 void debounce_init(debounce_t *debounce, uint8_t now);
 
-/* One sample; `needed` equal ones in a row (2..255) make it steady. Returns the steady state. */
+/* Takes one sample; `needed` equal ones in a row (2..255) make it steady. Returns the steady state. */
 uint8_t debounce_sample(debounce_t *debounce, uint8_t sample, uint8_t needed);
 
 #endif

@@ -5,7 +5,7 @@
 #define DXL_H
 
 #define DXL_BROADCAST 254u
-#define DXL_PACKET_MAX 143u  /* bytes, header and checksum included: the AX-12's limit */
+#define DXL_PACKET_MAX 143u  /* bytes, including header and checksum: the AX-12's limit */
 
 enum {
     DXL_PING = 1,
@@ -28,7 +28,7 @@ enum {
     DXL_ERR_INSTRUCTION = 1 << 6
 };
 
-/* Those that mean that the instruction was not obeyed. The others tell the state of the servo, which has obeyed. */
+/* Bits of an instruction that was not obeyed. The others report the state of the servo, which has obeyed. */
 #define DXL_REJECTED (DXL_ERR_RANGE | DXL_ERR_CHECKSUM | DXL_ERR_INSTRUCTION)
 
 /* Control table. Words are low byte first. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * dxl_packet.h - builds instruction packets and finds status packets in what was heard.
+ * dxl_packet.h - builds instruction packets and finds status packets in received bytes.
  * Pure: knows neither UART nor time. No RAM of its own. */
 #ifndef DXL_PACKET_H
 #define DXL_PACKET_H
@@ -18,7 +18,7 @@
 
 /* ---- building, in place ---- */
 
-/* A packet under construction. The caller makes sure that the buffer has room. */
+/* A packet under construction. The caller ensures that the buffer has room. */
 typedef struct {
     uint8_t *packet;
     uint8_t *at;   /* where the next byte goes */
@@ -42,7 +42,7 @@ ALWAYS_INLINE void dxl_put(dxl_writer_t *writer, uint8_t byte)
     writer->sum = (uint8_t)(writer->sum + byte);
 }
 
-/* Length and checksum; returns the packet's size in bytes. */
+/* Adds length and checksum; returns the packet's size in bytes. */
 ALWAYS_INLINE uint8_t dxl_end(dxl_writer_t *writer)
 {
     uint8_t length = (uint8_t)(writer->at - writer->packet - 3);
@@ -51,12 +51,12 @@ ALWAYS_INLINE uint8_t dxl_end(dxl_writer_t *writer)
     return (uint8_t)(writer->at - writer->packet);
 }
 
-/* All at once: returns the size. `packet` has room for count + DXL_PACKET_OVERHEAD bytes. */
+/* Builds a whole packet; returns its size. `packet` has room for count + DXL_PACKET_OVERHEAD bytes. */
 uint8_t dxl_build(uint8_t *packet, uint8_t id, uint8_t instruction, const uint8_t *params, uint8_t count);
 
-/* ---- taking apart ---- */
+/* ---- parsing ---- */
 
-/* What was found in the bytes heard so far. */
+/* What was found in the bytes received so far. */
 typedef enum {
     DXL_MORE = 0,       /* no complete status packet yet */
     DXL_GOOD,           /* *packet points to it: FF FF ID LEN ERROR params... SUM */
@@ -64,8 +64,8 @@ typedef enum {
     DXL_BAD_LENGTH      /* a length that no status packet can have (below 2, above DXL_ANSWER_PARAMS + 2) */
 } dxl_result_t;
 
-/* Looks for the first status packet in the bytes heard since the instruction was sent. What comes before FF FF ID is noise,
- * a third FF too, because no servo has ID 255. *packet is written on DXL_GOOD only. About 40 cycles, and 8 a byte when the
+/* Finds the first status packet in the bytes received since the instruction was sent. Bytes before FF FF ID are noise, as is
+ * a third FF, because no servo has ID 255. *packet is written only on DXL_GOOD. About 40 cycles, and 8 per byte once the
  * packet is complete. */
 dxl_result_t dxl_find_status(const uint8_t *heard, uint8_t count, const uint8_t **packet);
 

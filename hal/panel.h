@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * panel.h - lamps and buttons of the CM-5. The CM-2's are not known, so there it does nothing and reports nothing.
- * Also holds the pins that only need a safe level: charger off, ZigBee out of reset, both receive gates open.
+ * panel.h - lamps and buttons of the CM-5. The CM-2's are unknown, so there it does nothing and reports no buttons.
+ * Also sets the pins that only need a safe level: charger off, ZigBee out of reset, both receive gates open.
  * Main loop only. Source: BOARD.md, "CM-5 pins". */
 #ifndef PANEL_H
 #define PANEL_H
@@ -30,19 +30,19 @@ enum {
     PANEL_ARROWS = 0x0F
 };
 
-/* All lamps off but Power; pull-ups on; charger off; ZigBee running; PC and remote lines gated in. */
+/* All lamps except Power off; pull-ups on; charger off; ZigBee running; PC and remote lines gated in. */
 void panel_init(void);
 
-void panel_set(uint8_t leds, bool on);   /* other lamps stay */
+void panel_set(uint8_t leds, bool on);   /* other lamps are unchanged */
 uint8_t panel_lit(void);
 
-/* Call once a tick: samples the buttons. A change counts when it was seen PANEL_STEADY_TICKS times in a row (23 ms). */
+/* Call once per tick: samples the buttons. A change takes effect after PANEL_STEADY_TICKS equal samples in a row (23 ms). */
 #define PANEL_STEADY_TICKS 3u
 void panel_tick(void);
 
 uint8_t panel_buttons(void);   /* held now, debounced */
 
-/* Buttons as they are at this moment, not debounced (start-up). */
+/* Current buttons, not debounced (for start-up). */
 uint8_t panel_buttons_now(void);
 
 #endif

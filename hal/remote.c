@@ -13,7 +13,7 @@ void remote_init(remote_t *remote)
     memset(remote, 0, sizeof *remote);
 }
 
-/* Could these `count` bytes be the beginning (or the whole) of a packet? */
+/* Whether these `count` bytes may be a packet or the beginning of one. */
 static bool looks_good(const uint8_t *bytes, uint8_t count)
 {
     if (bytes[0] != HEAD1) {
@@ -28,7 +28,7 @@ static bool looks_good(const uint8_t *bytes, uint8_t count)
     return count < REMOTE_PACKET_BYTES || (bytes[4] ^ bytes[5]) == 0xFF;
 }
 
-/* A byte that belongs to no packet: text if it may have been typed (only ASCII is stored), else noise. */
+/* Handles a byte outside any packet: text if it may have been typed (only ASCII is stored), otherwise noise. */
 static void give_up(remote_t *remote, uint8_t byte, bool may_be_typed)
 {
     if (may_be_typed) {
@@ -38,13 +38,13 @@ static void give_up(remote_t *remote, uint8_t byte, bool may_be_typed)
     }
 }
 
-/* Gives up bytes at the front of `window` until the rest may be the beginning of a packet; keeps the rest. */
+/* Gives up bytes at the front of `window` until the rest may begin a packet; keeps the rest. */
 static void resynchronize(remote_t *remote, const uint8_t *window, uint8_t count)
 {
-    /* Behind a shared FF, "U" and two more characters may have been typed. Four bytes with a good complement were not. */
+    /* After a shared FF, "U" and two more characters may have been typed. Four bytes with a good complement were not. */
     const bool may_be_typed = remote->shared && count <= 1 + REMOTE_TEXT_BYTES;
     if (remote->shared) {
-        window++; /* the FF belongs to the packet before */
+        window++; /* the FF belongs to the previous packet */
         count--;
         remote->shared = false;
     } else {
@@ -77,7 +77,7 @@ remote_event_t remote_byte(remote_t *remote, uint8_t byte)
     window[count++] = byte;
     remote->text_count = 0;
     if (byte != HEAD1 && (count == 1 || (count == 2 && byte != HEAD2))) {
-        /* Nothing open, or a lone FF, as the original sends when its UART starts. */
+        /* No open packet, or only a lone FF, which the original sends when its UART starts. */
         remote->dropped = (uint16_t)(remote->dropped + (count == 2 && !remote->shared ? 1 : 0));
         remote->shared = false;
         remote->count = 0;

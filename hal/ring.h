@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * ring.h - a ring of bytes between one writer and one reader (an ISR and the main loop, either way round).
+ * ring.h - a ring of bytes between one writer and one reader (an ISR and the main loop, in either role).
  * Free-running uint8_t indices, so neither side needs interrupts off: copy the byte, barrier, publish the index.
- * A ring of 2^n bytes, n <= 7, holds all of them; one of 256 bytes holds 255.
- * The layout of ring_t is part of the page-write service: the boot loader fills a caller's ring by it (boot_api.h). */
+ * A ring of 2^n bytes, n <= 7, holds 2^n; one of 256 bytes holds 255.
+ * The meaning of the indices is part of the page-write service: the boot loader fills a caller's ring (boot_api.h). */
 #ifndef RING_H
 #define RING_H
 
@@ -13,8 +13,8 @@
 typedef struct {
     uint8_t *bytes;
     uint8_t mask;           /* size - 1 */
-    volatile uint8_t head;  /* written by the writer only: bytes put so far, modulo 256 */
-    volatile uint8_t tail;  /* written by the reader only: bytes taken so far, modulo 256 */
+    volatile uint8_t head;  /* set only by the writer: bytes put so far, modulo 256 */
+    volatile uint8_t tail;  /* set only by the reader: bytes taken so far, modulo 256 */
 } ring_t;
 
 /* storage: `size` bytes, a power of two 2..256; the ring keeps using it. Neither side may be active. */
@@ -26,13 +26,13 @@ static inline void ring_init(ring_t *ring, uint8_t *storage, uint16_t size)
     ring->tail = 0;
 }
 
-/* Bytes waiting. For the reader never more than there are, for the writer never fewer. */
+/* Bytes waiting. The reader never sees more than there are, the writer never fewer. */
 static inline uint8_t ring_count(const ring_t *ring)
 {
     return (uint8_t)(ring->head - ring->tail);
 }
 
-/* Bytes that still fit. For the writer never more than there is room for. */
+/* Bytes that still fit. The writer never sees more than there is room for. */
 static inline uint8_t ring_room(const ring_t *ring)
 {
     uint8_t capacity = ring->mask == 255u ? 255u : (uint8_t)(ring->mask + 1u);
@@ -53,7 +53,7 @@ static inline bool ring_put(ring_t *ring, uint8_t byte)
     return true;
 }
 
-/* Reader. false: empty, *byte untouched. */
+/* Reader. false: empty, *byte unchanged. */
 static inline bool ring_get(ring_t *ring, uint8_t *byte)
 {
     uint8_t tail = ring->tail;
@@ -66,7 +66,7 @@ static inline bool ring_get(ring_t *ring, uint8_t *byte)
     return true;
 }
 
-/* Reader. The byte that ring_get would take. false: empty, *byte untouched. */
+/* Reader. The byte that ring_get would take. false: empty, *byte unchanged. */
 static inline bool ring_peek(const ring_t *ring, uint8_t *byte)
 {
     if (ring->tail == ring->head) {
@@ -76,7 +76,7 @@ static inline bool ring_peek(const ring_t *ring, uint8_t *byte)
     return true;
 }
 
-/* Reader: drops everything that waits. */
+/* Reader. Drops all waiting bytes. */
 static inline void ring_clear(ring_t *ring)
 {
     ring->tail = ring->head;

@@ -16,7 +16,7 @@ enum {
 };
 
 /* The first call of main. Switches the watchdog off, takes and clears the reset cause, moves the vectors to the application.
- * Interrupts are off afterwards. */
+ * Leaves interrupts off. */
 void system_init(void);
 
 uint8_t system_reset_cause(void);
@@ -25,11 +25,10 @@ uint8_t system_reset_cause(void);
 void system_watchdog_on(void);
 void system_kick(void);
 
-/* Restarts the controller through the watchdog, within 20 ms. The boot loader then decides what runs. Never returns. */
+/* Restarts the controller through the watchdog, within 20 ms. The boot loader then decides what runs. */
 void system_restart(void) __attribute__((noreturn));
 
-/* Whether the program is asked to end (Ctrl-C on a PC): bring the robot to a stand, then call system_end. Never on a board.
- * */
+/* Whether the program should end (Ctrl-C on a PC): stop the robot, then call system_end. Never on a board. */
 bool system_is_asked_to_end(void);
 void system_end(void) __attribute__((noreturn));
 
@@ -37,12 +36,12 @@ void system_end(void) __attribute__((noreturn));
  * and sleeps in one step, so that no interrupt is missed in between. Returns with interrupts enabled. */
 void system_sleep(void);
 
-/* A failed ASSERT of the run before this reset: its line, and the byte address it was called from. false: there was none,
- * or it has been taken already. */
+/* A failed ASSERT of the run before this reset: its line, and the byte address of the call. false: there was none, or it has
+ * already been taken. */
 bool system_take_failed_assert(uint16_t *line, uint32_t *address);
 
-/* One conversion of an ADC channel (0..7) against AREF: 0..1023. Blocks 104 us. Channels 0 and 1 see the battery through a
- * divider that is not documented, so nobody turns them into volts: servos report their voltage. */
+/* One conversion of an ADC channel (0..7) against AREF: 0..1023. Blocks 104 us. Channels 0 and 1 measure the battery through
+ * an undocumented divider, so they are not converted to volts: servos report their voltage. */
 uint16_t system_adc(uint8_t channel);
 
 #endif

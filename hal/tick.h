@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * tick.h - the time base of all motion: 128 ticks a second, exactly 125,000 cycles of 16 MHz each (Timer 1).
- * The main loop takes every tick once; a tick that is not taken before the next one comes is counted as missed.
+ * tick.h - the time base of all motion: 128 ticks per second, exactly 125,000 cycles of 16 MHz each (Timer 1).
+ * The main loop takes every tick once; a tick that is not taken before the next one counts as missed.
  * Main loop only. */
 #ifndef TICK_H
 #define TICK_H
@@ -14,27 +14,27 @@
 /* Starts the timer; the first tick comes 7.8 ms later. Ticks need interrupts on. */
 void tick_init(void);
 
-/* Ticks since tick_init, wraps after 388 days. */
+/* Ticks since tick_init; wraps after 388 days. */
 uint32_t tick_now(void);
 
-/* The same, low 16 bits (wraps after 512 s): for differences. Cheaper. */
+/* The low 16 bits (wraps after 512 s), for differences. Cheaper. */
 uint16_t tick_now16(void);
 
-/* true once per tick: do the tick's work now. When several ticks have gone by since the last call, returns true once and
- * adds the others to tick_missed. */
+/* true once per tick: do the tick's work now. If several ticks have passed since the last call, returns true once and adds
+ * the others to tick_missed. */
 bool tick_take(void);
 
-/* How many ticks that call of tick_take had missed: how late the present tick is. */
+/* The ticks missed before the last one taken: how late the current tick is. */
 uint16_t tick_late(void);
 
-/* Whether tick_take would say true. */
+/* Whether tick_take would return true. */
 bool tick_is_due(void);
 
 /* Ticks since tick_init that were never taken; stops at 65535. */
 uint16_t tick_missed(void);
 
 /* Takes all ticks up to now without counting them as missed. Call it after work that blocks on purpose while nothing moves
- * (a search of servos, a page write). */
+ * (a servo search, a page write). */
 void tick_forgive(void);
 
 #endif

@@ -22,7 +22,7 @@ uint8_t boot_call_write(uint32_t addr, const uint8_t *data, uint16_t bytes, uint
 #define FACTORY_STACK_BYTES 8
 #define FACTORY_BUFFER ((uint8_t *)MEM_FACTORY_BUFFER)
 
-/* The call itself. The routine preserves r4-r15 and r24-r29. Nobody knows whether it preserves r2 and r3: saved here. */
+/* The routine preserves r4-r15 and r24-r29. Whether it preserves r2 and r3 is unknown, so they are saved here. */
 static uint8_t call_factory(uint32_t addr)
 {
     uint8_t data_stack[FACTORY_STACK_BYTES];
@@ -41,7 +41,7 @@ static uint8_t call_factory(uint32_t addr)
     return (uint8_t)(at >> 8) == 1 ? BOOT_OK : BOOT_ERR_VERIFY;
 }
 
-/* Fills the buffer for the routine. `data` may overlap it: it is moved first and not read again. */
+/* Fills the buffer for the routine. `data` may overlap the buffer: it is moved first and not read again. */
 static void fill_factory_buffer(uint32_t addr, const uint8_t *data, uint16_t bytes, uint8_t mode)
 {
     memmove(FACTORY_BUFFER, data, bytes);

@@ -12,19 +12,19 @@
 
 #define MODE_U2X (1u << U2X0)
 #define FRAME_8N1 ((1u << UCSZ01) | (1u << UCSZ00))
-/* The receiver is off while we drive the line: glitches of the turn-round are no answer. */
+/* The receiver is off while we drive the line, so that turn-round glitches do not count as an answer. */
 #define SENDING (1u << TXEN0 | 1u << TXCIE0)
 #define LISTENING (1u << TXEN0 | 1u << RXEN0 | 1u << RXCIE0)
 
 static bus_core_t core;
 
-/* What is left to send: main loop until the first byte is written, then ISR. */
+/* The rest to send; owned by the main loop until the first byte is written, then by the ISR. */
 static const uint8_t *tx_next;
 static uint8_t tx_pairs;
 
-/* Waits for room in UDR0. An empty shift register takes a byte from there with the next bit of its clock: within 16 cycles
- * at 1 Mbps, 280 at 57,142. Interrupts are off here, so the wait ends after ROOM_TURNS of 6 cycles whatever the flag says:
- * the packaged simavr never sets UDRE0 again once TXEN0 was off. */
+/* Waits for room in UDR0. An empty shift register takes its byte at the next bit clock: within 16 cycles at 1 Mbps, 280 at
+ * 57,142. Interrupts are off here, so the wait ends after ROOM_TURNS of 6 cycles whatever the flag says: the packaged simavr
+ * never sets UDRE0 again once TXEN0 was off. */
 #define ROOM_TURNS 60u
 ALWAYS_INLINE void put(uint8_t byte)
 {
@@ -33,14 +33,14 @@ ALWAYS_INLINE void put(uint8_t byte)
     UDR0 = byte;
 }
 
-/* Sends the first byte, or the first two. Pairs are left for the ISR. */
+/* Sends the first byte, or the first two, so that the ISR has whole pairs left. */
 void bus_port_send(uint8_t count)
 {
     const uint8_t *next = core.packet;
     UCSR0B = SENDING;
     pins_bus_drive();
     tx_pairs = (uint8_t)(count - 1u) / 2u;
-    irq_state_t state = irq_save(); /* else the first byte could leave, and its ISR run, before the second is here */
+    irq_state_t state = irq_save(); /* otherwise the first byte could leave, and its ISR run, before the second is put */
     put(*next++);
     if ((count & 1u) == 0) {
         put(*next++);
@@ -145,10 +145,10 @@ void bus_counts(bus_counts_t *counts)
     bus_core_counts(&core, counts);
 }
 
-/* Two bytes have left: the shift register and UDR0 take two more. 51 times in a frame of 31 joints, 84 to 87 cycles
- * measured; an interrupt for each byte, when UDR0 is empty, costs 2,800 more a frame. The line pauses before the two for
- * 3 us, or for as long as other interrupts keep this one waiting. The first write comes early: while that byte moves on,
- * the rest is done. The last time it releases the line, 16 us after the last stop bit at the latest (hal/README.md). */
+/* Two bytes have left: the shift register and UDR0 take two more. Runs 51 times for a packet of 31 joints, 84 to 87 cycles
+ * measured; an interrupt for each byte, when UDR0 is empty, costs 2,800 more per packet. The line pauses 3 us before each
+ * pair, or longer if other interrupts delay this one. The first write comes early, so that its byte moves on during the
+ * rest. The last run releases the line, at most 16 us after the last stop bit (hal/README.md). */
 ISR(USART0_TX_vect)
 {
     uint8_t pairs = tx_pairs;
@@ -169,7 +169,7 @@ ISR(USART0_TX_vect)
 /* 119 cycles measured of the 160 between two characters at 1 Mbps; the UART holds three more. */
 ISR(USART0_RX_vect)
 {
-    uint8_t status = UCSR0A;   /* before UDR0: the flags are those of the byte there */
+    uint8_t status = UCSR0A;   /* before UDR0: its flags belong to the byte there */
     uint8_t byte = UDR0;
     uint8_t flags = 0;
     if (status & (1u << FE0)) {

@@ -15,7 +15,7 @@ void clock_init(void)
     TCCR3B = (1u << CS31);
 }
 
-/* Interrupts are off because both halves go through the timer's one TEMP byte, which ISRs use too. */
+/* Interrupts are off because both halves pass through the timer's single TEMP byte, which ISRs also use. */
 uint16_t clock_now(void)
 {
     irq_state_t state = irq_save();

@@ -7,7 +7,7 @@
 #include <avr/io.h>
 #include <string.h>
 
-/* Whole-register values instead of read-modify-write: main loop and ISRs both set them. */
+/* Whole-register values instead of read-modify-write, because both main loop and ISRs set them. */
 #define MODE_U2X (1u << U2X1)
 #define FRAME_8N1 ((1u << UCSZ11) | (1u << UCSZ10))
 #define QUIET ((1u << RXEN1) | (1u << TXEN1) | (1u << RXCIE1))
@@ -21,17 +21,17 @@ static uint8_t rx_storage[CONSOLE_RX_BYTES], tx_storage[CONSOLE_TX_BYTES];
 static struct {
     ring_t rx;                       /* in: ISR (and the loader's page-write); out: main */
     ring_t tx;                       /* in: main; out: ISR */
-    volatile uint8_t flow_byte;      /* XON or XOFF to go out first; 0: none */
+    volatile uint8_t flow_byte;      /* XON or XOFF to send first; 0: none */
     volatile uint8_t received, sent; /* ISR */
     volatile uint8_t lost;           /* the loader's page-write */
-    volatile uint8_t holes;          /* bytes lost, at most HOLES_MAX, HOLES_WIDE: in several places ... */
-    volatile uint8_t hole_at;        /* ... and the last of them before this place of rx (modulo 256) */
+    volatile uint8_t holes;          /* bytes lost, at most HOLES_MAX; HOLES_WIDE: in several places ... */
+    volatile uint8_t hole_at;        /* ... and the last loss was before this index of rx (modulo 256) */
     uint8_t lost_here;               /* for console_lost */
-    volatile bool xoff_is_out;       /* under flow control: the PC was told to stop */
-    volatile uint8_t since_xoff;     /* bytes that came after it, modulo XOFF_AGAIN_BYTES */
+    volatile bool xoff_is_out;       /* under flow control: XOFF was sent to the PC */
+    volatile uint8_t since_xoff;     /* bytes received after it, modulo XOFF_AGAIN_BYTES */
     volatile bool has_sent;          /* a byte was sent, so TXC is valid */
     bool flow;
-    uint8_t xoffs;                   /* calls of console_xoff without their console_xon */
+    uint8_t xoffs;                   /* calls of console_xoff without a matching console_xon */
     console_counts_t counts;         /* ISR */
 } line;
 
@@ -61,7 +61,7 @@ static void send_flow(uint8_t byte)
     UCSR1B = TALKING;
 }
 
-/* Lets the PC go on once nothing keeps it waiting. */
+/* Sends XON once no reason for an XOFF remains. */
 static void end_xoff(void)
 {
     if (line.xoff_is_out && line.xoffs == 0 && ring_count(&line.rx) <= CONSOLE_XON_COUNT) {
@@ -70,7 +70,7 @@ static void end_xoff(void)
     }
 }
 
-/* Notes that bytes were lost before the next one that goes into the ring. ISR, or interrupts off. */
+/* Records that bytes were lost before the next byte of the ring. ISR, or interrupts off. */
 static inline void note_hole(uint8_t count)
 {
     const uint8_t at = line.rx.head, left = HOLES_MAX - (line.holes & HOLES_MAX);
@@ -79,7 +79,7 @@ static inline void note_hole(uint8_t count)
     line.hole_at = at;
 }
 
-/* The loader only counts what it loses during a page-write: it may be missing anywhere in what waits. */
+/* The loader only counts its losses during a page-write, so they may be anywhere among the waiting bytes. */
 static void take_losses_of_loader(void)
 {
     const uint8_t lost = line.lost;
@@ -91,7 +91,7 @@ static void take_losses_of_loader(void)
     }
 }
 
-/* The bytes lost before the place `at`, which is taken now. */
+/* Returns the number of bytes lost before index `at`, whose byte is taken now. */
 static uint8_t take_holes(uint8_t at)
 {
     irq_state_t state = irq_save();
@@ -192,7 +192,7 @@ void console_xoff(void)
     send_flow(CONSOLE_XOFF);
     while (line.flow_byte != 0) {
     }
-    clock_wait_us(350);   /* at most one character in the UART goes before it */
+    clock_wait_us(350);   /* at most one character in the UART precedes it */
 }
 
 void console_xon(void)
@@ -238,7 +238,7 @@ static inline void bump(uint8_t *count)
     }
 }
 
-/* Under flow control: tells the PC to stop when the ring runs full, and again for every 32 bytes that still come. */
+/* Under flow control: sends XOFF when the ring runs full, and again for every 32 bytes that still arrive. */
 static inline void watch_room(void)
 {
     if (!line.flow || ring_room(&line.rx) >= CONSOLE_XOFF_ROOM) {
@@ -251,10 +251,10 @@ static inline void watch_room(void)
     }
 }
 
-/* Budget 160 cycles of the 2,800 between two characters at 57,600; 139 measured. */
+/* Budget: 160 of the 2,800 cycles between two characters at 57,600; 139 measured. */
 ISR(USART1_RX_vect)
 {
-    uint8_t status = UCSR1A;   /* before UDR1: the flags are those of the byte there */
+    uint8_t status = UCSR1A;   /* before UDR1: its flags belong to the byte there */
     uint8_t byte = UDR1;
     if (status & (1u << DOR1)) {
         bump(&line.counts.overruns);
@@ -273,7 +273,7 @@ ISR(USART1_RX_vect)
     watch_room();
 }
 
-/* Budget 100 cycles; 76 measured. */
+/* Budget: 100 cycles; 76 measured. */
 ISR(USART1_UDRE_vect)
 {
     uint8_t byte = line.flow_byte;
@@ -284,7 +284,7 @@ ISR(USART1_UDRE_vect)
         return;
     }
     UDR1 = byte;
-    UCSR1A = MODE_U2X | (1u << TXC1);   /* this byte has not left: transmit complete starts anew */
+    UCSR1A = MODE_U2X | (1u << TXC1);   /* this byte has not left yet: clears transmit complete */
     line.has_sent = true;
     line.sent++;
 }

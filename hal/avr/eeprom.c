@@ -34,7 +34,7 @@ void eeprom_read(uint16_t address, void *to, uint16_t count)
     }
 }
 
-/* EEWE counts only within four cycles after EEMWE: two SBI in a row, interrupts off. */
+/* EEWE takes effect only within four cycles after EEMWE: two SBI in a row, interrupts off. */
 static void write_cell(uint16_t address, uint8_t byte)
 {
     EEAR = address;

@@ -9,14 +9,14 @@ uint32_t flash_addr(uint16_t page)
     return (uint32_t)page * FLASH_PAGE_BYTES;
 }
 
-/* ELPM Z+ reads a byte and steps all 24 bits of the address, RAMPZ included, so 0x10000 is no border. 7 cycles a byte. The
- * loop copies two bytes at a time; an odd one comes first. */
+/* ELPM Z+ reads a byte and increments all 24 bits of the address, including RAMPZ, so reads may cross 0x10000. 7 cycles per
+ * byte. The loop copies two bytes at a time; an odd byte comes first. */
 void flash_read(uint32_t addr, void *to, uint16_t bytes)
 {
     if (bytes == 0) {
         return;
     }
-    bytes--; /* pairs begin at an odd count: the loop ends below 0 */
+    bytes--; /* the loop ends when the count falls below 0 */
     __asm__ volatile(
         "out %[rampz], %C[addr] \n\t"
         "movw r30, %A[addr] \n\t"

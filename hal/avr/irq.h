@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * irq.h - code that must not be interrupted, AVR version (host version: hal/host/irq.h). May be included anywhere.
  *     irq_state_t state = irq_save();  ... a few instructions ...  irq_restore(state);
- * Nests. irq_enable belongs to board start-up and to the sleep of board_idle only. */
+ * Nests. irq_enable is only for board start-up and for the sleep of board_idle. */
 #ifndef IRQ_H
 #define IRQ_H
 

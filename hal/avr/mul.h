@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * mul.h - the multiplications of the motion core, AVR version (host version: hal/host/mul.h). May be
- * included anywhere. Written in assembler because gcc 5.4 calls its library for them: 45 and 110 cycles instead of 19 and
- * 42, and more registers. In C a tick of the classic law exceeds its budget by 15 % (make_fall: 360 cycles a joint instead
- * of 190), and planning a step under the exact law takes twice its budget. */
+ * mul.h - the multiplications of the motion core, AVR version (host version: hal/host/mul.h). May be included anywhere.
+ * In assembly, because gcc 5.4 calls its library for them: 45 and 110 cycles instead of 19 and 42, and more registers. In C,
+ * a tick of the classic law exceeds its budget by 15 % (make_fall: 360 cycles per joint instead of 190), and planning a step
+ * under the exact law takes twice its budget. */
 #ifndef MUL_H
 #define MUL_H
 

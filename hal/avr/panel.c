@@ -12,7 +12,7 @@ void panel_init(void)
     pins_init_panel();
     lit = PINS_HAVE_PANEL ? PANEL_LED_POWER : 0;
     pins_set_leds(lit);
-    /* Starts as released, because the pull-ups need a moment. */
+    /* Starts with all buttons up, because the pull-ups need time to settle. */
     debounce_init(&buttons, 0);
 }
 

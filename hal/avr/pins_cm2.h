@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * pins_cm2.h - what is wired to which pin of the CM-2 and CM-2+. Chosen as BOARD_PINS_H. Only the bus direction is
- * known (BOARD.md, "CM-2 / CM-2+"); the other pins stay as the reset or the loader left them. */
+ * pins_cm2.h - the pin assignment of the CM-2 and CM-2+. Selected by BOARD_PINS_H. Only the bus direction is known
+ * (BOARD.md, "CM-2 / CM-2+"); the other pins stay as the reset or the loader left them. */
 #ifndef PINS_CM2_H
 #define PINS_CM2_H
 

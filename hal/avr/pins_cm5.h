@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * pins_cm5.h - what is wired to which pin of the CM-5. Chosen as BOARD_PINS_H. Source: BOARD.md, "CM-5 pins". */
+ * pins_cm5.h - the pin assignment of the CM-5. Selected by BOARD_PINS_H. Source: BOARD.md, "CM-5 pins". */
 #ifndef PINS_CM5_H
 #define PINS_CM5_H
 
@@ -23,8 +23,8 @@
 #define PINS_GATE_PC (1u << PD5)
 #define PINS_GATE_REMOTE (1u << PD6)
 
-/* The bus transceiver: PE2 drives the line, PE3 listens to it, never both. Single-bit writes of port E are atomic (SBI,
- * CBI), so main loop and ISR may both do this. */
+/* The bus transceiver: PE2 drives the line, PE3 listens to it, never both. Single-bit writes to port E are atomic (SBI,
+ * CBI), so both main loop and ISR may call these. */
 ALWAYS_INLINE void pins_bus_drive(void)
 {
     PORTE &= (uint8_t)~PINS_BUS_LISTEN;
@@ -43,12 +43,12 @@ static inline void pins_init_bus(void)
     DDRE |= PINS_BUS_DRIVE | PINS_BUS_LISTEN;
 }
 
-/* Levels before directions, so that no pin glitches. */
+/* Sets levels before directions, so that no pin glitches. */
 static inline void pins_init_panel(void)
 {
     PORTB |= PINS_CHARGER_OFF;
     DDRB |= PINS_CHARGER_OFF;
-    PORTC = 0xFE;   /* all off but Power; pull-up on the free pin */
+    PORTC = 0xFE;   /* all off except Power; pull-up on the unused pin */
     DDRC = PINS_LEDS;
     PORTD |= PINS_START | PINS_ZIGBEE_RUN | PINS_GATE_PC | PINS_GATE_REMOTE;
     DDRD = (uint8_t)((DDRD & ~PINS_START) | PINS_ZIGBEE_RUN | PINS_GATE_PC | PINS_GATE_REMOTE);

@@ -18,7 +18,7 @@ void system_init(void)
     cause = MCUCSR & RESET_CAUSES;
     MCUCSR = 0;
     wdt_disable();
-    /* Vectors of the application: IVSEL counts only right after IVCE. */
+    /* Selects the application's vectors: IVSEL takes effect only right after IVCE. */
     MCUCR = (1u << IVCE);
     MCUCR = 0;
 }

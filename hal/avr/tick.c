@@ -78,7 +78,7 @@ void tick_forgive(void)
     taken = tick_now16();
 }
 
-/* 128 times a second; 62 cycles measured. */
+/* 128 times per second; 62 cycles measured. */
 ISR(TIMER1_COMPA_vect)
 {
     ticks++;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * trap.h - ASSERT, AVR version (host version: hal/host/trap.h). For our own mistakes only, never for input from outside.
- * A failed ASSERT notes its line and address in RAM that survives a reset, and restarts. The next start reports it
- * (system_take_failed_assert); avr-addr2line turns the address into a file name. */
+ * trap.h - ASSERT, AVR version (host version: hal/host/trap.h). Only for programming errors, never for external input.
+ * A failed ASSERT stores its line and address in RAM that survives a reset, and restarts. The next start reports it
+ * (system_take_failed_assert); avr-addr2line converts the address into a file name. */
 #ifndef TRAP_H
 #define TRAP_H
 
@@ -10,7 +10,7 @@
 typedef struct {
     uint16_t magic;          /* TRAP_MAGIC: the record is valid */
     uint16_t line;
-    uint16_t word_address;   /* where trap_failed was called from */
+    uint16_t word_address;   /* of the call of trap_failed */
 } trap_record_t;
 
 #define TRAP_MAGIC 0x7A9Du

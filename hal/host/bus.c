@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * bus.c - bus.h through an adapter on a serial port. The engine is the chip's, bus_core.c. What differs:
+ * bus.c - bus.h through an adapter on a serial port. The engine is the chip's, bus_core.c. Differences:
  *
- * - A packet is handed over in one piece and leaves by itself; the engine is in SENDING and TURNING within one call.
- * - An answer comes when the adapter and the driver pass it on, up to 50 ms later. The time limit is twice the longest
- *   answer time seen, and some. While an answer is under way, packets without an answer may leave (bus_is_free), because
- *   the line itself has been quiet for long.
- * - The port may go away. */
+ * - A packet is written in one piece and leaves by itself; the engine passes SENDING and TURNING within one call.
+ * - The adapter and the driver deliver an answer up to 50 ms late. The time-out is twice the longest measured answer time
+ *   plus a margin. While an answer is outstanding, packets without an answer may leave (bus_is_free), because the line
+ *   itself is already quiet.
+ * - The port may disappear. */
 #include "bus.h"
 
 #include <string.h>
@@ -19,9 +19,9 @@
 #define MS CLOCK_PER_MS
 #define ANSWER_ON_THE_LINE (3u * MS)   /* the servo's return delay, its answer, and an adapter that takes 2 ms to send */
 #define PATIENCE_EXTRA (8u * MS)       /* beyond twice the longest answer time */
-#define PATIENCE_ONCE (100u * MS)      /* more for a packet that is sent once: the health poll, for which nobody waits */
-#define ANSWER_MAX (100u * MS)         /* longer ones are those of a computer that slept */
-#define HELD_MAX (2u * MS)             /* the rest of an echo comes sooner */
+#define PATIENCE_ONCE (100u * MS)      /* added for a packet with one try: the health poll, for which nobody waits */
+#define ANSWER_MAX (100u * MS)         /* longer answer times are those of a computer that slept */
+#define HELD_MAX (2u * MS)             /* the rest of an echo arrives sooner */
 #define MOVING_HALF_US (250u * MS)
 #define PROBES 3u
 
@@ -31,17 +31,17 @@ static struct {
     uint8_t rate;
     bool is_there, lost;
     bool has_held;           /* goals or torque were sent: servos may hold their pose */
-    bool once;               /* the packet under way is not sent again */
-    bool unread;             /* an answer was asked for, and bus_poll() has not told yet what came of it */
-    bool echoes;             /* the adapter repeats what it is sent */
-    uint64_t line_free;      /* the last bit of our last packet has left the adapter */
-    uint64_t asked_at;       /* the same of the packet whose answer is awaited, or was missed */
-    uint64_t heard_at;       /* the last byte came */
-    uint64_t goals_at;       /* goals were sent; 0: never */
+    bool once;               /* the current packet has only one try */
+    bool unread;             /* an answer was requested, and bus_poll() has not returned its result yet */
+    bool echoes;             /* the adapter echoes sent packets */
+    uint64_t line_free;      /* when the last bit of our last packet leaves the adapter */
+    uint64_t asked_at;       /* the same for the packet whose answer is awaited, or was missed */
+    uint64_t heard_at;       /* when the last byte arrived */
+    uint64_t goals_at;       /* when goals were last sent; 0: never */
     uint32_t longest;        /* answer time; 0: none yet */
 } port;
 
-/* ---- what comes ---- */
+/* ---- receiving ---- */
 
 static void note_answer_time(void)
 {
@@ -55,14 +55,13 @@ static void note_answer_time(void)
 static void take_bytes(const uint8_t *bytes, uint16_t count)
 {
     if (count > 0 && core.state == BUS_IDLE && core.result == BUS_ERR_TIMEOUT && core.answer_params != BUS_NO_ANSWER) {
-        note_answer_time();   /* an answer after all */
+        note_answer_time();   /* an answer after the time-out */
     }
     for (uint16_t i = 0; i < count; i++) {
         bus_core_on_byte(&core, bytes[i], 0);
     }
 }
 
-/* The port has gone, or is back. */
 static void watch_port(void)
 {
     const bool is_there = machine_bus_is_there();
@@ -92,7 +91,7 @@ void host_fetch_bus(void)
     }
 }
 
-/* ---- what leaves ---- */
+/* ---- sending ---- */
 
 static void send(const uint8_t *packet, uint8_t size)
 {
@@ -114,7 +113,7 @@ static void send(const uint8_t *packet, uint8_t size)
 
 void bus_port_send(uint8_t count)
 {
-    host_fetch_bus();   /* what came before is no answer to this */
+    host_fetch_bus();   /* earlier bytes are not an answer to this */
     send(core.packet, count);
     port.asked_at = port.line_free;
     bus_core_on_last(&core);
@@ -133,14 +132,14 @@ TARGET_BUS_TIME bus_port_margin_half_us(void)
         return 0;
     }
     if (core.heard_count > 0) {
-        return least;   /* it has begun */
+        return least;   /* the answer has begun */
     }
     return port.once ? patience + PATIENCE_ONCE : patience;
 }
 
 /* ---- echo ---- */
 
-/* Sends packets that no servo answers and nobody obeys: a SYNC WRITE to none. */
+/* Sends packets that no servo answers or obeys: SYNC WRITEs without a servo. */
 static void find_echo(void)
 {
     uint8_t probe[DXL_PACKET_OVERHEAD + 2u];
@@ -194,7 +193,7 @@ uint8_t *bus_packet(void)
     return core.packet;
 }
 
-/* Takes what has come. */
+/* Takes received bytes and polls the engine. */
 static bus_status_t look(bus_answer_t *answer)
 {
     const bool waited = core.state == BUS_LISTENING;
@@ -211,7 +210,7 @@ bool bus_is_busy(void)
     return core.state != BUS_IDLE && look(0) == BUS_PENDING;
 }
 
-/* Our own packets leave one after the other anyway; but at a slow rate they must not pile up. */
+/* Our own packets leave one after the other anyway, but at a slow rate they must not pile up. */
 bool bus_is_free(void)
 {
     const bool waits = bus_is_busy();
@@ -219,7 +218,7 @@ bool bus_is_free(void)
     return now >= port.line_free && (!waits || (core.tries_left == 0 && now > port.asked_at + ANSWER_ON_THE_LINE));
 }
 
-/* A packet without an answer leaves beside the engine while that has an answer to wait for or to hand over. */
+/* A packet without an answer bypasses the engine while the engine awaits an answer or has one not yet returned. */
 bus_status_t bus_submit(uint8_t size, uint8_t answer_params, uint8_t tries)
 {
     if (answer_params == BUS_NO_ANSWER && port.unread && (core.state == BUS_IDLE || bus_is_free())) {
@@ -242,7 +241,7 @@ bus_status_t bus_poll(bus_answer_t *answer)
     return status;
 }
 
-/* A packet has been handed over at once, and is news when it has left: until then the program sleeps. */
+/* A sent packet is news only once it has left the adapter; until then the program sleeps. */
 bool bus_has_news(void)
 {
     return bus_core_has_news(&core) && machine_now() >= port.line_free;

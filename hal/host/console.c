@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * console.c - console.h over the machine's console. It has no rate. Flow control is the machine's: bytes that find no room
- * stay where they are, so nothing is lost and XOFF is never sent. An image may have less room than rx, as Play has;
- * therefore rx takes no more at once than still comes behind an XOFF, and nothing until the XON. */
+ * console.c - console.h over the machine's console. It has no rate. Flow control is the machine's: bytes without room stay
+ * in the machine, so nothing is lost and XOFF is never sent. An image may have less room than rx, like Play. Therefore rx
+ * holds at most as many bytes as still arrive after an XOFF, and takes none until the XON. */
 #include "console.h"
 
 #include <string.h>
@@ -15,7 +15,7 @@ static ring_t rx;
 static uint8_t tx[CONSOLE_TX_BYTES];
 static uint8_t tx_count;
 static uint8_t received, sent;
-static uint8_t xoffs;   /* calls of console_xoff without their console_xon */
+static uint8_t xoffs;   /* calls of console_xoff without a matching console_xon */
 static volatile uint8_t lost;
 
 void console_init(void)
@@ -61,7 +61,7 @@ bool console_peek(uint8_t *byte)
 
 uint8_t console_lost(void)
 {
-    return 0;   /* what finds no room waits in the machine */
+    return 0;   /* bytes without room wait in the machine */
 }
 
 uint8_t console_waiting(void)

@@ -17,14 +17,14 @@ static void forget(echo_t *echo, uint8_t count)
 void echo_sent(echo_t *echo, const uint8_t *packet, uint8_t size)
 {
     if (echo->count == ECHO_PACKETS) {
-        forget(echo, 1);   /* it never came back */
+        forget(echo, 1);   /* it was never echoed */
     }
     echo->sent[echo->count].size = size;
     memcpy(echo->sent[echo->count].bytes, packet, size);
     echo->count++;
 }
 
-/* What is held, compared with the packets sent: one of them, the beginning of one, or neither. */
+/* The held bytes compared with the packets sent: one of them, the beginning of one, or neither. */
 typedef enum { ECHO_WHOLE, ECHO_BEGUN, ECHO_OTHER } match_t;
 
 static match_t match(const echo_t *echo, uint8_t *which)
@@ -63,7 +63,7 @@ uint16_t echo_byte(echo_t *echo, uint8_t byte, uint8_t *out)
         }
         if (found == ECHO_WHOLE) {
             drop_held(echo, echo->sent[which].size);
-            forget(echo, (uint8_t)(which + 1u));   /* those before it were damaged on their way */
+            forget(echo, (uint8_t)(which + 1u));   /* earlier ones were damaged on the way */
             echo->dropped++;
         } else {
             out[passed++] = echo->held[0];

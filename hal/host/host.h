@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * host.h - how the files of hal/host see each other. The bytes that interrupts bring on the chip are fetched here when the
- * firmware waits, and whenever it kicks the watchdog. */
+ * host.h - the interfaces between the files of hal/host. Bytes that interrupts receive on the chip are fetched here whenever
+ * the firmware waits or kicks the watchdog. */
 #ifndef HOST_H
 #define HOST_H
 
@@ -9,7 +9,7 @@
 
 #define HOST_TICK_HALF_US 15625u   /* 1/128 s */
 
-/* system.c: moves the bytes of both lines, both ways. */
+/* system.c: moves the bytes of both lines, in both directions. */
 void host_fetch(void);
 /* The same, then sleeps until `until` (machine_now) or the next byte. */
 void host_wait(uint64_t until);
@@ -23,16 +23,16 @@ uint64_t host_next_tick(void);
 
 /* bus.c: when the last byte of our last packet has left. */
 uint64_t host_line_free(void);
-/* bus.c: whether goals have been sent within the last quarter of a second. */
+/* bus.c: whether goals were sent within the last 0.25 s. */
 bool host_is_moving(void);
 /* bus.c: whether servos may hold their pose because of this program. */
 bool host_has_held(void);
-/* bus.c: tells every servo to switch its torque off, at once and whatever the firmware does. */
+/* bus.c: switches the torque of all servos off, whatever the firmware does. */
 void host_torque_off(void);
 
-/* memory.c: fetches what was kept. Before anything else. record: what the image says of itself, at MEM_APP_RECORD. */
+/* memory.c: loads the kept memories. Call before anything else. record: the image's record, for MEM_APP_RECORD. */
 void host_recall(const void *record, uint16_t bytes);
-/* memory.c: makes sure what was kept, once nothing moves. */
+/* memory.c: commits the kept EEPROM. Call while nothing moves. */
 void host_settle(void);
 
 #endif

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * memory.c - flash.h (reading), boot_call.h and eeprom.h: two arrays, of which the machine keeps what changes. To the
- * firmware this is a board with our loader, so the journal makes a page old or new across a power cut here as it does
- * there. */
+ * memory.c - flash.h (reading), boot_call.h and eeprom.h: two arrays whose changes the machine keeps. To the firmware this
+ * is a board with our loader, so the journal protects a page against a power cut here as well. */
 #include "hal/boot_call.h"
 #include "hal/eeprom.h"
 #include "hal/flash.h"
@@ -16,7 +15,7 @@
 #define JOURNAL_BYTES ((uint32_t)(MEM_JOURNAL_END - MEM_JOURNAL_START))
 #define PAGES_BYTES ((uint32_t)(TARGET_FLASH_END - TARGET_MOTION_START))
 
-static uint8_t flash[TARGET_FLASH_END];   /* what the chip has, and the pages above it */
+static uint8_t flash[TARGET_FLASH_END];   /* the chip's flash, and the pages above it */
 static uint8_t eeprom[EEPROM_BYTES];
 static bool eeprom_is_unsettled;
 
@@ -60,7 +59,7 @@ bool flash_equals(uint32_t addr, const void *data, uint16_t bytes)
     return memcmp(flash + addr, data, bytes) == 0;
 }
 
-/* As the chip: erasing makes all bits 1, programming makes some of them 0. */
+/* As on the chip: erasing sets all bits to 1, programming sets some of them to 0. */
 uint8_t boot_call_write(uint32_t addr, const uint8_t *data, uint16_t bytes, uint8_t mode, const boot_rx_t *rx)
 {
     const bool is_page = addr >= TARGET_MOTION_START && addr < TARGET_FLASH_END;
@@ -117,7 +116,7 @@ void eeprom_wait(void)
 {
 }
 
-/* What cannot be kept is in force until the program ends: the machine has said so. */
+/* Bytes that cannot be kept stay in force until the program ends; the machine reports the failure. */
 void eeprom_update(uint16_t address, const void *from, uint16_t count)
 {
     ASSERT((uint32_t)address + count <= sizeof eeprom);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * mul.h - the PC's version of hal/avr/mul.h: the plain expressions that it equals. */
+ * mul.h - the PC's version of hal/avr/mul.h: the equivalent plain expressions. */
 #ifndef MUL_H
 #define MUL_H
 

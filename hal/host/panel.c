@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * panel.c - panel.h: buttons are keys; the lamps are remembered, and nobody sees them. */
+ * panel.c - panel.h: keys act as buttons; lamps are stored but not shown. */
 #include "panel.h"
 
 #include "debounce.h"

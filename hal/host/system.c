@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * system.c - system.h, and the one place where the program waits. */
+ * system.c - system.h, and the waiting of the program. */
 #include "system.h"
 
 #include "host.h"
@@ -44,7 +44,7 @@ void system_sleep(void)
         host_settle();
     }
     const uint64_t tick = host_next_tick(), free = host_line_free();
-    host_wait(free > machine_now() && free < tick ? free : tick);   /* the packet after this one waits for that */
+    host_wait(free > machine_now() && free < tick ? free : tick);   /* the next packet waits until the line is free */
 }
 
 void system_restart(void)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * time.c - tick.h and clock.h: both count the half microseconds of the machine. */
+ * time.c - tick.h and clock.h, from the half microseconds of the machine. */
 #include "clock.h"
 #include "host.h"
 #include "machine.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * trap.h - ASSERT, the PC's version: says where and aborts. */
+ * trap.h - ASSERT, the PC's version: prints the place and aborts. */
 #ifndef TRAP_H
 #define TRAP_H
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * files.c - the robot's folder: pages.bin (motion pages as m512 reads them), journal.bin and eeprom.bin.
- * A file has its whole length from the beginning, and bytes are replaced in place. So a power cut can only touch the bytes
- * that were being written, as on the chip, and the journal and the settings' two copies make them old or new. */
+ * A file has its full length from the start, and bytes are replaced in place. So a power cut can affect only the bytes being
+ * written, as on the chip; the journal and the two copies of the settings make them either old or new. */
 #include "machine.h"
 
 #include <errno.h>
@@ -75,7 +75,7 @@ static bool write_all(int file, const uint8_t *bytes, uint32_t count, off_t at)
     return true;
 }
 
-/* A file of `count` bytes is there as a whole or not at all. */
+/* Makes a file of `count` bytes, either complete or not at all. */
 static int make_file(const char *name, const uint8_t *bytes, uint32_t count)
 {
     char temporary[PATH_BYTES + 8];
@@ -91,7 +91,7 @@ static int make_file(const char *name, const uint8_t *bytes, uint32_t count)
     return file;
 }
 
-/* The motions that a new robot begins with. */
+/* Reads the initial motions of a new robot. */
 static void read_motions(uint8_t *bytes, uint32_t count)
 {
     FILE *file = fopen(pc_options.motions, "rb");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * machine.c - the computer's clock, the one place where the program sleeps, signals, and the end. */
+ * machine.c - the computer's clock, the program's only sleep, signals, and the end. */
 #include "machine.h"
 
 #include <errno.h>
@@ -47,7 +47,7 @@ void machine_wait(uint64_t until)
     (void)ppoll(entries, (nfds_t)count, &wait, NULL);
 }
 
-/* ---- sentences ---- */
+/* ---- messages ---- */
 
 void machine_tell(const char *sentence)
 {
@@ -90,7 +90,7 @@ static void on_end(int number)
     machine_ask_to_end();
 }
 
-/* Comes once a second. A computer that slept wakes up with one of these, so the second in a row counts. */
+/* Runs once per second. A computer that slept wakes up with one such signal, so only two in a row count. */
 static void on_alarm(int number)
 {
     (void)number;
@@ -160,7 +160,7 @@ void machine_end(void)
     exit(EXIT_SUCCESS);
 }
 
-/* Ahead of other programs, if the computer lets this person do so: a tick is 0.1 ms of work that should not wait. */
+/* Runs ahead of other programs, if the user has the permission: a tick is 0.1 ms of work that should not wait. */
 static void ask_for_priority(void)
 {
     const struct sched_param lowest = {.sched_priority = 1};

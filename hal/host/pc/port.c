@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * port.c - the adapter's serial port: any rate, raw, ours alone, with as little delay as the driver grants. */
+ * port.c - the adapter's serial port: any rate, raw, exclusive, with the lowest latency that the driver grants. */
 #include "machine.h"
 
 #include <asm/termbits.h> /* termios2: any rate; must not meet <termios.h> */
@@ -19,15 +19,15 @@
 enum { EXIT_PORT = 6 };
 #define MS 2000u
 #define TRY_AGAIN (1000u * MS)
-#define PATIENCE_LEAST (20u * MS)  /* a busy computer looks that late */
-#define PATIENCE_FAST (30u * MS)   /* an adapter that passes bytes on at once, and a computer that looks late */
-#define PATIENCE_SLOW (80u * MS)   /* FTDI's 16 ms, twice, with room */
+#define PATIENCE_LEAST (20u * MS)  /* a busy computer may check this late */
+#define PATIENCE_FAST (30u * MS)   /* an adapter that passes bytes on at once, and a computer that checks late */
+#define PATIENCE_SLOW (80u * MS)   /* FTDI's 16 ms, twice, with a margin */
 
 static struct {
-    int fd;              /* -1: gone */
+    int fd;              /* -1: lost */
     bool is_fast;
     uint32_t rate_bps;
-    uint64_t try_at;     /* when to look whether it is back */
+    uint64_t try_at;     /* when to try to reopen it */
 } port = {.fd = -1};
 
 static bool set_line(int fd)
@@ -40,12 +40,12 @@ static bool set_line(int fd)
     settings.c_cflag &= ~(unsigned)(CBAUD | CSIZE | PARENB | CSTOPB | CRTSCTS);
     settings.c_cflag |= CS8 | CREAD | CLOCAL | BOTHER;
     settings.c_ispeed = settings.c_ospeed = port.rate_bps;
-    settings.c_cc[VMIN] = 1;   /* else a silent port reads like one that is gone */
+    settings.c_cc[VMIN] = 1;   /* otherwise a silent port reads like a lost one */
     settings.c_cc[VTIME] = 0;
     return ioctl(fd, TCSETS2, &settings) == 0;
 }
 
-/* Asks the driver to pass bytes on at once. A CDC adapter (ttyACM) does so anyway and has no such switch. */
+/* Asks the driver to pass bytes on at once. A CDC adapter (ttyACM) always does so and has no such option. */
 static bool make_fast(int fd)
 {
     struct serial_struct settings;
@@ -66,7 +66,7 @@ static bool make_fast(int fd)
            (settings.flags & (int)ASYNC_LOW_LATENCY) != 0;
 }
 
-/* NULL, or why the port cannot be used. */
+/* Returns NULL, or why the port cannot be used. */
 static const char *try_to_open(void)
 {
     const int fd = open(pc_options.bus, O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
@@ -88,7 +88,7 @@ static const char *try_to_open(void)
         close(fd);
         return why;
     }
-    (void)ioctl(fd, TIOCEXCL);   /* keeps out programs that do not ask for a lock */
+    (void)ioctl(fd, TIOCEXCL);   /* excludes programs that do not check the lock */
     (void)ioctl(fd, TCFLSH, TCIOFLUSH);
     port.is_fast = make_fast(fd);
     port.fd = fd;

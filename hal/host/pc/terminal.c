@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * terminal.c - the console: this terminal (or pipe), a pty, or a socket on 127.0.0.1. On a terminal Ctrl-T is the prefix
- * for the panel's buttons (an arrow, or s for START), and Ctrl-C or Ctrl-] ends the program; all else goes to the robot.
+ * terminal.c - the console: this terminal (or pipe), a pty, or a socket on 127.0.0.1. On a terminal, Ctrl-T is the prefix
+ * for the panel's buttons (an arrow, or s for START), and Ctrl-C or Ctrl-] ends the program; all other keys go to the robot.
  * Edit gets the first Ctrl-C, as on a board, where it leaves a line or breaks a play. The second ends the program. */
 #include "machine.h"
 
@@ -22,12 +22,12 @@
 enum { EXIT_PORT = 6, KEY_END = 0x03, KEY_LEAVE = 0x1D, KEY_PREFIX = 0x14, KEY_ESC = 0x1B };
 #define MS 2000u
 #define BUTTON_HELD (200u * MS)
-#define AGAIN (2000u * MS)         /* the second Ctrl-C comes within that */
-#define ANSWERED (100u * MS)       /* then Edit has drawn what a Ctrl-C changes */
-#define READER_GONE (1000u * MS)   /* who has read nothing for so long gets no more, as on a cable */
+#define AGAIN (2000u * MS)         /* time limit of the second Ctrl-C */
+#define ANSWERED (100u * MS)       /* Edit's time to draw the effect of a Ctrl-C */
+#define READER_GONE (1000u * MS)   /* output is dropped after no reading for this long, as on a cable */
 
 static struct {
-    int in, out;              /* -1: nobody */
+    int in, out;              /* -1: none */
     int listener;             /* of the socket; -1: none */
     int pty_other;            /* keeps the pty alive while clients come and go; -1: no pty */
     bool is_terminal;
@@ -35,7 +35,7 @@ static struct {
     uint8_t escape;           /* characters of Ctrl-T and an arrow so far */
     uint8_t button;
     uint64_t button_until, written_at;
-    uint64_t end_until;       /* a Ctrl-C before that moment ends the program */
+    uint64_t end_until;       /* a Ctrl-C before this time ends the program */
     bool must_warn;
 } console = {.in = -1, .out = -1, .listener = -1, .pty_other = -1};
 
@@ -76,7 +76,7 @@ static void open_pty(void)
     if (pc_options.pty_link[0] != '\0') {
         struct stat there;
         if (lstat(pc_options.pty_link, &there) == 0 && S_ISLNK(there.st_mode)) {
-            (void)unlink(pc_options.pty_link);   /* an earlier run's; a file there is somebody's */
+            (void)unlink(pc_options.pty_link);   /* a link is left over from an earlier run; a file is not ours */
         }
         if (symlink(path, pc_options.pty_link) != 0) {
             pc_fail(EXIT_PORT, "%s: %s", pc_options.pty_link, strerror(errno));
@@ -139,7 +139,7 @@ static void take_client(void)
     }
 }
 
-/* Nobody types any more. A pipe's end is the end; a socket waits for the next one. */
+/* Handles the end of input. The end of a pipe ends the program; a socket waits for the next client. */
 static void lose_input(void)
 {
     if (console.listener >= 0) {
@@ -161,7 +161,7 @@ int terminal_poll(struct pollfd *entries)
 
 /* ---- keys ---- */
 
-/* Ctrl-T, then s or an arrow: ESC [ A..D. Returns whether the key is no key of the robot. */
+/* Takes Ctrl-T, then s or an arrow: ESC [ A..D. Returns whether the byte is not for the robot. */
 static bool take_panel_key(uint8_t byte)
 {
     static const uint8_t arrows[] = {PANEL_UP, PANEL_DOWN, PANEL_RIGHT, PANEL_LEFT};
@@ -193,7 +193,7 @@ static bool is_last_ctrl_c(void)
     return false;
 }
 
-/* In the last row of the terminal, between two texts of Edit: its screen stays as it is. */
+/* Writes to the last row of the terminal, between two texts of Edit, and restores the cursor. */
 static void warn(void)
 {
     if (console.must_warn && machine_now() + AGAIN > console.end_until + ANSWERED) {
@@ -252,7 +252,7 @@ uint16_t machine_console_write(const uint8_t *bytes, uint16_t count)
     if (console.out < 0) {
         return count;
     }
-    if (poll(&entry, 1, 0) > 0) {   /* else a pipe that nobody empties would hold the program up */
+    if (poll(&entry, 1, 0) > 0) {   /* otherwise a full pipe would block the program */
         const ssize_t written = write(console.out, bytes, count);
         if (written > 0) {
             console.written_at = now;

@@ -10,13 +10,13 @@
 #define PACKETS 64u
 #define PACKET_BYTES 260u
 #define WATCH (1000u * SIMTIME_PER_MS)
-#define LOOKS_A_US 32u             /* a program that only looks at the clock sees it go on */
+#define LOOKS_A_US 32u             /* clock readings per microsecond: the clock also runs for a program that only reads it */
 #define AT_ONCE 100u               /* 50 us */
 #define FIRST_PATIENCE (30u * SIMTIME_PER_MS)
 #define LEAST_PATIENCE (20u * SIMTIME_PER_MS)
 #define BUS_BITS_PER_S_1M 1000000u
 
-/* Bytes and when each comes. */
+/* Bytes and their arrival times. */
 typedef struct {
     uint64_t at[QUEUE_BYTES];
     uint8_t byte[QUEUE_BYTES];
@@ -85,7 +85,7 @@ static uint64_t packet_end(void)
     return simtime.packet_head == simtime.packet_tail ? SIMTIME_NEVER : simtime.packet[simtime.packet_tail % PACKETS].end;
 }
 
-/* Lets everything happen up to `until`; stops where the program would be woken by a byte, if asked to. */
+/* Runs all events up to `until`. wakes: stops at a byte that would wake the program. */
 static void pass(uint64_t until, bool wakes)
 {
     for (;;) {
@@ -140,7 +140,7 @@ void machine_wait(uint64_t until)
         return;
     }
     if (queue_next(&simtime.bus) <= simtime.now || queue_next(&simtime.console) <= simtime.now) {
-        /* The program has left bytes where they are: a computer would return at once, again and again. */
+        /* The program has left bytes unread: a computer would return at once, again and again. */
         pass(until < simtime.now + AT_ONCE ? until : simtime.now + AT_ONCE, false);
         return;
     }
@@ -223,7 +223,7 @@ void machine_tell(const char *sentence)
 bool machine_recall(machine_memory_t memory, uint8_t *bytes, uint32_t count)
 {
     if (count != memories[memory].count) {
-        abort();   /* the target's numbers have changed, and those above have not */
+        abort();   /* the target's sizes no longer match those above */
     }
     memcpy(bytes, memories[memory].bytes, count);
     return true;
@@ -314,7 +314,7 @@ void simtime_init(const simtime_callbacks_t *callbacks)
     memset(settled_eeprom, 0xFF, sizeof settled_eeprom);
 }
 
-/* What was under way when the power went is lost. */
+/* Bytes in transit at the power cut are lost. */
 static void switch_on(void)
 {
     simtime.bus.tail = simtime.bus.head;
@@ -356,7 +356,7 @@ simtime_end_t simtime_run(const char *file, const char **error)
     return (simtime_end_t)(why - 1);
 }
 
-/* ---- what the caller says ---- */
+/* ---- functions for the caller ---- */
 
 uint64_t simtime_now(void)
 {
