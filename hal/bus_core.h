@@ -63,7 +63,7 @@ bus_status_t bus_core_poll(bus_core_t *core, bus_time_t now_half_us, bus_answer_
 bool bus_core_has_news(const bus_core_t *core);
 void bus_core_counts(const bus_core_t *core, bus_counts_t *counts);
 
-/* ---- ISR side; inline, because each costs cycles at 1 Mbps (a byte comes every 160) ---- */
+/* ---- ISR side; inline to save cycles: at 1 Mbps a byte arrives every 160 ---- */
 
 static inline void bus_core_on_last(bus_core_t *core)
 {

@@ -5,11 +5,11 @@
 
 #include "memory.h"
 
-/* What LOAD leaves in EEPROM from MEM_EE_LOAD_RECORD on, for VERIFY (ORIGINAL.md, section 3). */
+/* The record that LOAD leaves in EEPROM at MEM_EE_LOAD_RECORD for VERIFY (ORIGINAL.md, section 3). */
 typedef struct __attribute__((packed)) {
     uint8_t last;  /* the last byte: the sum that the PC sent */
     uint32_t sum;  /* of all bytes before it */
-    uint32_t size; /* number of all bytes, the last one included */
+    uint32_t size; /* number of all bytes, including the last one */
 } load_record_t;
 
 /* LOAD: receives raw data for flash from `addr` on, then an 8-bit sum byte, then 111 ms of silence. Writes neither the sum

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * crc16.h - the one CRC of this project: CRC-16/IBM-3740 ("CCITT false"): polynomial 0x1021, start 0xFFFF, most
  * significant bit first, no final inversion. Known answer: "123456789" -> 0x29B1.
- * Used by the application record, settings, journal, block protocol and m512. No table: 20 cycles a byte. */
+ * Used by the application record, settings, journal, block protocol and m512. No table: 20 cycles per byte. */
 #ifndef CRC16_H
 #define CRC16_H
 

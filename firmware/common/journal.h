@@ -8,7 +8,7 @@
  *   +0    512  the new contents of the motion page
  *   +512   12  record, little endian; the rest of this flash page is 0xFF
  *              0 magic "MJ"  2 sequence  4 target page 0..127  5 layout 1
- *              6 CRC-16 of the 512 bytes  8 CRC-16 of record bytes 0..7  10 state: 0xFFFF pending, else done
+ *              6 CRC-16 of the 512 bytes  8 CRC-16 of record bytes 0..7  10 state: 0xFFFF pending, otherwise done
  *
  *   save:     data -> record -> target (flash pages that differ) -> state := 0 (programmed, no erase)
  *   recover:  newest record pending -> target (pages that differ) -> state := 0

@@ -56,7 +56,7 @@ typedef struct {
 /* A queue of zero bytes is empty. */
 
 /* Appends an event, or drops and counts it if the queue is full. One slot is reserved for the end of a play, because callers
- * wait for it, and some for all events but steps. */
+ * wait for it; five more are for all events except steps. */
 void performer_event_put(performer_events_t *events, uint8_t kind, uint8_t a, uint8_t b, uint8_t c);
 
 /* Takes the oldest event; after the last one, PERFORMER_EV_LOST if some were dropped. false: none. */

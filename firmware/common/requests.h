@@ -51,7 +51,7 @@ typedef struct {
     uint8_t count;
 } requests_table_t;
 
-/* What requests work on, and what the image adds. Each image defines the one instance. */
+/* The parts that requests use, and the image's additions. Each image defines one instance. */
 typedef struct {
     const char *name_P;                /* "play" */
     const char *can_P;                 /* what @ver appends to its common list of capabilities: ",open,save"; or NULL */

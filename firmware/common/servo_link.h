@@ -56,9 +56,9 @@ typedef struct {
     uint32_t torque;          /* torque is on, as last commanded or read (performer.c sets it for a silent one) */
     uint32_t silent;          /* present, but silent now */
     uint32_t no_sync;         /* present, but deaf to SYNC WRITE: served by REG WRITE and ACTION */
-    uint32_t no_reply;        /* present, but answers READ only (status return level 1) */
+    uint32_t no_reply;        /* present, but answers only READ (status return level 1) */
     uint32_t slow;            /* answered at 57,142 bps: reported, not used (the monitor image makes them fast) */
-    uint8_t voltage_dv;       /* lowest voltage heard in the last full round, 0.1 V; 0: none yet */
+    uint8_t voltage_dv;       /* lowest voltage of the last full round, 0.1 V; 0: none yet */
     uint8_t hottest_degrees;  /* highest temperature of the last full round, and its servo */
     uint8_t hottest_id;
     uint8_t late;             /* ticks whose goals could not all be sent in time; stops at 255 */

@@ -25,7 +25,7 @@ typedef enum {
 } shell_event_t;
 
 typedef struct {
-    char *line;             /* what is typed; NUL-terminated once complete */
+    char *line;             /* the typed text; NUL-terminated once complete */
     char *history;          /* earlier lines, newest first, NUL-terminated; two NULs end it */
     uint8_t line_bytes, history_bytes;
     uint8_t length;         /* characters in `line` */

@@ -49,7 +49,7 @@ typedef struct {
     uint8_t well_ticks;            /* counts down from WELL_TICKS while the row shows that all servos are well */
     uint16_t row_ticks;            /* counts down from ROW_TICKS; then faults are shown again */
     bool step_due;                 /* a step has begun; the row will show it when the line has room */
-    bool faults_stand;             /* the row has shown faults, and not yet that all servos are well */
+    bool faults_stand;             /* the row has shown faults, but not yet that all servos are well */
     bool faults_due;               /* a servo has a new fault; the row will show it when the line has room */
     bool broken_off;               /* a fault ended the last play; the row shows it until the next line is run */
     uint8_t stale_bytes;           /* bytes already waiting when a question was asked: not an answer */

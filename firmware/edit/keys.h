@@ -17,7 +17,7 @@ enum { KEY_CTRL_C = 3, KEY_CR = '\r', KEY_LF = '\n' };
 
 typedef struct {
     uint8_t state;
-    uint8_t number, first; /* parameters of the sequence under way: the last and the one before */
+    uint8_t number, first; /* the last two parameters of the open sequence: the newest and the one before */
     uint8_t rows;          /* of the last KEY_SIZE */
 } keys_t;
 

@@ -24,7 +24,7 @@ typedef struct {
 /* One position word. */
 uint16_t page_facts_word(uint8_t page, uint8_t step, uint8_t joint);
 
-/* Step 0..PAGE_STEP-1 of a good page. */
+/* Computes the facts of step 0..PAGE_STEPS-1 of a good page. */
 void page_facts_step(uint8_t page, uint8_t step, page_facts_t *facts);
 
 /* Duration of one repetition of a good page, in ticks. */

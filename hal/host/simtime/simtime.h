@@ -45,7 +45,7 @@ typedef struct {
 /* Resets everything, including the time. Erases the persistent memories. */
 void simtime_init(const simtime_callbacks_t *callbacks);
 
-/* Loads the program from a file, runs it from its start (firmware/host/program.c) until it ends. *error is NULL if it ran. */
+/* Loads the program from a file, runs it from its start (firmware/host/program.c) until it ends. *error: NULL if it ran. */
 simtime_end_t simtime_run(const char *file, const char **error);
 
 /* Ends the run from within a callback. Do not return. */
