@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Bytes without sense, and nearly with: for the shipped images as a whole on the strict board (two million bytes each way in),
+"""Bytes without sense, and nearly with: for the shipped images as a whole on the strict board (a million bytes each way in),
 for the portable modules and both applications as programs of the PC, guided by coverage, and for the files and answers that
 m512 reads.
 

@@ -14,13 +14,16 @@ tools/prove runs the proofs and writes two kinds of pages: tests/PROOFS.md with 
 for each figure. A proof does not stop at the first fault. It counts all faults and says how to repeat each.
 """
 
+import ast
 import dataclasses
 import hashlib
+import io
 import json
 import pathlib
 import re
 import shutil
 import subprocess
+import tokenize
 
 from campaign import Progress, cores, each  # noqa: F401  (what proofs run their work with)
 
@@ -100,9 +103,22 @@ def goals_of_motions():
     return found.hexdigest()
 
 
+def python_without_comments(text):
+    """Returns the source without comments, docstrings, empty lines and blanks at the end of a line."""
+    lines = text.splitlines()
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type == tokenize.COMMENT:
+            row, column = token.start
+            lines[row - 1] = lines[row - 1][:column]
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)) and ast.get_docstring(node) is not None:
+            lines[node.body[0].lineno - 1 : node.body[0].end_lineno] = [""] * (node.body[0].end_lineno - node.body[0].lineno + 1)
+    return "\n".join(line.rstrip() for line in lines if line.strip())
+
+
 def code(part):
-    """Returns ten digits that change when the part's subject changes: its code (without comments and whitespace in C), or the goals of
-    our motions."""
+    """Returns ten digits that change when the part's subject changes: its code (without comments and whitespace), or the goals of our
+    motions."""
     found = hashlib.sha256((goals_of_motions() if part in BY_GOALS else "").encode())
     for path in git_files(*JUDGED.get(part, ())):
         if path.suffix not in CODE or "tests" in path.relative_to(TOP).parts:
@@ -110,6 +126,8 @@ def code(part):
         text = path.read_text(encoding="utf-8")
         if path.suffix in (".c", ".h", ".in"):
             text = "".join(re.sub(r"/\*.*?\*/|//[^\n]*", "", text, flags=re.S).split())
+        elif path.suffix == ".py":
+            text = python_without_comments(text)
         found.update(f"{path.relative_to(TOP)}\0{text}\0".encode())
     return found.hexdigest()[:10]
 

@@ -83,12 +83,20 @@ def test_no_row_of_this_tree_is_broken():
     assert [page.stem for page in proof.DETAILS.glob("*.md") if "**BROKEN**" in page.read_text(encoding="utf-8")] == []
 
 
-def test_code_changes_with_what_is_compiled_only(tmp_path, monkeypatch):
+@pytest.mark.parametrize(
+    ("name", "text", "same", "other"),
+    [
+        ("motion.c", "int a; /* one */", "int  a;\n// two\n", "int b;"),
+        ("gait.py", "def f():\n    return '# no'\n", 'def f():  # says no\n    """One\n    two."""\n\n    return \'# no\'\n', "def f():\n    return '# yes'\n"),
+        ("gait.py", "if a:\n    b()\nc()\n", "if a:\n    # twice\n    b()\nc()", "if a:\n    b()\n    c()\n"),
+    ],
+)
+def test_code_changes_with_what_runs_only(tmp_path, monkeypatch, name, text, same, other):
     monkeypatch.setattr(proof, "TOP", tmp_path)
-    monkeypatch.setattr(proof, "git_files", lambda *_: [tmp_path / "motion.c"])
+    monkeypatch.setattr(proof, "git_files", lambda *_: [tmp_path / name])
     said = []
-    for text in ("int a; /* one */", "int  a;\n// two\n", "int b;"):
-        (tmp_path / "motion.c").write_text(text)
+    for written in (text, same, other):
+        (tmp_path / name).write_text(written)
         said.append(proof.code("power"))
     assert said[0] == said[1] != said[2]
 

@@ -28,7 +28,7 @@ ROBOT = sum(1 << joint for joint in (*range(1, 21),))
 LAWS = {"exact": EXACT, "classic": CLASSIC}
 UNITS_A_TICK = 1024 / 300 / 128  # units per tick for 1 degree/s
 APPROACH_DEG_S = 60
-WARM_UP, CYCLE = 40, 64  # ticks: the first start of a layer, and the number of starts; a walk cycle has 56
+WARM_UP, CYCLE = 96, 56  # ticks: the walk has begun its loop by then; the length of the loop, and the number of starts
 DEPTH = 160  # the latest end of a layer in ticks after its start: more than two of its steps
 SETTLES = 460  # ticks to return from the farthest position, plus the joint's next steps
 

@@ -37,9 +37,9 @@ def overlaid(area, pages):
 
 
 def new_motions():
-    """Returns the board's motions with eight pages changed."""
+    """Returns the board's motions with nine pages changed."""
     data = bytearray(robot.motions())
-    for number in (1, 2, 3, 40, 41, robot.ERASED, 90, 126, 127):
+    for number in (1, 2, 3, 40, 41, robot.ERASED, robot.DAMAGED, 126, 127):
         data[PAGE_BYTES * number : PAGE_BYTES * (number + 1)] = robot.made(number, 5)
     return bytes(data)
 

@@ -173,7 +173,7 @@ static void look(void)
     }
     const char *row = shown.command;
     const bool is_asking = strstr(row, "[y/N]") != NULL || strstr(row, "name:") != NULL || strncmp(row, "] Page ", 7) == 0;
-    const bool is_over = strncmp(row, "] ", 2) == 0 && row[2] != ' ' && row[2] != '_' && 
+    const bool is_over = strncmp(row, "] ", 2) == 0 && row[2] != ' ' && row[2] != '_' &&
                          (strstr(row, " OK") != NULL || (!is_asking && !editor.is_play_line));
     look_at_flash(&shown);
     look_at_servos(&shown);

@@ -40,7 +40,6 @@ static const struct {
 };
 
 #define PLACES_MAX 128u
-#define PRESSED 128u               /* ticks in which a stop is recent */
 
 static struct {
     const char *place[PLACES_MAX];

@@ -35,7 +35,7 @@ export class RobotPlays {
 
     /** Plays a page as it is in the robot. */
     async play(page: number): Promise<void> {
-        const mine = this.asked;
+        const mine = ++this.asked;
         await this.parts.prepare();
         if (mine !== this.asked) throw new RobotError('cancelled');
         await play(this.requests, page);

@@ -85,14 +85,16 @@ export class RobotSources {
 
     /** Never rejects. Errors are reported, and then the robot in the page is used. */
     async connectServos(): Promise<void> {
+        let mayBeClosed = false; // the previous one
         try {
             if (!(await this.servos.choose())) return; // the chooser was closed: no error
+            mayBeClosed = true;
             if (!this.isSimulated) this.parts.state.set({ connection: 'closed', version: null, where: null });
             await this.servos.close();
             await this.yours.close();
             await this.servos.start('play');
         } catch (error) {
-            if (!this.isSimulated) this.useSimulated(); // the previous one may be closed already
+            if (mayBeClosed && !this.isSimulated) this.useSimulated();
             return this.parts.fail(error);
         }
         this.leave('servos');

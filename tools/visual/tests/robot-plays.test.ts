@@ -17,7 +17,7 @@ const library = await libraryDocument();
 const WAVE = 60;
 
 /** Your robot with the motion library, and the page with this document. Nothing has been read from the robot. */
-async function yours(image: 'play' | 'edit', document: MotionDocument, seed: number) {
+async function yours(image: 'play' | 'edit', document: MotionDocument, seed: number, prepare = (): Promise<void> => Promise.resolve()) {
     const bench = await RobotBench.make(image, seed);
     const { connection } = connected(bench);
     for (let ms = 0; connection.state !== 'ready' && ms < 8000; ms += 50) await bench.run(50);
@@ -43,7 +43,7 @@ async function yours(image: 'play' | 'edit', document: MotionDocument, seed: num
         backUp: () => Promise.resolve(),
     });
     const state = new Store({ source: 'yours' } as SessionState);
-    const plays = new RobotPlays({ state, editor, transfer, connection: () => connection, prepare: () => Promise.resolve() });
+    const plays = new RobotPlays({ state, editor, transfer, connection: () => connection, prepare });
     return { bench, plays, transfer, played: () => sent.flatMap(bytes => bytes.match(/@play \d+/g) ?? []) };
 }
 
@@ -88,4 +88,16 @@ test('a page is laid over a play only as the document has it', async () => {
     const { bench, plays } = await yours('play', changed(WAVE), 65);
     const lay = plays.overlay({ kind: 'layer', page: WAVE, joints: [] });
     await expect(bench.until(lay)).rejects.toMatchObject({ code: 'layer-differs' });
+});
+
+test('a second play takes the place of one that still waits for the robot to stand', async () => {
+    let stand = (): void => undefined;
+    const stands = new Promise<void>(resolve => (stand = resolve));
+    const { bench, plays, played } = await yours('play', library, 66, () => stands);
+    const first = expect(plays.play(2)).rejects.toMatchObject({ code: 'cancelled' });
+    const second = plays.play(WAVE);
+    stand();
+    await first;
+    await bench.until(second);
+    expect(played()).toEqual([`@play ${WAVE}`]);
 });

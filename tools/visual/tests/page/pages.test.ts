@@ -32,6 +32,14 @@ test('a hobbyist: renames and copies pages, sees what will change, writes with a
     await card(page, /^motion 7 stand/).dragTo(card(page, /^motion 57, empty/));
     await page.getByRole('dialog').getByRole('button', { name: 'Copy' }).click();
     await card(page, /^motion 57 stand/).waitFor();
+    await page.getByRole('searchbox', { name: 'Search motions' }).fill('walk');
+    const inRow = page.getByRole('option', { name: /^motion \d+ walk/ });
+    expect(await inRow.count()).toBeGreaterThan(2);
+    await inRow.first().click();
+    for (const key of ['ArrowDown', 'ArrowUp']) {
+        await page.keyboard.press(key); // there is no other row
+        expect(await inRow.first().getAttribute('aria-selected')).toBe('true');
+    }
     await page.getByRole('searchbox', { name: 'Search motions' }).fill('');
     await page.screenshot({ path: `${SHOTS}pages.png` });
 

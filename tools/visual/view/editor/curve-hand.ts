@@ -139,6 +139,7 @@ export class CurveHand {
     private changeTime(by: number): void {
         const { editor } = this.session;
         const { page, step, document } = editor.state.get();
+        if (editor.page(page).schedule !== 'time') return; // the byte is a speed
         const time = Math.min(Math.max((editor.page(page).steps[step]?.time ?? 0) + by, 0), BYTE_MAX);
         editor.dispatch(editor.edits.setTime(document, page, [step], time));
     }

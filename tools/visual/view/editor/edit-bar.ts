@@ -69,15 +69,14 @@ export class EditBar extends HTMLElement {
 
     private renderEdits(state: EditorState): void {
         const { done, undone } = state.history;
-        const show = (button: HTMLButtonElement, way: 'undo' | 'redo', edit: (typeof done)[number] | undefined): void => {
+        const show = (button: HTMLButtonElement, way: 'undo' | 'redo', edit: (typeof done)[number] | undefined, without: string): void => {
             button.disabled = edit === undefined;
-            button.title = edit ? editText(edit, `${way}es`) : TEXTS.document[way];
+            button.title = edit ? editText(edit, `${way}es`) : without;
             button.setAttribute('aria-label', button.title);
         };
-        show(this.undo, 'undo', done.at(-1));
         const { forgotten } = this.session.documents.state.get();
-        if (done.length === 0 && forgotten > 0) this.undo.title = TEXTS.document.forgotten(forgotten);
-        show(this.redo, 'redo', undone.at(-1));
+        show(this.undo, 'undo', done.at(-1), forgotten > 0 ? TEXTS.document.forgotten(forgotten) : TEXTS.document.undo);
+        show(this.redo, 'redo', undone.at(-1), TEXTS.document.redo);
         const count = dirtyPages(state, this.session.editor.format).size;
         this.transfer.textContent = count > 0 ? TEXTS.document.toRobotCount(count) : TEXTS.document.toRobot;
     }

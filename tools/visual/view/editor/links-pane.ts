@@ -42,9 +42,11 @@ export class LinksPane extends HTMLElement {
         this.chart.addEventListener('dblclick', () => this.dispatchEvent(new CustomEvent('open-steps', { bubbles: true })));
         this.chart.addEventListener('pointerdown', event => {
             this.pulled = pageAt(event);
+            this.chart.setPointerCapture(event.pointerId); // a release outside the chart ends the drag, too
         });
         this.chart.addEventListener('pointermove', event => this.pull(event));
         this.chart.addEventListener('pointerup', event => void this.drop(event));
+        this.chart.addEventListener('pointercancel', () => this.letGo());
         this.disposals.push(
             this.session.editor.state.watch(() => this.render()),
             this.session.state.watch(() => queueMicrotask(() => this.render())),
@@ -107,10 +109,14 @@ export class LinksPane extends HTMLElement {
             node.classList.toggle('over', isPulling && Number(node.dataset.page) === over);
     }
 
-    private async drop(event: PointerEvent): Promise<void> {
-        const [from, to] = [this.pulled, pageAt(event)];
+    private letGo(): void {
         this.pulled = 0;
         this.chart.classList.remove('pulling');
+    }
+
+    private async drop(event: PointerEvent): Promise<void> {
+        const [from, to] = [this.pulled, pageAt(event)];
+        this.letGo();
         if (from === 0 || to === 0) return;
         if (from === to) return this.choose(from);
         const { editor } = this.session;

@@ -198,10 +198,8 @@ export class PagesPane extends HTMLElement {
             .filter(card => !card.hidden);
         const at = shown.findIndex(card => card.page === this.current);
         const top = shown[0]?.offsetTop;
-        const columns = Math.max(
-            1,
-            shown.findIndex(card => card.offsetTop !== top),
-        );
+        const below = shown.findIndex(card => card.offsetTop !== top);
+        const columns = below > 0 ? below : shown.length; // all are in one row
         const to = {
             ArrowLeft: at - 1,
             ArrowRight: at + 1,
@@ -210,7 +208,7 @@ export class PagesPane extends HTMLElement {
             Home: 0,
             End: shown.length - 1,
         }[key];
-        const card = to === undefined ? undefined : shown[Math.max(0, Math.min(to, shown.length - 1))];
+        const card = to === undefined ? undefined : (shown[to] ?? shown[at] ?? shown[0]);
         return card ? () => this.choose(card) : undefined;
     }
 }
