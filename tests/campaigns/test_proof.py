@@ -87,7 +87,12 @@ def test_no_row_of_this_tree_is_broken():
     ("name", "text", "same", "other"),
     [
         ("motion.c", "int a; /* one */", "int  a;\n// two\n", "int b;"),
-        ("gait.py", "def f():\n    return '# no'\n", 'def f():  # says no\n    """One\n    two."""\n\n    return \'# no\'\n', "def f():\n    return '# yes'\n"),
+        (
+            "gait.py",
+            "def f():\n    return '# no'\n",
+            'def f():  # says no\n    """One\n    two."""\n\n    return \'# no\'\n',
+            "def f():\n    return '# yes'\n",
+        ),
         ("gait.py", "if a:\n    b()\nc()\n", "if a:\n    # twice\n    b()\nc()", "if a:\n    b()\n    c()\n"),
     ],
 )

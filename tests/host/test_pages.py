@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""256 pages, all that a link can address: loops over pages end, the last page plays and can be linked to, a smaller board reports a misfit.
-"""
+"""256 pages, all that a link can address: loops over pages end, the last page plays and can be linked to, a smaller board reports a misfit."""
 
 import os
 import subprocess

@@ -13,10 +13,7 @@ import pathlib
 import sys
 import types
 
-from tests.models import (
-    classic_law,
-    random_pages,
-)
+from tests.models import classic_law, random_pages
 from tests.models.played import CLASSIC, ENDED, OUTPUT, Played
 
 READING = "reading"

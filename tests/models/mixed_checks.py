@@ -6,12 +6,7 @@ import itertools
 import math
 from fractions import Fraction
 
-from tests.models import (
-    classic_law,
-    hand_over,
-    mixed_cases,
-    shaping,
-)
+from tests.models import classic_law, hand_over, mixed_cases, shaping
 from tests.models.mixed_cases import LAYER_ACTIONS, SHAPE_ACTIONS, TICKS, play
 from tests.models.mixed_facts import bits, dropped, ends_of, first_difference, halts_of, in_force, is_broken, lent, owners, paused_ticks
 from tests.models.played import CLASSIC, ENDED, EXACT, JOINTS, OUTPUT, STOPPED

@@ -4,10 +4,7 @@ runs."""
 
 from fractions import Fraction
 
-from tests.models import (
-    classic_law,
-    shaping,
-)
+from tests.models import classic_law, shaping
 from tests.models.mixed_cases import SHAPE_ACTIONS
 from tests.models.played import ENDED, JOINTS, OUTPUT, STEP, STOPPED
 from tests.models.shaped import apply

@@ -14,10 +14,7 @@ import random
 import sys
 from fractions import Fraction
 
-from tests.models import (
-    classic_law,
-    shaping,
-)
+from tests.models import classic_law, shaping
 from tests.models.played import ENDED, EXACT, JOINTS, OUTPUT, STEP, Played
 
 ALL = 0x7FFFFFFF

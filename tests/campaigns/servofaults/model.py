@@ -125,10 +125,10 @@ def _kinds(faults, driven, held):
 def expected(faults, joints, driven, held, cut=frozenset()):
     """Returns what a robot with servos `joints` must report.
 
-        faults: {joint: set of fault names}
-        driven: joints that get a goal every tick
-        held:   joints whose torque is on
-        cut:    joints switched off at their first grave fault, so that the loss of torque is no news
+    faults: {joint: set of fault names}
+    driven: joints that get a goal every tick
+    held:   joints whose torque is on
+    cut:    joints switched off at their first grave fault, so that the loss of torque is no news
     """
     told = Expected(set(), [], set())
     for joint in joints:
