@@ -4,4 +4,4 @@
 This file imports nothing, so that `m512 --help` stays quick.
 """
 
-__version__ = "1.0.0"  # that of CMakeLists.txt, the one truth; a test compares
+__version__ = "1.0.0"  # must equal the version in CMakeLists.txt; a test compares

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""CRC-16/IBM-3740: polynomial 0x1021, start 0xFFFF; "123456789" gives 0x29B1. Twin of firmware/common/crc16.h."""
+"""CRC-16/IBM-3740: polynomial 0x1021, start 0xFFFF; "123456789" gives 0x29B1. The same as firmware/common/crc16.h."""
 
 import binascii
 

@@ -1,29 +1,29 @@
 # SPDX-License-Identifier: MIT
-"""Errors that a user reads: one sentence each, shown without a traceback, each with an exit code for scripts."""
+"""Errors for the user: one sentence each, shown without a traceback, with an exit code for scripts."""
 
 from __future__ import annotations
 
-# Exit codes. 0 is success; 1 is Python's own for a crash and 2 is click's for a wrong command line.
+# Exit codes. 0 is success, 1 is Python's for a crash, 2 is click's for a wrong command line.
 EXIT_DIFFERENT = 3  # a comparison, check or verification found something
 EXIT_BAD_FILE = 4  # a file is missing, damaged or of the wrong kind
-EXIT_REFUSED = 5  # asked for something that would do harm, or the user said no
-EXIT_PORT = 6  # no port, no access, or the cable came off
-EXIT_NO_ANSWER = 7  # the port is there but nobody answers as expected
+EXIT_REFUSED = 5  # the request would do harm, or the user said no
+EXIT_PORT = 6  # no port, no access, or the cable was unplugged
+EXIT_NO_ANSWER = 7  # the port exists, but nobody answers as expected
 EXIT_BOARD = 8  # the board answered with an error
 EXIT_MISSING = 9  # an optional library or the simulator is not installed
-EXIT_CANCELLED = 130  # Ctrl-C, as shells have it
+EXIT_CANCELLED = 130  # Ctrl-C, as in shells
 
-WORDS_MOST = 300  # characters of a sentence that quotes what somebody wrote
+WORDS_MOST = 300  # longest message in characters, when it quotes user input
 
 
 class M512Error(Exception):
-    """Base of all errors that are the user's business rather than ours."""
+    """Base of all errors that the user can act on."""
 
     exit_code = EXIT_BAD_FILE
 
 
 class FileError(M512Error):
-    """A file cannot be read as what it should be."""
+    """A file cannot be read as its expected kind."""
 
 
 class TextError(FileError):
@@ -35,7 +35,7 @@ class TextError(FileError):
 
 
 class WordError(ValueError):
-    """A word does not say what its place needs; the message is for the user. Who knows the place makes an M512Error of it."""
+    """A word is not valid in its place; the message is for the user. The caller that knows the place turns it into an M512Error."""
 
     def __init__(self, message: str):
         part = WORDS_MOST // 2
@@ -55,7 +55,7 @@ class NoAnswerError(M512Error):
 
 
 class BoardError(M512Error):
-    """The board's own error answer: number (or None) and text."""
+    """An error answer of the board: number (or None) and text."""
 
     exit_code = EXIT_BOARD
 
@@ -65,7 +65,7 @@ class BoardError(M512Error):
 
 
 class CancelledError(M512Error):
-    """The user pressed Ctrl-C; the text says how things stand."""
+    """The user pressed Ctrl-C; the text says what state things are in."""
 
     exit_code = EXIT_CANCELLED
 
@@ -75,5 +75,5 @@ class MissingError(M512Error):
 
 
 def how_to_install(package: str) -> str:
-    """What to type for a library that m512 can do without, wherever m512 itself was installed from."""
+    """The command that installs an optional library, for either way of installing m512."""
     return f"pip install {package} (m512 by pipx: pipx inject m512 {package})"

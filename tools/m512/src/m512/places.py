@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where things lie that m512 uses and does not bring: in the source tree around this package, or in the wheel `cm5sim`."""
+"""Locations of files that m512 uses but does not contain: the source tree around this package, or the wheel `cm5sim`."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 
 
 def source_tree() -> Path | None:
-    """The source tree that this package lies in, if it lies in one."""
+    """The source tree that contains this package, or None."""
     return next((folder for folder in Path(__file__).resolve().parents if (folder / "linker" / "memory_map.h").exists()), None)
 
 
@@ -20,7 +20,7 @@ def build_folder() -> Path | None:
 
 
 def wheel_folder() -> Path | None:
-    """What the wheel cm5sim brings: firmware/, motions/, tools/body/; None if it is not installed."""
+    """The content of the wheel cm5sim (firmware/, motions/, tools/body/), or None if it is not installed."""
     spec = find_spec("cm5sim")
     folder = Path(spec.origin).parent / "robot" if spec and spec.origin else None
     return folder if folder and folder.exists() else None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a user sees while something takes its time: remarks on stderr, a progress bar on a terminal, questions."""
+"""User interaction: remarks on stderr, a progress bar on a terminal, questions."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ Progress = Callable[[int, int], None]
 
 
 def plain(text: str) -> str:
-    """Text without control characters: what a board or a file says must not steer the terminal."""
+    """Text with control characters escaped: text from a board or a file must not control the terminal."""
     return "".join(char if char in "\n\t" or char.isprintable() else f"\\x{ord(char):02X}" for char in text)
 
 
 def show(text: str) -> None:
-    """A result, on stdout. FileError: there is none (`>&-`)."""
+    """Prints a result to stdout. FileError: stdout is closed (`>&-`)."""
     if sys.stdout is None:
         raise FileError("standard output is closed: the result is lost")
     click.echo(plain(text))
 
 
 def say(text: str) -> None:
-    """Remarks go to stderr: stdout is for results. The work goes on when nobody can read them (`2>&1 | head`, a full disk)."""
+    """Prints a remark to stderr; stdout is for results. The work continues when stderr cannot be written (`2>&1 | head`, a full disk)."""
     try:
         click.echo(plain(text), err=True)
     except OSError:
@@ -55,7 +55,7 @@ def phase(title: str) -> Iterator[Progress]:
 
 
 def confirm(question: str, yes: bool) -> None:
-    """Goes on only after a yes; without a terminal only with --yes."""
+    """Continues only after a yes. Without a terminal it needs --yes. RefusedError: a no, or nobody to ask."""
     if yes:
         return
     if not sys.stdin.isatty():

@@ -22,7 +22,7 @@ from m512.files import formats
 AREAS = {"motions": MOTIONS, "app": APP, "eeprom": (0, EEPROM_BYTES)}
 MANIFEST = "manifest.json"
 FORMAT, VERSION = "m512-backup", 1
-# What the loaders keep in passing must not come back: a page waiting in the mailbox would be written at the next start.
+# Transient state of the loaders, which must not be restored: a page waiting in the mailbox would be written at the next start.
 MAILBOX_CELLS = range(0xFF4, 0xFF6)
 
 
@@ -34,7 +34,7 @@ class Backup:
 
 
 def must_be_possible(folder: Path) -> None:
-    """FileError where no backup can be made: known before a board is called to its loader for it."""
+    """FileError if no backup can be written there. Checked before the board is put into its loader."""
     try:
         if folder.exists() and any(folder.iterdir()):
             raise FileError(f"{folder} is there already and not empty")
@@ -46,7 +46,7 @@ def must_be_possible(folder: Path) -> None:
 
 
 def take(loader: Loader, folder: Path, areas: list[str], phase: Callable[[str], AbstractContextManager[Progress]]) -> Backup:
-    """Reads the areas of the board and writes the folder; the manifest comes last."""
+    """Reads the areas of the board and writes the folder, the manifest last."""
     data = {}
     for area in areas:
         with phase(f"Reading {area}") as progress:
@@ -82,7 +82,7 @@ def take(loader: Loader, folder: Path, areas: list[str], phase: Callable[[str], 
 
 
 def load(folder: Path) -> Backup:
-    """A backup from its folder, checked against its manifest."""
+    """Reads a backup from its folder and checks it against its manifest. FileError: missing or damaged."""
     if folder.exists() and not (folder / MANIFEST).exists():
         raise FileError(f"{folder} is no backup's folder: there is no {MANIFEST} in it")
     text = formats.read_bytes(folder / MANIFEST)
@@ -124,7 +124,7 @@ def flash_pages(backup: Backup, areas: list[str]) -> dict[int, bytes]:
 
 
 def eeprom_changes(wanted: bytes, found: bytes) -> dict[int, int]:
-    """The EEPROM cells to write."""
+    """The EEPROM cells to write: address -> value."""
     return {at: value for at, value in enumerate(wanted) if found[at] != value and at not in MAILBOX_CELLS}
 
 

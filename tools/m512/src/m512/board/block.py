@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Our boot loader's block protocol (firmware/boot/BLOCK_PROTOCOL.md), the PC's side.
+"""The PC's side of our boot loader's block protocol (firmware/boot/BLOCK_PROTOCOL.md).
 
-Frames: 0xA5 command number n body[2 n] CRC-16, answers the same with 0x5A and a status first in the body. Requests that
-change nothing may be sent again at will; a write is the same page again, so it may be too. Two writes are under way at
-a time, so that the line is never idle.
+Frames are 0xA5 command number n body[2 n] CRC-16. Answers have 0x5A, and their body starts with a status. Requests that change nothing
+may be repeated freely. A write may be repeated too, because it carries the same page again. Two writes are outstanding at a time, so that
+the line is never idle.
 """
 
 from __future__ import annotations
@@ -29,14 +29,14 @@ STATUS = {
     BAD_COMMAND: "not known to this loader",
 }
 APP_STATES = {0: "none", 1: "unknown kind", 2: "good", 3: "damaged"}
-WINDOW = 2  # writes under way
+WINDOW = 2  # outstanding writes
 TRIES = 4
 ANSWER_SECONDS = 1.5
 FAST_RATE, FAST_UBRR, SLOW_UBRR = 117647, 16, 34
 SUMS_MAX = 64
-EEPROM_PAGE, EE_WRITE_MAX = 0x8100, 32  # EEPROM is read as pages from here
-BACK_SECONDS = 4.2  # without a good frame the loader ends a session, and a rate
-# The first HELLO then has no byte that is a key of an editor, should one be listening instead of the loader.
+EEPROM_PAGE, EE_WRITE_MAX = 0x8100, 32  # EEPROM is read as flash pages from this number on
+BACK_SECONDS = 4.2  # the loader ends a session, and its rate, after 4 s without a byte
+# The first HELLO then contains no byte that is a key of an editor, in case an editor listens instead of the loader.
 FIRST_NUMBER = 159
 TO_PROMPT, TO_APPLICATION, TO_RESET = range(3)
 IDENTITY = re.compile(r"ID Motion512 boot (\S+) (\S+) ")
@@ -50,26 +50,26 @@ def frame(command: int, number: int, body: bytes) -> bytes:
 
 
 def page_sum(page: bytes) -> tuple[int, int]:
-    """What SUMS answers for a flash page: its CRC-16 and its plain 16-bit sum."""
+    """The answer of SUMS for a flash page: its CRC-16 and its plain 16-bit sum."""
     return crc16(page), sum(page) & 0xFFFF
 
 
 class BlockLoader:
-    """A session with our loader. Use it as a context; it leaves the loader at its prompt, at the usual rate."""
+    """A session with our loader. leave() ends it."""
 
     name = "Motion512 boot loader"
-    was_at_prompt = False  # before this program came
+    was_at_prompt = False  # whether it was at its prompt before this program came
 
     def __init__(self, link: Link, identity: str = "", tries: int = 2, seconds: float = ANSWER_SECONDS):
         self.link, self.number, self.rate = link, FIRST_NUMBER, BAUD
         self.retries = self.detail = 0
-        # What the loader says of itself, when it was asked at its prompt: "ID Motion512 boot 1.00 CM5 api=1 ..."
+        # The loader's identity from its prompt, or empty: "ID Motion512 boot 1.00 CM5 api=1 ..."
         words = IDENTITY.search(identity)
         self.version, self.board = (words.group(1), words.group(2).lower()) if words else ("", "")
         self._ask(HELLO, b"", tries, seconds)
 
     def app_state(self) -> str:
-        """What the loader thinks of the application: none, unknown kind (no record), good, damaged."""
+        """The loader's verdict on the application: none, unknown kind (no record), good, damaged."""
         self._ask(HELLO, b"")
         return APP_STATES.get(self.detail, str(self.detail))
 
@@ -81,17 +81,17 @@ class BlockLoader:
         return self.number
 
     def _receive(self, seconds: float) -> tuple[int, int, int, bytes] | None:
-        """(command, number, status, data) of the next good answer; None: none came in time."""
+        """(command, number, status, data) of the next valid answer, or None if none arrives in time."""
         deadline = self.link.now() + seconds
         while True:
             left = deadline - self.link.now()
             some = self.link.read_some(left, 1) if left > 0 else b""
-            if not some:  # silence, or chatter without an answer
+            if not some:  # silence, or data without an answer in it
                 return None
             if some[0] != ANSWER:
                 continue
             head = self._piece(3)
-            if len(head) < 3:  # the line fell silent in the middle
+            if len(head) < 3:  # the line went silent inside a frame
                 continue
             body, end = self._piece(2 * head[2]), self._piece(2)
             if len(end) == 2 and len(body) == 2 * head[2] >= 2 and crc16(head + body) == int.from_bytes(end, "big"):
@@ -108,14 +108,15 @@ class BlockLoader:
         return out
 
     def _ask(self, command: int, body: bytes, tries: int = TRIES, seconds: float = ANSWER_SECONDS) -> bytes:
-        """One request and its answer's data; repeated when nothing or something damaged comes back."""
+        """Sends a request and returns the data of its answer. Repeats it when nothing or a damaged frame arrives. NoAnswerError,
+        BoardError."""
         status = None
         for attempt in range(tries):
             self.retries += attempt > 0
             number = self._send(command, body)
             answer = self._receive(seconds)
             while answer and answer[2] != BAD_FRAME and (answer[0], answer[1]) != (command, number):
-                answer = self._receive(seconds)  # of a request before, which came too late
+                answer = self._receive(seconds)  # a late answer to an earlier request
             if answer is None:
                 self.link.drain()
                 continue
@@ -131,7 +132,7 @@ class BlockLoader:
     # Rate
 
     def go_faster(self) -> bool:
-        """Tries 117,647 baud; goes back to the usual rate if that does not work."""
+        """Tries 117,647 baud; returns to the usual rate if that fails. Returns whether it worked."""
         self._ask(RATE, FAST_UBRR.to_bytes(2, "little"))
         self.link.sleep(0.02)
         try:
@@ -149,7 +150,7 @@ class BlockLoader:
     # Flash and EEPROM
 
     def read(self, start: int, end: int, progress: Progress | None = None) -> bytes:
-        """Memory bytes [start, end). Flash pages whose sums are those of empty ones are not sent over the line."""
+        """Memory bytes [start, end). Flash pages with the sums of an empty page are not transferred."""
         first, last = start // FLASH_PAGE, (end - 1) // FLASH_PAGE
         known = self._known(first, last) if last < EEPROM_PAGE and last > first + 4 else {}
         out = bytearray()
@@ -160,7 +161,7 @@ class BlockLoader:
         return bytes(out[start - first * FLASH_PAGE : end - first * FLASH_PAGE])
 
     def _known(self, first: int, last: int) -> dict[int, bytes]:
-        """Pages that hold nothing: erased flash, or half of an empty motion page."""
+        """The empty pages among these: erased flash, zeros, or half of an empty motion page."""
         plain = {page_sum(piece): piece for piece in (b"\xff" * FLASH_PAGE, bytes(FLASH_PAGE), EMPTY[:FLASH_PAGE], EMPTY[FLASH_PAGE:])}
         sums = self._sums(first, last - first + 1)
         return {page: plain[found] for page, found in sums.items() if found in plain}
@@ -186,7 +187,7 @@ class BlockLoader:
         return [number for number in sorted(pages) if sums[number] != page_sum(pages[number])]
 
     def write(self, pages: dict[int, bytes], progress: Progress | None = None) -> int:
-        """Writes these pages; returns how many of them were equal already. Each is read back by the loader."""
+        """Writes these pages; the loader reads each back. Returns how many were already equal."""
         waiting = deque(sorted(pages))
         under_way: dict[int, int] = {}
         failures: dict[int, int] = {}
@@ -199,7 +200,7 @@ class BlockLoader:
             if answer is None or answer[2] == BAD_FRAME or answer[0] != WRITE or answer[1] not in under_way:
                 if answer is not None and answer[2] != BAD_FRAME:
                     continue
-                # Something was lost: wait for what is still to come, then send again what was not acknowledged.
+                # Something was lost: collect the outstanding answers, then repeat the writes without acknowledgement.
                 done, equal = self._collect(under_way, done, equal)
                 for page in sorted(under_way.values()):
                     failures[page] = failures.get(page, 0) + 1
@@ -233,7 +234,7 @@ class BlockLoader:
         return self.read(base + start, base + end, progress)
 
     def write_eeprom(self, cells: dict[int, int], progress: Progress | None = None) -> None:
-        """Single bytes, by address."""
+        """Writes single bytes, by address."""
         done = 0
         for at, data in _pieces(sorted(cells.items()), EE_WRITE_MAX):
             body = at.to_bytes(2, "little") + len(data).to_bytes(2, "little") + data + bytes(len(data) % 2)
@@ -245,7 +246,7 @@ class BlockLoader:
     # The end
 
     def leave(self, to: int = TO_PROMPT) -> None:
-        """Leaves the loader: to its prompt, to the application, or by a reset."""
+        """Ends the session: to the prompt, to the application, or by a reset."""
         self._ask(LEAVE, to.to_bytes(2, "little"))
         if self.rate != BAUD:
             self.link.set_rate(BAUD)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""`-p bus:/dev/ttyUSB0`: servos on a USB adapter of this computer, without a board. Play or Edit runs here as a program (hal/host), and its
-console is talked to as if it were a board's line.
+"""`-p bus:/dev/ttyUSB0`: servos on a USB adapter of this computer, without a board. Play or Edit runs here as a program (hal/host). Its
+console takes the place of a board's line.
 
-The programs are looked for in $M512_PROGRAMS, in the build folder of a source tree, beside this Python (`pip install motion512`), and in
-the PATH. What the robot keeps is in its own folder: $M512_ROBOT, or the programs' default.
+The search order for the programs: $M512_PROGRAMS, the build folder of a source tree, the folder of this Python interpreter
+(`pip install motion512`), the PATH. The robot's persistent data is in its own folder: $M512_ROBOT, or the programs' default.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from m512.errors import EXIT_BAD_FILE, FileError, M512Error, MissingError, PortE
 from m512.places import build_folder
 
 PREFIX = "bus:"
-START_SECONDS = 120.0  # the search for servos takes up to ten; a busy computer needs more
+START_SECONDS = 120.0  # the search for servos takes up to 10 s; a busy computer needs more
 END_SECONDS = 30.0
 NO_LOADER = (
     "servos on an adapter have no board with a boot loader. Motions go there with `m512 put FILE all -p bus:...`; "
@@ -38,13 +38,13 @@ def is_bus(word: str) -> bool:
 
 
 def refuse(word: str) -> None:
-    """For commands that need a boot loader."""
+    """RefusedError on a bus: word, for commands that need a boot loader."""
     if is_bus(word):
         raise RefusedError(f"{word}: {NO_LOADER}")
 
 
 def refuse_lasting(word: str, what: str) -> None:
-    """For commands whose effect ends with the program: it would answer, and nothing would be seen of it."""
+    """RefusedError on a bus: word, for commands whose effect ends with the program: they would have no visible effect."""
     if is_bus(word):
         raise RefusedError(
             f"{what} lasts as long as the program behind {word}, and that ends with this command: "
@@ -76,7 +76,7 @@ def find_program(image: str) -> Path:
 
 
 class Program:
-    """Play or Edit over an adapter. `console` is the port to talk to. What the program says beside its console comes as notes."""
+    """Play or Edit on an adapter. `console` is the port to talk to. Other output of the program is shown as notes."""
 
     def __init__(self, word: str, image: str):
         device, rate = parts(word)
@@ -84,7 +84,7 @@ class Program:
         if os.environ.get("M512_ROBOT"):
             command += ["--robot", os.environ["M512_ROBOT"]]
         self.word = word
-        # A group of its own: Ctrl-C is for m512, which ends the program when it has said its last word.
+        # A session of its own: Ctrl-C reaches only m512, which ends the program after its own last request.
         self.process = subprocess.Popen(
             command + [device], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True
         )
@@ -110,20 +110,20 @@ class Program:
         raise self._refusal()
 
     def _refusal(self) -> M512Error:
-        """Why the program has ended instead."""
+        """The error for a program that ended instead of opening its console."""
         self.close()
         text = self._in_our_words(self.said.strip().splitlines()[-1]) if self.said.strip() else "the program did not start"
         return FileError(text) if self.process.returncode == EXIT_BAD_FILE else PortError(text)
 
     def _in_our_words(self, line: str) -> str:
-        """A line of the program, with what m512 has in place of its options."""
+        """A line of the program, with its options replaced by m512's equivalents."""
         text = re.sub(r"^motion512-\w+: ", "", line)
         text = re.sub(r"^--rate \d+: ", lambda _: f"{self.word}: the rate is ", text)
         text = text.replace("--off, or m512 torque off", f"m512 torque off -p {self.word}")
         return text.replace("with --robot", "in M512_ROBOT").replace("--robot", "M512_ROBOT")
 
     def _tell(self) -> None:
-        """Passes on what the program says, line by line, until it ends."""
+        """Shows what the program writes, line by line, until it ends."""
         rest = self.said
         while True:
             *lines, rest = rest.replace("\r", "\n").split("\n")
@@ -137,7 +137,7 @@ class Program:
             rest += some
 
     def close(self) -> None:
-        """Ends the program: it brings the robot to a stand first."""
+        """Ends the program, which first brings the robot to a halt."""
         if self.process.poll() is None:
             self.process.send_signal(signal.SIGINT)
             try:
@@ -151,7 +151,7 @@ class Program:
 
 
 def start(url: str, image: str) -> tuple[Program | None, str]:
-    """(the program of a bus: word, its console), or (None, url) of any other port."""
+    """(program, its console) for a bus: word, (None, url) for any other port."""
     if not is_bus(url):
         return None, url
     program = Program(url, image)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""`m512 doctor -p bus:...`: from the adapter to each servo, what is there, what is wrong, what to do. Torque stays as it is and nothing
-moves. Only with `mend` two registers are written: a rate and a return delay that the programs do not use."""
+"""`m512 doctor -p bus:...`: examines everything from the adapter to each servo and gives advice. Torque stays as it is and nothing
+moves. Only with `mend` it writes two registers: a rate or a return delay that the programs cannot use."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from m512.board.doctor import BAD, LOW_BATTERY_DV, OK, WARN, Add, Finding
 from m512.errors import M512Error
 from m512.files.text.writer import ranges
 
-# The rates that servos are sold with or were set to, by divisor 2,000,000 / (n + 1).
+# Rates in baud that servos are sold with or were set to -> divisor n. The rate is 2,000,000 / (n + 1).
 RATES = {1000000: 1, 57142: 34, 115200: 16, 500000: 3, 400000: 4, 250000: 7, 200000: 9, 19200: 103, 9600: 207}
 PLAYED = range(31)  # IDs that Play and Edit can drive
 OTHERS = range(31, 254)
@@ -111,7 +111,7 @@ def _at_rate(line: servos.Bus, add: Add, rate: int, ids: list[int], wanted: int,
 
 
 def _missing(ids: list[int], add: Add) -> None:
-    """Robots count their servos from 1 on without a gap."""
+    """Reports missing and unplayable IDs. Robots number their servos from 1 on without a gap."""
     if not ids:
         add("servos", BAD, "no servo answers, at no rate", NOBODY)
     gaps = [id_ for id_ in range(1, max(ids, default=0)) if id_ not in ids and id_ in PLAYED]
@@ -173,7 +173,7 @@ def _mend_rate(line: servos.Bus, add: Add, id_: int, rate: int, wanted: int) -> 
     if divisor is None:
         add(f"servo {id_}", WARN, f"no servo has the rate {wanted}", "name one of " + " ".join(map(str, RATES)))
         return
-    line.write(id_, AT_BAUD, divisor)  # it answers at the old rate, or at the new one
+    line.write(id_, AT_BAUD, divisor)  # the answer comes at the old rate or at the new one
     line.set_rate(wanted)
     done = line.ask(id_, servos.PING) is not None
     line.set_rate(rate)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Line commands for programs of Play and Edit (firmware/common/PROTOCOL.md), the PC's side.
+"""The PC's side of the line commands of Play and Edit (firmware/common/PROTOCOL.md).
 
-Requests and answers go through the channel: a byte BEGIN, the line, a CRC behind a request. What a person types or sees there goes on beside
-them, and is passed over here.
+A request is a byte BEGIN, the line and a CRC. An answer is a byte BEGIN and the line. Other text on the line, such as what a person
+types and its echo, is skipped here.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ ANSWER_SECONDS = 3.0
 TRIES = 3
 DATA_BYTES = 32
 ERR_WORD, ERR_EDITS, ERR_LINE, ERR_ASKED = 1, 12, 15, 16
-# Fields of @where: what each looks like, and what stands for one that is not there ("": it must be).
+# Fields of @where: the pattern of each, and its value when it is missing ("": it is mandatory).
 WHERE = {
     **{word: ("[0-9]+", "") for word in ("page", "repetition")},
     **{word: ("[0-9]+", "0") for word in ("step", "code", "dv", "missed")},
@@ -37,20 +37,20 @@ OLDER = (
 
 
 def framed(request: str) -> bytes:
-    """A request without the CR that ends it."""
+    """A request without the final CR."""
     text = f"@{request} ".encode()
     return BEGIN + text + b"%04X" % crc16(text)
 
 
 class Client:
-    """Play or Edit on a line. Raises NoAnswerError when nobody answers to @ver. patience: seconds for the answer to each @ver. slack: seconds
-    that every later answer may be late, on a line that does not keep the clock."""
+    """Play or Edit on a line. Raises NoAnswerError when @ver gets no answer. patience: seconds to wait for the answer to each @ver.
+    slack: extra seconds for every later answer, on a line that may run slower than real time."""
 
     def __init__(self, link: Link, patience: Sequence[float] = (0.9, 1.5), slack: float = 0.0):
         self.link = link
-        self.heard = b""  # without an answer
+        self.heard = b""  # bytes received when no answer came
         self.version: dict[str, str] = {}
-        self._listed: dict[int, tuple[int | None, str]] | None = None  # for find(), which a command asks for each of its words
+        self._listed: dict[int, tuple[int | None, str]] | None = None  # cache for find(), which a command calls for each of its words
         self.slack = 0.0
         for _ in range(TRIES):
             self.version = self._fields(self._ask_version(patience))
@@ -61,8 +61,8 @@ class Client:
         self.slack = slack
 
     def _ask_version(self, patience: Sequence[float]) -> str:
-        """Without CR: Play and Edit take the request 250 ms later. A boot loader has nothing to run then, whatever was typed there before, and
-        its knock rubs it out."""
+        """Sends @ver without CR: Play and Edit execute it after 250 ms. A boot loader has no line to execute then, whatever was typed
+        before, and the knock (factory_line.KNOCK) erases it."""
         for seconds in patience:
             try:
                 return self.ask("ver", seconds, tries=1, end=b"")
@@ -76,7 +76,7 @@ class Client:
         return dict(part.split("=", 1) for part in text.split() if "=" in part)
 
     def ask(self, request: str, seconds: float = ANSWER_SECONDS, tries: int = TRIES, end: bytes = b"\r") -> str:
-        """Sends a request. Returns the text of the answer between the word and OK. BoardError: the board answered ERR."""
+        """Sends a request. Returns the answer's text between the word and OK. BoardError: the board answered ERR."""
         word = "@" + request.split()[0]
         for _ in range(tries):
             self.link.write(framed(request) + end)
@@ -87,7 +87,7 @@ class Client:
                 return line[:-2].strip()
             match = re.match(r"ERR (\d+) ?(.*)", line)
             if match:
-                if int(match.group(1)) == ERR_LINE:  # the board has not run it
+                if int(match.group(1)) == ERR_LINE:  # the board did not execute it
                     continue
                 raise self._error(word, int(match.group(1)), match.group(2))
         raise NoAnswerError(f"no answer to {word}")
@@ -97,13 +97,13 @@ class Client:
             image = self.version.get("image", "this image")
             other = {"edit": "Play", "play": "Edit"}.get(image)
             text = f"{image.capitalize()} does not know {word}" + (f", {other} does" if other else "")
-            if other and self.version.get("board") != "pc":  # the programs for an adapter are not flashed
+            if other and self.version.get("board") != "pc":  # the programs for an adapter cannot be flashed
                 text += f": m512 run {self.file_of(other)}"
         return BoardError(text or f"error {number}", number)
 
     def _answer(self, word: str, seconds: float) -> str | None:
-        """Returns the text behind the word in the first whole line that answers, or a refusal of a line that has lost its word. None: no such
-        line came in time."""
+        """Returns the text after the word in the first complete line that answers. A refusal of a damaged line (ERR_LINE) counts under
+        any word. None: no such line within the time."""
         deadline = self.link.now() + seconds
         while True:
             left = deadline - self.link.now()
@@ -121,8 +121,8 @@ class Client:
     # Pages
 
     def list_pages(self) -> dict[int, tuple[int | None, str]]:
-        """page -> (steps, name), or (None, what is wrong). The answer has no checksum, and a page that is missing in it would be overwritten
-        or not saved, so it must come twice in the same words."""
+        """page -> (steps, name), or (None, the fault). The answer has no checksum, and a missing page would be overwritten or not saved.
+        So two identical answers in a row are required."""
         before = None
         for _ in range(2 * TRIES):
             text = " " + self.ask("list", 6.0)
@@ -132,14 +132,14 @@ class Client:
         raise NoAnswerError(DAMAGED.format("the list of its pages"))
 
     def find(self, word: str) -> int:
-        """A page by number or name."""
+        """The page number for a number or a name."""
         number = selection.page_number(word)
         if number is not None:
             return number
         return selection.find(word, self._names(), lambda text: BoardError(f"{text}; it has {self._what_it_has()}"), " of the board")
 
     def motion(self, word: str) -> int:
-        """A page that can be played, by number or name."""
+        """The number of a playable page, by number or name."""
         number = self.find(word)
         if not 0 < number < self.pages:
             raise BoardError(f"page {number} is no motion: those are pages 1..{self.pages - 1}; the board has {self._what_it_has()}")
@@ -152,7 +152,7 @@ class Client:
         return word in self._names().values()
 
     def used(self) -> list[int]:
-        """Pages that hold something, damaged ones too."""
+        """Pages that hold something, including damaged ones."""
         return sorted(self._list())
 
     def _names(self) -> dict[int, str]:
@@ -176,11 +176,11 @@ class Client:
 
     @property
     def pages(self) -> int:
-        """How many pages the board has: 0..pages - 1."""
+        """Number of pages on the board: 0..pages - 1."""
         return int(self.version.get("pages", "128"))
 
     def file_of(self, image: str) -> str:
-        """The firmware's file for this board."""
+        """The name of the firmware file for this board."""
         return f"{image.lower()}-{self.version.get('board', 'CM5').lower()}.hex"
 
     @property
@@ -188,8 +188,8 @@ class Client:
         return "save" in self.version.get("can", "").split(",")
 
     def has_edits(self) -> bool:
-        """Whether Edit's page in RAM has edits that are not saved. (Asked by @open of page 0, which it refuses then; else the
-        page in RAM is page 0 afterwards.)"""
+        """Whether Edit's page in RAM has unsaved edits. Sends @open 0, which Edit refuses in that case; otherwise page 0 is in RAM
+        afterwards."""
         if not self.can_save:
             return False
         try:
@@ -199,7 +199,7 @@ class Client:
         return False
 
     def save_page(self, number: int, page: Page) -> None:
-        """Saves a page in the board's flash, through its page in RAM."""
+        """Saves a page in the board's flash, by way of the board's page in RAM."""
         self._listed = None
         self.ask(f"open {number}")
         data = bytes(page)
@@ -210,7 +210,7 @@ class Client:
     # Robot
 
     def pose(self) -> dict[int, tuple[int | None, bool]]:
-        """id -> (position or None when silent, torque)."""
+        """id -> (position, or None when the servo is silent; torque)."""
         out = {}
         for joint, position, torque in re.findall(r"(\d+):(\d+|\?):([01])", self.ask("pose")):
             out[int(joint)] = (None if position == "?" else int(position), torque == "1")
@@ -225,7 +225,7 @@ class Client:
         self.ask(" ".join(["torque", "on" if on else "off"] + [str(j) for j in joints]))
 
     def where(self) -> dict[str, str]:
-        """Answers have no checksum: one in which a field is missing, or is no number, is asked for again."""
+        """The state of the robot. Answers have no checksum, so the request is repeated when a field is missing or malformed."""
         for _ in range(TRIES):
             found = self._fields(self.ask("where"))
             if found.get("state", "").isalpha() and all(re.fullmatch(form, found.get(word, absent)) for word, (form, absent) in WHERE.items()):
@@ -233,8 +233,8 @@ class Client:
         raise NoAnswerError(DAMAGED.format("what the robot does"))
 
     def shape(self) -> dict[str, str]:
-        """What shapes the motion: rate, blend, amplitude ("60", or "60 3,4:120" where joints differ), layer (the second page, 0: none),
-        aim (joints that code moves)."""
+        """What shapes the motion: rate, blend, amplitude ("60", or "60 3,4:120" if joints differ), layer (the second page, 0: none), aim
+        (joints controlled by code)."""
         found = self._fields(self.ask("shape"))
         if len(found.get("amplitude", "")) == 2 * JOINTS:
             found["amplitude"] = _by_joints(bytes.fromhex(found["amplitude"]))
@@ -248,7 +248,7 @@ class Client:
 
 
 def _by_joints(values: bytes) -> str:
-    """The value that most joints have, then the others with their joints."""
+    """The most frequent value, then the other values with their joints."""
     most = max(set(values), key=values.count)
     others = [f"{','.join(str(joint) for joint, at in enumerate(values) if at == value)}:{value}" for value in sorted(set(values) - {most})]
     return " ".join([str(most), *others])

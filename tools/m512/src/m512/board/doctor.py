@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Looks at everything between this PC and the servos, from near to far, and says what is wrong and what to do.
+"""Examines everything between this PC and the servos, from near to far. Reports what is wrong and what to do.
 
 It writes nothing to the board and moves nothing.
 """
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from m512.board.link import Link
 
 OK, WARN, BAD = "ok", "look", "bad"
-Add = Callable[..., None]  # takes a finding, as Finding() does
-LOW_BATTERY_DV = 96  # below 9.6 V without a load a pack is nearly empty
+Add = Callable[..., None]  # takes the arguments of Finding()
+LOW_BATTERY_DV = 96  # 9.6 V: below this without load, a pack is nearly empty
 
 
 @dataclass
@@ -35,8 +35,8 @@ class Finding:
 
 
 def examine(word: str, tell: Callable[[Finding], None], meet: Callable[..., Client] = Client) -> list[Finding]:
-    """All findings, told as they come. `word`: the port, or empty for the only one. meet: makes the Client of a line (sim.meet for a simulated
-    board)."""
+    """Returns all findings; each also goes to `tell` at once. `word`: the port, or empty for the only one. meet: makes the Client of a
+    line (sim.meet for a simulated board)."""
     out: list[Finding] = []
 
     def add(*parts: str) -> None:
@@ -82,7 +82,7 @@ def _port(word: str, add: Add) -> str | None:
         Link(url).close()
     except M512Error as error:
         if found or word:
-            first = str(error).splitlines()[0].removesuffix("; there are:")  # they stand in the line above
+            first = str(error).splitlines()[0].removesuffix("; there are:")  # the line above lists them
             add("port", BAD, first, "" if "-p" in first or "--port" in first else "name the port with -p")
         return None
     add("port", OK, f"{url} opens")
@@ -149,7 +149,7 @@ def _robot(client: Client, add: Add) -> None:
     if volts:
         add("battery", WARN if volts < LOW_BATTERY_DV else OK, f"{volts / 10:.1f} V", "charge it soon" if volts < LOW_BATTERY_DV else "")
     missed = int(state.get("missed", "0"))
-    if missed and client.version.get("image") == "play":  # Edit's missed ones were spent on its screen, while nothing moved
+    if missed and client.version.get("image") == "play":  # Edit misses ticks only while it draws its screen and nothing moves
         add("ticks", WARN, f"{missed} ticks of motion were missed since the start", "motions are not quite smooth")
     faulty = int(state.get("faulty", "0"), 16)
     if faulty:
@@ -158,7 +158,7 @@ def _robot(client: Client, add: Add) -> None:
 
 
 def _servos(client: Client, add: Add) -> None:
-    for _ in range(4):  # right after its start the board has not read all of them yet
+    for _ in range(4):  # shortly after its start the board has not read all servos yet
         pose = client.pose()
         if pose and all(at is not None for at, _ in pose.values()):
             break

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Writing a Plan to a board through either loader: compare, write what differs, read back.
+"""Writes a Plan to a board through either loader: compares, writes what differs, reads back.
 
-Because only differing pages are sent, a download that broke off goes on where it stopped when it is repeated.
+Only pages that differ are sent, so repeating an interrupted download continues where it stopped.
 """
 
 from __future__ import annotations
@@ -39,13 +39,13 @@ class Report:
 
 
 def check_board(plan: Plan, loader: Loader) -> None:
-    """Code for another board is refused as soon as the board is known; nothing was written then."""
+    """RefusedError if the code is for another board. Checked as soon as the board is known, before anything is written."""
     if plan.record and loader.board and plan.record.board != loader.board:
         raise RefusedError(f"the image is {plan.record}, but this board is a {loader.board}. Nothing was written")
 
 
 def download(loader: Loader, plan: Plan, phase: PhaseMaker, todo: list[int] | None = None) -> Report:
-    """`todo`: the pages of the plan that differ, if that is known."""
+    """Writes the plan and reads it back. `todo`: the pages that differ, if known."""
     check_board(plan, loader)
     begun = loader.link.now()
     if todo is None:
@@ -77,7 +77,7 @@ def _to_ours(loader: BlockLoader, pages: dict[int, bytes], progress: Callable[[i
 
 
 def _to_factory(loader: FactoryLoader, pages: dict[int, bytes], progress: Callable[[int, int], None], around: dict[int, bytes]) -> None:
-    """Writes. If something ends it early, the error says in which state the board is and what is safe to do."""
+    """Writes. If something ends it early, the error says what state the board is in and what is safe to do."""
     try:
         loader.write(pages, progress, around)
     except KeyboardInterrupt:
@@ -87,7 +87,7 @@ def _to_factory(loader: FactoryLoader, pages: dict[int, bytes], progress: Callab
 
 
 def start(loader: Loader) -> None:
-    """Starts the application, now and at every power-on to come."""
+    """Starts the application, now and at every later power-on."""
     if not isinstance(loader, FactoryLoader) and loader.read_eeprom(BOOT_MODE, BOOT_MODE + 1) == b"\xff":
         loader.write_eeprom({BOOT_MODE: BOOT_APPLICATION})
     loader.leave(1)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Driving a motion that plays: what a stick or keys mean, and the `@drive` lines that say it 20 times a second.
+"""Driving a motion that plays: turns a stick or keys into `@drive` lines, 20 per second.
 
-The board ends the play through its exit page when no `@drive` comes for a second (setting `drive`), so a lost cable or a
-program that hangs does not leave a walking robot.
+The board ends the play through its exit page when no `@drive` arrives for a second (setting `drive`). So a lost cable or a program
+that hangs does not leave a robot walking.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from m512.board.link import Link
 from m512.errors import BoardError
 
 PERIOD = 0.05  # seconds between two lines
-ASK_EVERY = 20  # lines: whether it still plays
+ASK_EVERY = 20  # lines between two checks that the play still runs
 RATES, AMPLITUDES, BLENDS = (10, 400), (0, 150), (-100, 100)
 
 
 @dataclass
 class Stick:
-    """What is asked for, in percent: blend to the right, rate, amplitude; whether the second page is laid over the first. `done`: stop,
-    softly or at once. `said`: news for who drives."""
+    """The commanded values in percent: blend to the right, rate, amplitude. layer: whether the second page plays over the first. `done`:
+    "stop" or "break". `said`: a message for the user."""
 
     blend: float = 0.0
     rate: float = 100.0
@@ -39,11 +39,11 @@ class Source(Protocol):
     """Keys or a game pad."""
 
     def update(self, stick: Stick, seconds: float) -> None:
-        """Changes the stick by what has happened in the last `seconds`."""
+        """Changes the stick by the input of the last `seconds`."""
 
 
 class Keys:
-    """Keys of a terminal, which tells presses and no releases: steering goes back to straight by itself."""
+    """Keys of a terminal, which reports key presses but no releases. So the steering returns to straight by itself."""
 
     HELP = "a d steer, w s speed, e q size, space stops, x at once"
     STEER, BACK, FASTER, LARGER = 25.0, 60.0, 10.0, 10.0  # percent a key; percent a second; percent a key
@@ -68,8 +68,8 @@ class Keys:
 
 
 class Pad:
-    """A game pad, read by `axis(n)` (-1 .. 1) and `button(n)`: left stick steers and speeds, any of the first four buttons stops, the
-    fifth (a shoulder) lays the second page over while it is held."""
+    """A game pad, read by `axis(n)` (-1 .. 1) and `button(n)`. The left stick steers and sets the speed, each of the first four buttons
+    stops, the fifth (a shoulder button) plays the second page while it is held."""
 
     DEAD, LAYER = 0.12, 4
 
@@ -86,8 +86,8 @@ class Pad:
 
 
 def drive(client: Client, source: Source, link: Link, told: Callable[[Stick], object], layer: int = 0) -> Stick:
-    """Sends until the source says done or the play ends; `told(stick)` after each line. layer: the second page, 0: there is none. A play
-    that is left by an exception is stopped softly."""
+    """Sends lines until the source sets `done` or the play ends; calls `told(stick)` after each line. layer: the second page, 0: none.
+    An exception stops the play softly."""
     stick, before, laid, lines = Stick(), link.now(), False, 0
     try:
         while not stick.done:
@@ -111,7 +111,7 @@ def drive(client: Client, source: Source, link: Link, told: Callable[[Stick], ob
 
 
 def _laid(client: Client, page: int | str) -> str:
-    """Lays the page over the walk, or takes it off; what the board has against it is no reason to stop."""
+    """Starts or ends the layer. An error of the board is returned as text and does not stop the drive."""
     try:
         client.ask(f"layer {page}")
     except BoardError as error:

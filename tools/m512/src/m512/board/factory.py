@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""The factory boot loader, the PC's side: in which way each page is written. All that was written is read back by dumps.
+"""The PC's side of the factory boot loader: chooses how to write each page, and reads back everything by dumps.
 
-What writes flash is in factory_flash.py and mailbox.py, which say why they cannot hurt the loader.
+Flash is written in factory_flash.py and mailbox.py, which explain why this cannot damage the loader.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from m512.errors import BoardError, RefusedError
 
 class FactoryLoader(FactoryLine):
     name = "factory boot loader"
-    board = ""  # cm5 or cm2, by its banner (loaders.identify)
-    was_at_prompt = False  # before this program came
+    board = ""  # cm5 or cm2, from its banner (loaders.identify)
+    was_at_prompt = False  # whether it was at its prompt before this program came
 
     def different(self, pages: dict[int, bytes], progress: Progress | None = None) -> list[int]:
         """Returns those of these pages that differ on the board."""
@@ -33,9 +33,9 @@ class FactoryLoader(FactoryLine):
     # Writing flash
 
     def write(self, pages: dict[int, bytes], progress: Progress | None = None, around: dict[int, bytes] | None = None) -> int:
-        """Writes these pages and reads them back. `around`: pages known to be there, which may be written along."""
+        """Writes these pages and reads them back. `around`: pages known to be on the board, which may be rewritten."""
         if any(page * FLASH_PAGE < APP[1] for page in pages):
-            self.stay()  # a program that is half there must not be started
+            self.stay()  # a partly written program must not be started
         known, done = {**(around or {}), **pages}, 0
         for unit in factory_flash.units(set(known)):
             todo = {page for page in unit if page in pages}
@@ -46,7 +46,7 @@ class FactoryLoader(FactoryLine):
         return 0
 
     def _with_neighbour(self, unit: dict[int, bytes]) -> dict[int, bytes]:
-        """Half a motion page is written together with its other half, as the board holds it."""
+        """Adds the other half of a motion page, as the board holds it: both halves are written together."""
         if len(unit) > 1:
             return unit
         page = next(iter(unit))
@@ -79,5 +79,5 @@ class FactoryLoader(FactoryLine):
 
 
 def _behind(progress: Progress, done: int, total: int) -> Progress:
-    """Turns progress in bytes into progress in pages, counted on from those that are done."""
+    """Turns progress in bytes into progress in pages, added to the `done` ones."""
     return lambda count, _: progress(done + count // FLASH_PAGE, total)

@@ -1,19 +1,20 @@
 # SPDX-License-Identifier: MIT
-"""Flash pages through the factory loader's `load`, in a way in which it cannot be hurt.
+"""Writes flash pages through the factory loader's `load` without risk to the loader.
 
-`load` takes raw bytes without bound, up to a silence of 111 ms, and writes whole pages from a buffer that keeps what was in
-it. So whatever a line does to the bytes (pauses, loss, each byte twice, bytes that come after this program has died):
+`load` takes raw bytes without a limit until the line is silent for 111 ms. It writes whole pages from a buffer that keeps its
+old content. The rules below hold whatever a line does to the bytes: pauses, loss, each byte twice, bytes that arrive after this
+program has died.
 
-* While a download may be open nothing is sent but the bytes that were announced. Only text that the loader sends behind a
-  download proves its end; without it this program gives up and says so.
-* A download has at most 256 bytes. Twice as many end in the page behind, which has to be one of those that this command
-  writes. The last of them is written by a single byte, with its other 255 as left-overs of the download before, which went
-  to the page below: so nothing can come past it but 256 bytes too many out of one.
-* Data is cut into segments that do no harm if a pause makes typed text of them (typed.py). The last segment is sent first,
-  with NULs in front of it, which the loader drops when they are typed; the segments before it then overwrite the NULs.
-* No download starts in the RESERVE below the loader: what this program sends while it cannot know who listens (the knock and
-  the '#' of loaders.py, BLIND_MOST bytes, each perhaps doubled) would end below the loader even if a download was open.
-  Those pages go through the mailbox (mailbox.py).
+* While a download may be open, only the announced bytes are sent. Only text that the loader sends after a download proves its
+  end. Without such text this program gives up and says so.
+* A download has at most 256 bytes. If they are doubled, they end in the next page, which must be one that this command writes.
+  The last page is written by a download of a single byte. Its other 255 bytes are left in the buffer by the download before,
+  which went to the page below. Only a single byte that arrives with 256 extra ones could write past the last page.
+* Data is cut into segments that do no harm if a pause turns them into typed text (typed.py). The last segment is sent first,
+  after NULs, which the loader drops when they are typed. The segments before it then overwrite the NULs.
+* No download starts in the RESERVE below the loader. This program sends up to BLIND_MOST bytes without knowing who listens (the
+  knock and the '#' of loaders.py). Even if each is doubled and a download is open, they end below the loader. The pages in the
+  RESERVE go through the mailbox (mailbox.py).
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ _REPORT = re.compile(
     rb"Size:0X([0-9A-F]{8})  Checksum:([0-9A-F]{2})-([0-9A-F]{2})",
     re.S,
 )
-# What can only come when a download is over: the loader is silent while it receives.
+# Text that is sent only after a download is over: the loader is silent while it receives.
 _OVER = re.compile(rb"Succ|Erro|Rewr|Size|Checks|\r\n - ")
 
 
@@ -47,24 +48,23 @@ def in_reserve(page: int) -> bool:
 
 
 def write_page(loader: FactoryLine, page: int, pages: dict[int, bytes]) -> None:
-    """Writes a page. `pages`: what belongs into those that may be endangered; they are to be looked at afterwards."""
+    """Writes a page. `pages`: the content of this page and its neighbours. The caller must compare the endangered() ones afterwards."""
     if page + 1 in pages:
         _send(loader, page, page, pages[page], segments(pages[page]))
     elif page - 1 in pages:
         _send(loader, page - 1, page, pages[page], segments(pages[page], 1))
     else:
-        raise RefusedError(f"page 0x{page * FLASH_PAGE:05X} alone cannot be written safely")  # our own mistake
+        raise RefusedError(f"page 0x{page * FLASH_PAGE:05X} alone cannot be written safely")  # a bug in this program
 
 
 def endangered(page: int, pages: dict[int, bytes]) -> set[int]:
-    """The pages that may have changed when a page has been written."""
+    """The pages that may have changed after `page` was written."""
     return {page, page + 1 if page + 1 in pages else page - 1}
 
 
 def _send(loader: FactoryLine, scratch: int, page: int, data: bytes, pieces: list[tuple[int, int]]) -> None:
-    """All pieces but the lowest go to `scratch`, to fill the loader's buffer; the lowest, sent last, to the page.
-
-    After trouble all are sent again: the buffer may hold anything."""
+    """Sends all pieces but the lowest to `scratch`, to fill the loader's buffer, then the lowest to the page. After an error it sends
+    all again, because the buffer may hold anything."""
     trouble = ""
     for _ in range(TRIES):
         for start, end in pieces:
@@ -80,21 +80,21 @@ def _send(loader: FactoryLine, scratch: int, page: int, data: bytes, pieces: lis
 
 
 def _download(loader: FactoryLine, address: int, data: bytes) -> str:
-    """One download: what went wrong, or nothing; it is over then. Unsure: it may still be open."""
+    """Runs one download. Returns what went wrong, or an empty text; the download is over then. Unsure: it may still be open."""
     if address % FLASH_PAGE or not 0 < len(data) <= FLASH_PAGE or not 0 <= address < LAST_START:
-        raise RefusedError(f"a download to 0x{address:X} of {len(data)} bytes would hurt")  # our own mistake
+        raise RefusedError(f"a download to 0x{address:X} of {len(data)} bytes would hurt")  # a bug in this program
     loader.type_line(f"load {address:x}")
     loader.open_at = address
     loader.link.write(b"\r")
     answer, ready = loader.link.look_for(b"Ready..", loader.patience(80))
-    if not ready and _OVER.search(answer):  # a prompt: the line came damaged and was no `load`
+    if not ready and _OVER.search(answer):  # a prompt: the line arrived damaged and was not `load`
         loader.open_at = None
         return "the loader did not understand"
     if not ready:
         raise Unsure(loader.how_it_stands())
     if b"Write Address : %08X" % address not in answer:
         raise Unsure(WRONG_ADDRESS)
-    if _OVER.search(loader.link.drain(0)):  # the end of the line came twice: ended before it began
+    if _OVER.search(loader.link.drain(0)):  # the end of the line arrived twice: the download ended before it began
         loader.open_at = None
         return "the line doubles bytes"
     loader.link.write(data)
@@ -118,7 +118,7 @@ def _judge(report: bytes, data: bytes) -> str:
 
 
 def units(pages: set[int]) -> Iterator[list[int]]:
-    """Neighbouring pages together: the runs within which a download may go wrong. Motion pages are runs of two."""
+    """Groups neighbouring pages into runs. A download that goes wrong stays within its run. Motion pages are runs of two."""
     run: list[int] = []
     for page in sorted(pages):
         if run and (page != run[-1] + 1 or _motion(page) != _motion(run[-1])):
@@ -130,5 +130,5 @@ def units(pages: set[int]) -> Iterator[list[int]]:
 
 
 def _motion(page: int) -> int:
-    """The motion page that a flash page belongs to; -1: none."""
+    """The motion page that a flash page belongs to, or -1."""
     return page // 2 if page * FLASH_PAGE >= 0xE000 else -1

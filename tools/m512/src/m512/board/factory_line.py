@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""A line to the factory boot loader: its prompt, its dumps, its EEPROM, how it stays and goes. Nothing here writes flash.
+"""The factory boot loader's command line: prompt, dumps, EEPROM, staying in the loader and leaving it. Nothing here writes flash.
 
-It acknowledges nothing, checks nothing, and takes late data for typed text. So every line is typed, its echo compared, and
-only then ended; words are long ones, of which no single wrong bit makes another word.
+The loader acknowledges nothing, checks nothing, and takes late data for typed text. So each line is typed and its echo compared before
+it is ended. Commands are long words, so that a single wrong bit never gives another command.
 """
 
 from __future__ import annotations
@@ -15,19 +15,19 @@ from m512.board.link import Link
 from m512.errors import BoardError, NoAnswerError
 
 PROMPT = b"\r\n - "
-# Empties the line, whatever stands in it, and asks for a prompt. The line holds 80 characters; some may get lost.
+# Empties the loader's input line and asks for a prompt. The line holds 80 characters; some bytes may be lost.
 KNOCK = b"\x08" * 100 + b"\r"
 DUMP_BYTES = 128
 DUMP_CHARACTERS = 660
-DUMP_AHEAD = 4  # dumps asked for in advance, a few bytes each of the loader's 255
+DUMP_AHEAD = 4  # dumps requested in advance; each takes a few of the loader's 255 bytes of input buffer
 TRIES = 4
 DUMP_TRIES = 8
 EEPROM_PIECE = 32
 EEPROM_SECONDS = 0.0085
 START_SECONDS = 0.4
-ECHO_QUIET = 0.02  # behind an echo: a line that doubles would show it by then
-PATIENCE = 4.0  # longest silence that is not yet the end of hope, on a line that answers at once
-BOOT_MODE = 0xFFF  # of the EEPROM: 0xFF when the controller stays in the loader
+ECHO_QUIET = 0.02  # silence after an echo, long enough to detect a line that doubles bytes
+PATIENCE = 4.0  # longest silence before giving up, on a line that answers at once
+BOOT_MODE = 0xFFF  # EEPROM cell: 0xFF when the controller stays in the loader
 _DUMP_LINE = re.compile(rb"\r\n ([0-9A-F]{8}) : ((?:[0-9A-F]{2} ){16})([\x20-\x7f]{16})")
 
 Progress = Callable[[int, int], None]
@@ -38,14 +38,14 @@ WRONG_ADDRESS = (
 
 
 class Unsure(BoardError):
-    """A download may be open: nothing more may be sent."""
+    """A download may be open, so nothing more may be sent."""
 
 
 class FactoryLine:
     def __init__(self, link: Link):
         self.link = link
         self.retries = 0
-        self.pace = 1 / 5714  # seconds a byte, there and back: measured by echoes
+        self.pace = 1 / 5714  # seconds per byte, round trip; measured from echoes
         self.open_at: int | None = None
         self.mode_before: int | None = None
         self.stays = False
@@ -54,11 +54,11 @@ class FactoryLine:
     # The line
 
     def patience(self, count: int) -> float:
-        """How long an answer of `count` bytes may take, judged by what this line has shown so far."""
+        """How long an answer of `count` bytes may take, based on the measured pace of this line."""
         return PATIENCE + 3 * self.pace * count
 
     def clean(self) -> None:
-        """Brings the loader to an empty line behind its prompt. Not while a download may be open."""
+        """Brings the loader to its prompt with an empty line. Not allowed while a download may be open."""
         for _ in range(TRIES):
             self.link.drain(0.05, 5.0)
             self.link.write(KNOCK)
@@ -68,7 +68,7 @@ class FactoryLine:
         raise NoAnswerError("the boot loader does not answer any more. " + self.how_it_stands())
 
     def how_it_stands(self) -> str:
-        """The board's state after trouble, and what is safe to do."""
+        """The board's state after an error, and what is safe to do."""
         state = ""
         if self.open_at is not None:
             state = (
@@ -80,7 +80,7 @@ class FactoryLine:
         return state + again + stays
 
     def type_line(self, line: str) -> None:
-        """Types a line without its end, until the echo shows that it arrived unchanged."""
+        """Types a line without its end until the echo shows that it arrived unchanged. NoAnswerError: it never does."""
         for _ in range(TRIES):
             begun = self.link.now()
             self.link.write(line.encode())
@@ -90,7 +90,7 @@ class FactoryLine:
                 if not some:
                     break
                 echo += some
-            if echo == line.encode() and not self.link.drain(ECHO_QUIET, 0.1):  # not twice
+            if echo == line.encode() and not self.link.drain(ECHO_QUIET, 0.1):  # not doubled
                 self.pace = max(1 / 5714, (self.link.now() - begun - ECHO_QUIET) / (2 * len(line)))
                 return
             self.retries += 1
@@ -98,7 +98,7 @@ class FactoryLine:
         raise NoAnswerError(f"what is typed arrives damaged (`{line}` came back as {echo!r}). Is the cable good?")
 
     def command(self, line: str, count: int = 60) -> bytes:
-        """A line's answer of about `count` bytes, up to the prompt."""
+        """Executes a line. Returns its answer of about `count` bytes, up to the prompt."""
         self.type_line(line)
         self.link.write(b"\r")
         return self.link.read_until(PROMPT, self.patience(count), f"`{line}` to the boot loader")
@@ -106,7 +106,7 @@ class FactoryLine:
     # Reading
 
     def _dump(self, word: str, start: int, end: int, modulo: int, progress: Progress | None) -> bytes:
-        """Reads memory by dumps of 128 bytes; asks for a few in advance while none is damaged."""
+        """Reads memory by dumps of 128 bytes. Requests a few in advance until one is damaged."""
         first = start - start % DUMP_BYTES
         out, tries, ahead = bytearray(), 0, DUMP_AHEAD
         while first + len(out) < end:
@@ -151,7 +151,7 @@ class FactoryLine:
     # Writing EEPROM
 
     def write_eeprom(self, cells: dict[int, int], progress: Progress | None = None) -> None:
-        """Single bytes, by address. Not read back."""
+        """Writes single bytes, by address. Does not read them back."""
         done = 0
         for at, data in _pieces(cells):
             for _ in range(TRIES):
@@ -166,7 +166,7 @@ class FactoryLine:
                 progress(done, len(cells))
 
     def _eeprom_piece(self, at: int, data: bytes) -> bool:
-        """Whether it went well. If not, the loader may wait for the rest; what clean() types is enough of it."""
+        """Returns whether it worked. If not, the loader may wait for the rest of the bytes; what clean() types is enough for that."""
         self.type_line(f"eep_dn {at:x} {len(data):x}")
         self.link.write(b"\r")
         answer, ready = self.link.look_for(b"Ready", self.patience(80))
@@ -180,7 +180,7 @@ class FactoryLine:
     # Starting and staying
 
     def stay(self) -> None:
-        """Makes the controller stay in this loader at every start, until leave()."""
+        """Makes the controller stay in this loader at every start until leave()."""
         if self.stays:
             return
         self.mode_before = self.read_eeprom(BOOT_MODE, BOOT_MODE + 1)[0]
@@ -197,14 +197,14 @@ class FactoryLine:
         raise BoardError(f"`{word}` does not change the boot mode")
 
     def restart(self) -> None:
-        """Resets the controller. Then the loader is at its prompt again (see stay())."""
+        """Resets the controller. The loader is at its prompt afterwards (see stay())."""
         self.type_line("reset")
         self.link.write(b"\r")
         self.link.look_for(PROMPT, START_SECONDS + self.patience(100))
         self.clean()
 
     def leave(self, to: int = 0) -> None:
-        """0 stay at the prompt, 1 start the application (and at every start from now on), 2 reset."""
+        """to: 0 stays at the prompt, 1 starts the application now and at every later start, 2 resets."""
         if to == 1 or (self.stays and self.mode_before != 0xFF):
             self._mode("app")
         self.stays = False
@@ -222,7 +222,7 @@ def _as_text(data: bytes) -> bytes:
 
 
 def _pieces(cells: dict[int, int]) -> list[tuple[int, bytes]]:
-    """Runs of neighbouring bytes. A byte too many would be typed text, so the end of a line stands alone."""
+    """Runs of neighbouring bytes. A surplus byte would be typed text, so a line end is a piece of its own."""
     out: list[tuple[int, bytearray]] = []
     for at in sorted(cells):
         last = out[-1] if out else (-1, bytearray())

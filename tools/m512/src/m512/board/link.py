@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""A line to a board: bytes out and in with time limits, on anything pyserial can open (device, pty, socket:// URL).
+"""A line to a board: sends and receives bytes with time limits, on anything that pyserial can open (device, pty, socket:// URL).
 
-Every fault of the line itself becomes a PortError that says what to check. Nothing here knows a protocol.
+Every fault of the line becomes a PortError that says what to check. Nothing here knows a protocol.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ Trace = Callable[[str, bytes], None]
 
 class Link:
     def __init__(self, url: str, trace: Trace | None = None, image: str = "play"):
-        """image: what runs behind a bus: word (bus.py)."""
+        """image: the program to run for a bus: word (bus.py)."""
         import serial
 
         from m512.board import bus
@@ -31,9 +31,9 @@ class Link:
         except (serial.SerialException, OSError, ValueError) as error:
             self._end_program()
             raise PortError(explain(url, error)) from None
-        self.held = b""  # bytes read and given back
+        self.held = b""  # bytes read and put back
         if self.program:
-            self.held = self._receive(4096, bus.START_SECONDS)  # it has found its servos, and greets
+            self.held = self._receive(4096, bus.START_SECONDS)  # the program has found its servos and sends its greeting
 
     def __enter__(self) -> Link:
         return self
@@ -45,7 +45,7 @@ class Link:
         _let_others_in(self.port)
         try:
             self.port.close()
-        except Exception:  # a port that is gone may fail to close in many ways, and nobody can help it
+        except Exception:  # a lost port may fail to close in many ways, and nothing can be done
             pass
         self._end_program()
 
@@ -55,7 +55,7 @@ class Link:
             self.program = None
 
     def now(self) -> float:
-        """Seconds on the clock that this line's time limits are counted by. Simulated lines have their own."""
+        """Current time in seconds, on the clock that this line's time limits use. Simulated lines have their own clock."""
         return time.monotonic()
 
     def sleep(self, seconds: float) -> None:
@@ -71,18 +71,18 @@ class Link:
             raise PortError(f"{self.url} cannot do {rate} baud: {error}") from None
 
     def write(self, data: bytes, wait: bool = True) -> None:
-        """Sends bytes. With `wait` it returns when all of them have left this computer."""
+        """Sends bytes. With `wait` it returns after all of them have left this computer."""
         if self.trace:
             self.trace("->", data)
         try:
             self.port.write(data)
             if wait:
                 self.port.flush()
-        except Exception as error:  # a port that goes away does so as SerialException, OSError, termios.error, ...
+        except Exception as error:  # a lost port raises SerialException, OSError, termios.error, ...
             raise self._lost(error) from None
 
     def _receive(self, limit: int, seconds: float) -> bytes:
-        """Returns the bytes that are there, or waits for the first one within the time."""
+        """Returns the bytes that have arrived. If there are none, waits up to `seconds` for the first."""
         if self.held:
             out, self.held = self.held[:limit], self.held[limit:]
             return out
@@ -95,18 +95,18 @@ class Link:
             if more > 0:
                 self.port.timeout = 0
                 first += self.port.read(more)
-        except Exception as error:  # a port that goes away does so as SerialException, OSError, termios.error, ...
+        except Exception as error:  # a lost port raises SerialException, OSError, termios.error, ...
             raise self._lost(error) from None
         if self.trace:
             self.trace("<-", first)
         return first
 
     def read_some(self, seconds: float, limit: int = 4096) -> bytes:
-        """Returns bytes as they come; empty if none came within the time."""
+        """Returns bytes as they arrive; empty if none arrives in time."""
         return self._receive(limit, seconds)
 
     def read_exactly(self, count: int, seconds: float, what: str) -> bytes:
-        """`seconds` may pass between two bytes."""
+        """Reads `count` bytes. `seconds` is the longest gap between two bytes. NoAnswerError: a longer gap."""
         out = bytearray()
         while len(out) < count:
             some = self._receive(count - len(out), seconds)
@@ -116,7 +116,7 @@ class Link:
         return bytes(out)
 
     def read_until(self, end: bytes, seconds: float, what: str, limit: int = 1 << 20) -> bytes:
-        """Reads up to and including `end`, for at most `seconds`. Later bytes are kept for the next read."""
+        """Reads up to and including `end`, for at most `seconds`. Keeps later bytes for the next read. NoAnswerError: no `end`."""
         out, until = self.look_for(end, seconds, limit)
         if not until:
             tail = out[-60:].decode("ascii", "replace").strip()
@@ -124,7 +124,7 @@ class Link:
         return out
 
     def look_for(self, end: bytes, seconds: float, limit: int = 1 << 20) -> tuple[bytes, bool]:
-        """Reads as read_until does. Returns (what came, whether `end` was in it)."""
+        """Like read_until, but returns (bytes read, whether `end` was found)."""
         out, searched, deadline = bytearray(), 0, self.now() + seconds
         while len(out) < limit:
             at = out.find(end, searched)
@@ -140,7 +140,7 @@ class Link:
         return bytes(out), False
 
     def drain(self, quiet: float = 0.05, at_most: float = 2.0) -> bytes:
-        """Reads until the line has been silent for `quiet` seconds."""
+        """Reads until the line is silent for `quiet` seconds, for about `at_most` seconds."""
         out, deadline = bytearray(), self.now() + at_most
         while self.now() < deadline:
             some = self._receive(4096, quiet)
@@ -151,7 +151,7 @@ class Link:
 
 
 def _keep_others_out(port: Any) -> None:
-    """Keeps other programs from opening the device meanwhile (POSIX; Windows does so anyway). Some devices cannot."""
+    """Keeps other programs from opening the device (POSIX; Windows always does). Some devices do not support it."""
     try:
         import fcntl
         import termios
@@ -172,7 +172,7 @@ def _let_others_in(port: Any) -> None:
 
 
 def explain(url: str, error: Exception) -> str:
-    """Why a port cannot be opened, and what to do."""
+    """Why a port cannot be opened, and what to do about it."""
     text = str(error)
     if _names_no_socket(url):
         return f"{url}: say socket://HOST:PORT, such as socket://127.0.0.1:4000; a port is 1..65535"

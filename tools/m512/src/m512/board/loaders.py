@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Gets into a board's boot loader and finds out which one it is, and on which board.
+"""Gets into a board's boot loader, and identifies the loader and the board.
 
 Play or Edit? ---- yes --> @reset, then '#' (asks first when edits would be lost)
    | no, or it cannot
 prompt there? ---- yes --> identify
    | no
-in a session of ours that broke off? --> HELLO
+in an interrupted session of ours? --> HELLO
    | no
 ask for the MODE button, '#' every 15 ms until the banner comes
 """
@@ -25,20 +25,20 @@ May = Callable[[str], None]
 Loader = Union[BlockLoader, FactoryLoader]
 BANNER = b"SYSTEM O.K."
 STAY, START, RESET = range(3)  # leave()
-HASH_SECONDS = 0.025  # the window behind a start is 60 ms
-HASHES_MOST = 2100  # with the rest of what is sent blindly: less than factory_flash.BLIND_MOST
+HASH_SECONDS = 0.025  # the loader's window after a start is 60 ms
+HASHES_MOST = 2100  # together with everything else sent blindly, less than factory_flash.BLIND_MOST
 KNOCK_SECONDS = 1.5
 IDENTIFY_TRIES = 6
 WAIT_SECONDS = 60.0
-RESTART_SECONDS = 3.0  # behind a restart that was asked for
-BANNER_IN_FLASH = (0x1F780, 0x1F880)  # of "CM5 Boot loader V1.31", the version that is known (boot/ORIGINAL.md, 7b)
+RESTART_SECONDS = 3.0  # limit after a requested restart
+BANNER_IN_FLASH = (0x1F780, 0x1F880)  # of "CM5 Boot loader V1.31", the known version (boot/ORIGINAL.md, 7b)
 
 
 def at_prompt(link: Link) -> bool:
     """Whether a loader answers at its prompt.
 
-    A factory loader may be in a download that somebody else has left open. It takes the knock for data then, which goes
-    where that download's bytes would have gone, and the pause behind it ends the download.
+    A factory loader may be in a download that another program left open. It then takes the knock as data, which it writes where that
+    download's bytes would have gone. The pause after the knock ends the download.
     """
     link.drain(0.02, 0.3)
     for _ in range(2):
@@ -47,14 +47,15 @@ def at_prompt(link: Link) -> bool:
         if prompt:
             link.drain(0.03)
             return True
-        if came.strip(b"\x00\x08 "):  # somebody else is there
+        if came.strip(b"\x00\x08 "):  # something else answers
             return False
     return False
 
 
 def identify(link: Link, started: bytes = b"", board: str = "") -> Loader:
-    """Which loader is at its prompt. Its own words are asked first: a frame would be typed text to the factory's.
-    started: what it has said since its start, if that was heard; board: what the user says that it is (banner.py)."""
+    """The loader at the prompt. It is asked in plain text first: the factory loader would take a frame for typed text.
+    started: its output since its start, if received. board: the board according to the user (banner.py).
+    """
     text, not_known = b"", 0
     for _ in range(IDENTIFY_TRIES):
         link.drain(0.05)
@@ -64,7 +65,7 @@ def identify(link: Link, started: bytes = b"", board: str = "") -> Loader:
         if ours:
             banner.board_of(ours.group(2), board)
             return BlockLoader(link, ours.group())
-        # Twice, and to the right word by its echo: our loader says this, too, of a word that the line has damaged.
+        # Twice, and with the right echo: our loader says the same after a command that the line has damaged.
         not_known += text.lstrip().startswith(b"id\r\n Bad Command")
         if not_known == 2:
             return _factory(link, started, board)
@@ -76,8 +77,8 @@ def identify(link: Link, started: bytes = b"", board: str = "") -> Loader:
 
 
 def _factory(link: Link, started: bytes, board: str) -> FactoryLoader:
-    """A factory's loader, on a board that is ours. When nobody heard its banner it is looked for where the known version keeps it; a
-    loader of another version restarts, to say it again."""
+    """A factory loader on a supported board. If its banner was not received, the banner is read from where the known version keeps it. A
+    loader of another version is restarted to send its banner again."""
     loader = FactoryLoader(link)
     name = banner.name_in(started) or banner.name_in(loader.read(*BANNER_IN_FLASH))
     if not name:
@@ -94,39 +95,39 @@ def _factory(link: Link, started: bytes, board: str) -> FactoryLoader:
 
 
 def call_by_hash(link: Link, seconds: float) -> bytes | None:
-    """'#' again and again until a loader shows its banner; clears the line behind it. Returns what it has said, None: there is none.
+    """Sends '#' until a loader shows its banner, then clears the loader's line. Returns the loader's output, or None if there is no loader.
 
-    A loader sends 0xFF when it starts and then listens for 60 ms. When HASHES_MOST have been sent without knowing to whom,
-    only that 0xFF is answered any more.
+    A loader sends 0xFF when it starts and then listens for 60 ms. After HASHES_MOST '#' to an unknown listener, more are sent only
+    after that 0xFF.
     """
     deadline, came, after_ff, sent = link.now() + seconds, b"", 0, 0
     while link.now() < deadline:
-        # Behind the 0xFF of a start a few '#' are enough; more would only fill its line.
+        # A few '#' after the 0xFF of a start are enough; more would only fill the loader's line.
         if after_ff < 8 and (sent < HASHES_MOST or 0 < after_ff):
             link.write(b"#")
             sent += 1
         some = link.read_some(HASH_SECONDS)
         came = (came + some)[-4096:]
-        if BANNER in came or PROMPT in came:  # a prompt without banner: a broken session of ours has ended
+        if BANNER in came or PROMPT in came:  # a prompt without a banner: an interrupted session of ours has ended
             came += link.look_for(PROMPT, 0.3)[0]
             link.drain(0.1, 1.0)
             link.write(KNOCK)
             return came if link.look_for(PROMPT, KNOCK_SECONDS)[1] else None
         after_ff = after_ff + 1 if came.endswith(b"\xff") or (after_ff and not some) else 0
-        if after_ff > 30:  # nothing behind the 0xFF for a while: it was something else
+        if after_ff > 30:  # nothing follows the 0xFF for a while: it was something else
             after_ff = 0
             came = b""
     return None
 
 
 def refuse(question: str) -> None:
-    """The answer where nobody can be asked: raises RefusedError."""
+    """The answer when nobody can be asked: raises RefusedError."""
     raise RefusedError(f"{question} Nobody was asked")
 
 
 def enter(link: Link, say: Callable[[str], None], seconds: float = WAIT_SECONDS, may: May = refuse, board: str = "") -> Loader:
-    """The board's loader, ready for work. `say` tells the user what is waited for; `may` asks a question and raises
-    RefusedError when the answer is no; board: what the user says that it is. RefusedError, too, for a board that is none of ours."""
+    """The board's loader, ready for work. `say` tells the user what to do. `may` asks a question and raises RefusedError when the answer
+    is no. board: the board according to the user. RefusedError also for an unsupported board."""
     if reset_by_application(link, say, may):
         said = call_by_hash(link, RESTART_SECONDS)
         if said is not None:
@@ -152,12 +153,12 @@ def enter(link: Link, say: Callable[[str], None], seconds: float = WAIT_SECONDS,
 
 
 def give_back(loader: Loader) -> None:
-    """Leaves the board as enter() found it: at the prompt of its loader, or restarted. For when nothing was written."""
+    """Leaves the board as enter() found it: at the loader's prompt, or restarted. For use when nothing was written."""
     loader.leave(STAY if loader.was_at_prompt else RESET)
 
 
 def reset_by_application(link: Link, say: Callable[[str], None], may: May = refuse) -> bool:
-    """Asks Play or Edit to restart the controller; whether it will. `may` is asked when edits would be lost."""
+    """Asks Play or Edit to restart the controller. Returns False if neither answers. `may` is asked when edits would be lost."""
     from m512.board.client import Client, framed
 
     try:
@@ -168,5 +169,5 @@ def reset_by_application(link: Link, say: Callable[[str], None], may: May = refu
         raise RefusedError("something plays on the robot: `m512 stop` first")
     if client.has_edits():
         may("Edit holds a page with edits that are not saved; restarting loses them. Go on?")
-    link.write(framed("reset") + b"\r")  # no wait for its answer: the loader's window comes soon
+    link.write(framed("reset") + b"\r")  # does not wait for the answer: the loader's window opens soon
     return True

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a Plan would change on a board, found out without changing anything there."""
+"""Finds out what a Plan would change on a board, without changing anything there."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ NO_PAGES = b"\xff" * PAGE_BYTES
 
 
 def through_loader(loader: Loader, plan: Plan, phase: PhaseMaker) -> list[str]:
-    """In words; the loader is at its prompt again."""
+    """The result as text lines. The loader is at its prompt afterwards."""
     try:
         check_board(plan, loader)
         with phase("Comparing") as progress:
@@ -29,7 +29,7 @@ def through_loader(loader: Loader, plan: Plan, phase: PhaseMaker) -> list[str]:
 
 
 def emptied(loader: Loader, plan: Plan, todo: list[int], phase: PhaseMaker) -> dict[int, str]:
-    """{number: name} of the motions on the board for which the plan has an empty page. `todo`: the flash pages that differ."""
+    """{number: name} of motions on the board that the plan replaces by an empty page. `todo`: the flash pages that differ."""
     numbers = []
     for number in sorted({(page * FLASH_PAGE - MOTIONS[0]) // PAGE_BYTES for page in todo if page * FLASH_PAGE >= MOTIONS[0]}):
         first = (MOTIONS[0] + number * PAGE_BYTES) // FLASH_PAGE
@@ -51,7 +51,7 @@ def _holds_nothing(page: Page) -> bool:
 
 
 def through_application(client: Client, plan: Plan, phase: PhaseMaker) -> list[str]:
-    """In words, asked of a running Play or Edit, which goes on."""
+    """The result as text lines, from a running Play or Edit, which keeps running."""
     version = client.version
     out = [f"{version.get('image', '?')} {version.get('version', '')} runs on a {version.get('board', '?')}"]
     if plan.record and version.get("board") and plan.record.board != version["board"]:

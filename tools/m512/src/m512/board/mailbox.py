@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Motion pages through the factory loader's mailbox: 512 bytes of EEPROM that it copies to flash at its next start.
+"""Writes motion pages through the factory loader's mailbox: 512 bytes of EEPROM that the loader copies to flash at its next start.
 
-Slow (about 6 s a page), and safe on any line: `eep_dn` takes exactly as many bytes as were announced, whenever they come;
-the EEPROM is read back before the loader is told to copy; and the loader itself knows where a motion page lies. A page
-number of 0x80 and up would be the loader's own section (boot/ORIGINAL.md, 7a): it is written first and alone, and
-read back, before the mark that says "please write".
+This takes about 6 s a page and is safe on any line. `eep_dn` takes exactly the announced number of bytes, whenever they arrive. The
+EEPROM is read back before the loader is told to copy. The loader itself knows where a motion page lies. A page number of 0x80
+or more would overwrite the loader's own section (boot/ORIGINAL.md, 7a), so the number is written on its own and read back before the
+mark that starts the copy.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ TRIES = 3
 
 
 def write_motion_page(loader: FactoryLine, number: int, data: bytes) -> None:
-    """Writes motion page `number`. The loader restarts and is at its prompt again."""
+    """Writes motion page `number`. The loader restarts and is at its prompt afterwards."""
     if not 0 <= number < PAGES or len(data) != PAGE_BYTES:
-        raise RefusedError(f"no motion page {number} for the mailbox")  # our own mistake
+        raise RefusedError(f"no motion page {number} for the mailbox")  # a bug in this program
     loader.stay()
     _settle(loader, STATE, NOTHING)
     wanted = dict(enumerate(data, MAILBOX))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""The flash of the board: its areas (twin of linker/memory_map.h), and images that are about to go there.
+"""The board's flash: its areas (the same as in linker/memory_map.h), and images to be written there.
 
-A Plan is made and judged before a byte is sent: plan() refuses what would hurt.
+plan() makes and checks a Plan before a byte is sent. It refuses what would do harm.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ KINDS = {1: "play", 2: "edit", 255: "other"}
 
 @dataclass
 class Record:
-    """What an application image says of itself (app_record.h); None fields: it is not filled in."""
+    """The record in an application image (app_record.h)."""
 
     length: int
     crc: int
@@ -51,7 +51,7 @@ class Record:
         )
 
     def fits(self, app: bytes) -> bool:
-        """Whether length and CRC agree with the image."""
+        """Whether length and CRC match the image."""
         if not RECORD_AT + RECORD_BYTES <= self.length <= min(len(app), APP[1]):
             return False
         body = bytearray(app[: self.length])
@@ -64,7 +64,7 @@ class Record:
 
 @dataclass
 class Plan:
-    """Whole flash pages to write: page index -> 256 bytes. `remarks` are for the user."""
+    """Complete flash pages to write: page index -> 256 bytes. `remarks` are for the user."""
 
     pages: dict[int, bytes] = field(default_factory=dict)
     record: Record | None = None
@@ -73,7 +73,7 @@ class Plan:
     remarks: list[str] = field(default_factory=list)
 
     def runs(self, numbers: list[int], gap: int = 0) -> list[tuple[int, bytes]]:
-        """The pages `numbers` as (address, bytes) runs; up to `gap` pages between them are written along."""
+        """The pages `numbers` as (address, bytes) runs. Gaps of up to `gap` pages of the plan are filled with these pages."""
         out: list[list[int]] = []
         for number in sorted(numbers):
             if out and number - out[-1][-1] <= gap + 1 and all(n in self.pages for n in range(out[-1][-1], number)):
@@ -99,8 +99,8 @@ def _area(area: tuple[int, int]) -> str:
 
 
 def plan(path: Path, address: int | None = None, board: str | None = None, with_trim: bool = False, damaged: str = "ask") -> Plan:
-    """What flashing a file means. `board`: cm5 or cm2 if known, to refuse code for the other one.
-    `address`: of a raw binary; what it puts among the motion pages is judged as a motion file is. `with_trim`: page 0 goes too although it holds no trim."""
+    """The Plan for flashing a file. `board`: cm5 or cm2 if known; code for the other one is refused. `address`: start of a raw binary;
+    its part in the motion area is checked like a motion file. `with_trim`: writes page 0 even if it holds no trim."""
     data = formats.read_bytes(path)
     out = Plan()
     for start, piece in _segments(path, data, address, out, with_trim, damaged):
@@ -134,14 +134,14 @@ def _segments(path: Path, data: bytes, address: int | None, out: Plan, with_trim
 def _must_be_raw(path: Path, data: bytes) -> None:
     try:
         kind = formats.recognise(data, path)
-    except FileError:  # no file of motions at all
+    except FileError:  # not a motion file
         return
     if kind != formats.BINARY:
         raise RefusedError(f"{path.name} is {kind}, which has a place of its own: leave out --address. --address is for raw binaries")
 
 
 def _placed_motions(path: Path, segments: Segments, out: Plan, with_trim: bool, damaged: str) -> Segments:
-    """The motion pages of a file with addresses, judged as those of every other file. Pages that it leaves out stay as they are."""
+    """The motion pages of a file with addresses, checked like any motion file. Pages missing in the file stay as they are on the board."""
     image, given = Image.empty(), set()
     for start, piece in segments:
         if (start - MOTIONS[0]) % PAGE_BYTES or len(piece) % PAGE_BYTES:
@@ -179,7 +179,7 @@ def _motions(path: Path, image: Image, out: Plan, with_trim: bool, damaged: str)
 
 
 def _add(out: Plan, start: int, piece: bytes) -> None:
-    """Into whole flash pages; what a file leaves out of a page is 0xFF."""
+    """Adds bytes to complete flash pages; the rest of a new page is 0xFF."""
     for at in range(start - start % FLASH_PAGE, start + len(piece), FLASH_PAGE):
         page = bytearray(out.pages.get(at // FLASH_PAGE, b"\xff" * FLASH_PAGE))
         low, high = max(at, start), min(at + FLASH_PAGE, start + len(piece))
@@ -188,7 +188,7 @@ def _add(out: Plan, start: int, piece: bytes) -> None:
 
 
 def app_bytes(pages: dict[int, bytes]) -> bytes:
-    """The application area as one piece, from the pages that there are."""
+    """The application area in one piece, from the given pages. Missing pages are 0xFF."""
     last = max((n for n in pages if n * FLASH_PAGE < APP[1]), default=-1)
     return b"".join(pages.get(n, b"\xff" * FLASH_PAGE) for n in range(last + 1))
 

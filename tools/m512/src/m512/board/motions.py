@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A board's motions as an Image, in and out, by whoever answers: Play or Edit page by page, else the boot loader."""
+"""Reads and writes a board's motions as an Image: page by page if Play or Edit answers, else through the boot loader."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ ERASED = b"\xff" * PAGE_BYTES
 
 
 def read_motions(url: str, board: str = "") -> Image:
-    """board: what the user says that it is (banner.py)."""
+    """Reads all motions. board: the board according to the user (banner.py)."""
     with Link(url, image="edit") as link:
         try:
             client = Client(link)
@@ -30,13 +30,13 @@ def read_motions(url: str, board: str = "") -> Image:
                 with ui.phase("Reading") as progress:
                     data = loader.read(*MOTIONS, progress)
             finally:
-                loader.leave(loaders.STAY)  # the next command finds it at its prompt
+                loader.leave(loaders.STAY)  # the next command finds the loader at its prompt
             return from_bytes(data)
         return _read_pages(client)
 
 
 def _read_pages(client: Client) -> Image:
-    """Pages that the board lists; those it leaves out are erased or empty, which is the same to a robot."""
+    """Reads the pages that the board lists. The others are erased or empty, which means the same to a robot."""
     image, numbers = Image.empty(client.pages), sorted(set(client.list_pages()) | {0})
     with ui.phase("Reading") as progress:
         for done, number in enumerate(numbers):
@@ -48,7 +48,8 @@ def _read_pages(client: Client) -> Image:
 
 
 def write_motions(url: str, image: Image, board: str = "") -> None:
-    """Brings the board's motions to `image`: through Edit when it runs there, else through the boot loader. board: as for read_motions."""
+    """Makes the board's motions equal to `image`: through Edit if it runs there, else through the boot loader. board: as for
+    read_motions."""
     with Link(url, image="edit") as link:
         try:
             client = Client(link)
@@ -67,8 +68,8 @@ def write_motions(url: str, image: Image, board: str = "") -> None:
 
 
 def save_pages(client: Client, image: Image, numbers: list[int], confirm: Callable[[str], None] = lambda question: None) -> list[int]:
-    """Saves those of the pages that the board holds otherwise; returns their numbers. confirm: is asked, before anything is written,
-    about pages of another name or of none, and about a trim, that are lost; raises for a no."""
+    """Saves the given pages that differ on the board and returns their numbers. Before anything is written, `confirm` is asked about
+    pages with another name or none, and a trim, that would be lost. It raises for a no."""
     if not client.can_save:
         raise BoardError(f"Play does not save pages. Edit does: m512 run {client.file_of('edit')}; or write a whole motion file: m512 flash FILE")
     lost = {number: title for number, title in image.beyond(client.pages).items() if number in numbers}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Serial ports: which there are, and whether a word names one. Opening them is link.py's business."""
+"""Serial ports: lists them, and decides whether a word names one. link.py opens them."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def is_port(word: str) -> bool:
 
 
 def is_device(word: str) -> bool:
-    """Whether a character device has this path."""
+    """Whether this path is a character device."""
     try:
         return stat.S_ISCHR(os.stat(word).st_mode)
     except (OSError, ValueError):
@@ -36,7 +36,7 @@ def available() -> list[tuple[str, str]]:
 
 
 def pick(word: str = "") -> str:
-    """The port that a word means: itself, part of a name or description, or the only one there is."""
+    """The port that a word means: a port itself, part of a name or description, or empty for the only port. PortError: none or several."""
     if word and is_port(word):
         return word
     ports = available()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Dynamixel protocol 1.0 on an adapter, as far as the doctor needs it: who answers at which rate, what its registers hold, two registers
-mended on request. Nothing here plays or moves anything; that is the programs' (bus.py)."""
+"""Dynamixel protocol 1.0 on an adapter, for the doctor: finds servos and their rates, reads registers, and repairs two registers on
+request. It moves nothing; Play and Edit do that (bus.py)."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from m512.errors import PortError
 
 PING, READ, WRITE, SYNC_WRITE = 1, 2, 3, 0x83
 EVERYBODY = 254
-FIRST_SECONDS = 0.08  # for an answer through a driver that holds bytes back for 16 ms
-LEAST_SECONDS = 0.03  # a busy computer looks that late
-BEGUN_SECONDS = 0.02  # for the rest of an answer that has begun
+FIRST_SECONDS = 0.08  # limit for the first answer: a driver may hold bytes back for 16 ms
+LEAST_SECONDS = 0.03  # shortest limit: a busy computer may look this late
+BEGUN_SECONDS = 0.02  # limit for the rest of an answer that has begun
 TRIES = 3
 
-# Bits of an answer's error byte, with what to do.
+# Bits of the error byte of an answer, with advice.
 ERRORS = (
     (0x01, "voltage", "outside its limits: charge the battery, or use another supply"),
     (0x02, "angle limit", "a goal was outside its angle limits"),
@@ -42,7 +42,7 @@ def packet(id_: int, instruction: int, *params: int) -> bytes:
 
 
 class Bus:
-    """An adapter at one rate at a time. Use as a context."""
+    """An adapter, at one rate at a time. Use as a context manager."""
 
     def __init__(self, word: str):
         import serial
@@ -55,7 +55,7 @@ class Bus:
         self.is_fast = self._make_fast()
         self.longest, self.echoes = 0.0, False
         self.asked: list[bytes] = []
-        self.noise = b""  # what came to the last question without being its answer
+        self.noise = b""  # what the last question brought besides its answer
 
     def __enter__(self) -> Bus:
         return self
@@ -64,11 +64,11 @@ class Bus:
         self.port.close()
 
     def _make_fast(self) -> bool:
-        """Asks the driver to pass bytes on at once; whether it grants it."""
+        """Asks the driver to pass bytes on at once. Returns whether it does."""
         try:
             self.port.set_low_latency_mode(True)
             return True
-        except Exception:  # ptys, other systems: each refuses in its own way
+        except Exception:  # ptys and other systems raise different exceptions
             return "ttyACM" in self.device
 
     def set_rate(self, rate: int) -> None:
@@ -80,14 +80,14 @@ class Bus:
         self.port.reset_input_buffer()
 
     def find_echo(self) -> bool:
-        """Sends a packet that nobody answers and nobody obeys: a SYNC WRITE to none."""
+        """Returns whether the adapter echoes. Sends a packet that no servo answers or obeys: a SYNC WRITE without servos."""
         probe = packet(EVERYBODY, SYNC_WRITE, 25, 1)
         self.echoes = False
         self.echoes = any(probe in self._exchange(probe) for _ in range(TRIES))
         return self.echoes
 
     def _exchange(self, question: bytes) -> bytes:
-        """Sends it; what comes back within the time limit, without the echo."""
+        """Sends a packet. Returns what arrives within the time limit, without the echo."""
         limit = max(LEAST_SECONDS, 2 * self.longest) if self.longest else FIRST_SECONDS
         try:
             self.port.reset_input_buffer()
@@ -98,7 +98,7 @@ class Bus:
             self.asked = [*self.asked[-3:], question]
             while True:
                 left = until - time.monotonic()
-                self.port.timeout = max(left, 0)  # this process may look late: what has come by then counts
+                self.port.timeout = max(left, 0)  # this process may run late; read what has arrived by then
                 some = self.port.read(1)
                 some += self.port.read(self.port.in_waiting) if some else b""
                 heard += some
@@ -112,14 +112,14 @@ class Bus:
         return self._without_echo(heard)
 
     def _without_echo(self, heard: bytes) -> bytes:
-        """The echo of a packet before the last one may still be on its way."""
+        """Removes echoes. The echo of an earlier packet may still arrive."""
         for question in self.asked if self.echoes else ():
             heard = heard.replace(question, b"", 1)
         return heard
 
     @staticmethod
     def _answer(heard: bytes) -> Answer | None:
-        """The first status packet with a good checksum."""
+        """The first status packet with a valid checksum."""
         at = heard.find(b"\xff\xff")
         while at >= 0:
             found = heard[at:]
@@ -131,7 +131,7 @@ class Bus:
         return None
 
     def ask(self, id_: int, instruction: int, *params: int, tries: int = TRIES) -> Answer | None:
-        """The answer of this servo; None: none. `noise` then has what came instead."""
+        """The answer of this servo, or None. `noise` is then what arrived instead."""
         question = packet(id_, instruction, *params)
         for _ in range(tries):
             heard = self._exchange(question)
@@ -150,9 +150,9 @@ class Bus:
         return self.ask(id_, WRITE, at, value) is not None
 
     def is_somebody_there(self) -> bool:
-        """Whether anything answers a PING to all: several servos at once make noise, which is an answer, too."""
+        """Whether anything answers a broadcast PING. Several servos at once produce noise, which counts as an answer."""
         return any(self._exchange(packet(EVERYBODY, PING)) for _ in range(2))
 
     def scan(self, ids: range) -> list[int]:
-        """The IDs that answer, or make noise."""
+        """The IDs that answer or produce noise."""
         return [id_ for id_ in ids if self.ask(id_, PING, tries=2) or self.noise]

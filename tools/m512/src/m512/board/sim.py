@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Starts the simulator (cm5sim) on a port of its own, for commands that are given --sim instead of a robot.
+"""Starts the simulator (cm5sim) on a port of its own, for commands with --sim.
 
-The simulated board keeps real time while this PC has time for it. On a busy PC it is late: m512 waits for minutes before it gives up.
+The simulated board keeps real time if this PC is fast enough. On a busy PC it is late, so m512 waits for minutes before it gives up.
 
-It is looked for in $M512_CM5SIM, in a source tree that this package lies in, if it is built, beside this Python (`pip install cm5sim`
-puts it there, with firmware images and motions), and in the PATH.
+The search order for cm5sim: $M512_CM5SIM, the source tree that holds this package (if built), the folder of this Python interpreter
+(`pip install cm5sim` puts it there, with firmware images and motions), the PATH.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ from m512.files.wording import named_pages_text
 from m512.places import build_folder, source_tree, wheel_folder
 
 START_SECONDS = 300.0
-SOON = (0.6, 1.5, 4.0, 15.0)  # seconds for the answer to each first request: one comes before the board listens
-LATER = (60.0, 220.0)  # then with a note; together five minutes
+SOON = (0.6, 1.5, 4.0, 15.0)  # time limits in seconds of the first requests; the first is sent before the board listens
+LATER = (60.0, 220.0)  # limits after a note to the user; all together five minutes
 SLACK_SECONDS = 300.0
 SET_PARENT_DEATH_SIGNAL = 1  # PR_SET_PDEATHSIG of linux/prctl.h
 
@@ -57,8 +57,8 @@ def find_cm5sim() -> Path:
 
 
 def find_image(name: str) -> Path:
-    """A firmware image by path, or by name: beside the simulator that is used, in firmware/ of the build folder, or of the
-    simulator's wheel."""
+    """A firmware image by path or by name. A name is searched next to the simulator in use, then in firmware/ of the build folder and of
+    the simulator's wheel."""
     places = [Path(name)]
     try:
         beside = find_cm5sim().resolve().parent
@@ -72,23 +72,23 @@ def find_image(name: str) -> Path:
 
 
 def board_of(path: Path) -> str | None:
-    """The board that an application of ours, in Intel HEX, is made for; None: it does not say."""
+    """The board that one of our applications in Intel HEX is built for, or None if it has no record."""
     try:
         start, app = hex_segments(path.read_text(encoding="ascii"))[0]
     except (OSError, ValueError, IndexError, FileError):
-        return None  # the simulator says what is wrong with the file
+        return None  # the simulator reports what is wrong with the file
     record = Record.of(app) if start == 0 else None
     return record.board if record and record.board in BOARDS.values() else None
 
 
 def our_motions() -> Path | None:
-    """The motion library of the build folder or of the simulator's wheel, if there is one."""
+    """The motion library of the build folder or of the simulator's wheel, or None."""
     places = [folder / "motions" / "motions.bin" for folder in (build_folder(), wheel_folder()) if folder]
     return next((place for place in places if place.exists()), None)
 
 
 def _ending_with_its_parent() -> Callable[[], None] | None:
-    """What a child process of Linux calls to be ended when this one is, by kill -9 too. Others have no such call."""
+    """A function that ties a child process to this one on Linux: it ends with this process, even after kill -9. None on other systems."""
     if sys.platform != "linux":
         return None
     libc = ctypes.CDLL(None)
@@ -96,7 +96,7 @@ def _ending_with_its_parent() -> Callable[[], None] | None:
 
 
 class Simulator:
-    """cm5sim with its console on a pty, and our motions unless others are given. Use as a context; `url` is the port."""
+    """cm5sim with its console on a pty, with our motions unless others are given. Use as a context manager; `url` is the port."""
 
     def __init__(self, images: list[str], motions: Path | None = None, servos: str = "1-18", extra: list[str] | None = None):
         paths = [find_image(image) for image in images]
@@ -104,7 +104,7 @@ class Simulator:
         command += [f"--board={board}" for board in sorted(filter(None, map(board_of, paths)))]
         command += ["--servos", servos, "--pty", "--no-stdio", "--realtime"] + (extra or [])
         motions = motions or our_motions()
-        # A file without a name: nothing is left of it, however this ends.
+        # A file without a name: nothing is left of it, however this process ends.
         with tempfile.TemporaryFile() as area:
             if motions:
                 area.write(self._fitting(motions))
@@ -127,7 +127,7 @@ class Simulator:
 
     @staticmethod
     def _fitting(motions: Path) -> bytes:
-        """The motion area of a file. Refuses what a board of 10 bits and 128 pages cannot play, as for a real one."""
+        """The motion area of a file. RefusedError for content that a board with 10 bits and 128 pages cannot play, as with a real board."""
         from m512.files import formats
 
         image = formats.load(motions)
@@ -179,7 +179,7 @@ class Simulator:
 
 
 def meet(link: Link) -> Client:
-    """The Client of a simulated board that has just been started. NoAnswerError after five minutes of silence."""
+    """The Client of a newly started simulated board. NoAnswerError after five minutes without an answer."""
     link.sleep(0.5)
     try:
         return Client(link, SOON, slack=SLACK_SECONDS)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A raw terminal: two threads join this terminal and a board. Ctrl-] is the only key that it keeps for itself."""
+"""A raw terminal. One thread copies from the keyboard to the board, one from the board to the screen. Ctrl-] is the only reserved key."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ HELP = """
  Ctrl-] g   log to a file, on and off             Ctrl-] Ctrl-]  send Ctrl-]
 """
 PIPE_QUIET = 0.3  # silence that ends an answer when lines come from a pipe
-LINE_SECONDS = 2.0  # for the board's answer to a line of a file
+LINE_SECONDS = 2.0  # how long the board may take to answer a line of a file
 XON, XOFF = 0x11, 0x13
 HIDDEN = (XON, XOFF, 0xFF)  # flow control, and the byte that a controller sends at its start
 
@@ -41,14 +41,14 @@ class Terminal:
                 raise
 
     def _open_log(self, path: Path) -> None:
-        """What is in the file is lost."""
+        """Overwrites an existing file."""
         try:
             self.log = open(path, "wb")
         except OSError as error:
             raise FileError(f"cannot write {path}: {error.strerror}") from None
 
     def run(self, send: Path | None = None, data: bytes = b"") -> None:
-        """data: what the file `send` holds. It goes to the board first, a line at a time."""
+        """data: the content of the file `send`. It goes to the board first, line by line."""
         if not sys.stdin.isatty():
             self._run_plain(data)
             return
@@ -74,7 +74,7 @@ class Terminal:
             raise PortError(self.trouble)
 
     def _run_plain(self, data: bytes) -> None:
-        """Standard input is no terminal: its lines go to the board, one after another's answer, and what the board says to
+        """For standard input that is not a terminal: sends each line after the answer to the line before, and copies the answers to
         standard output."""
         try:
             for line in chain(data.decode("utf-8", "replace").splitlines(), sys.stdin):
@@ -127,7 +127,7 @@ class Terminal:
                 return
 
     def _own(self, console: Any) -> bool:
-        """Acts on the key after Ctrl-]. False: quit."""
+        """Acts on the key after Ctrl-]. Returns False for quit."""
         key = console.getkey().lower()
         if key == "q":
             return False
@@ -151,8 +151,8 @@ class Terminal:
         while self.running and time.monotonic() < until and more:
             self.link.write(b"#")
             time.sleep(0.015)
-            # The first thing heard is the 0xFF of a start; three more are inside the loader's 60 ms, and the last byte
-            # in it has to be a '#'.
+            # The board has restarted when something is received (0xFF). Three more '#' fit into the loader's window of 60 ms, and the last
+            # byte in it must be a '#'.
             more -= self.heard_at > heard
         time.sleep(0.35)
         self.link.write(b"\x08\r")
@@ -200,7 +200,7 @@ class Terminal:
             self._send_lines(path, data)
 
     def _send_lines(self, path: Path, data: bytes) -> None:
-        """Each waits until the board has answered and is quiet, and for XON after XOFF."""
+        """After each line waits until the board has answered and is quiet. Waits for XON after XOFF."""
         for line in data.replace(b"\r\n", b"\n").split(b"\n"):
             while self.held and self.running:
                 time.sleep(0.01)
