@@ -200,8 +200,12 @@ class Trial:
         robot.run(max(0, 300 - (robot.since_ms - began)))
         for complaint in robot.screen_faults() if not robot.playing or robot.ended else []:
             self.complain(complaint)
+        limp = {joint for joint, kind in robot.told if kind == TORQUE}
+        with_twin = {joint for joint, faults in self.by_joint.items() if "duplicate" in faults}  # the twin is limp
+        if holding := sorted(joint for joint in limp - with_twin if self.board.servos[joint].torque):
+            self.complain(f"named as limp, but they hold: {holding}")
         robot.stand()
-        joints = set(SWINGING) | set(self.by_joint) - {RELEASED}
+        joints = set(SWINGING) | (set(self.by_joint) | limp) - {RELEASED}
         if not robot.on(joints):
             self.complain("`on` was refused")
         off = [joint for joint in joints if not self.board.servos[joint].torque]
