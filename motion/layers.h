@@ -25,7 +25,7 @@
 
 typedef enum {
     LAYERS_OK = 0,
-    LAYERS_ERR_RANGE,    /* a number out of its range, or page 0 or above 127 */
+    LAYERS_ERR_RANGE,    /* a number out of its range, or page 0, or not below PAGE_COUNT */
     LAYERS_ERR_PAGE,     /* the page is damaged: layers.play.fault, .fault_page */
     LAYERS_ERR_EMPTY,    /* the page has no action */
     LAYERS_ERR_JOINTS,   /* none of these joints is there */

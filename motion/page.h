@@ -61,7 +61,7 @@ typedef enum {
     PAGE_ERR_STEPS,      /* more than 7 steps */
     PAGE_ERR_SCHEDULE,   /* neither 0 nor 0x0A */
     PAGE_ERR_SPEED,      /* PAGE_SPEED is 0 */
-    PAGE_ERR_LINK,       /* never returned: a link above 127 is taken as 0 (LAWS.md). Keeps the numbers of the others */
+    PAGE_ERR_LINK,       /* never returned: a link beyond the pages counts as 0 (LAWS.md). Keeps the other numbers */
     PAGE_ERR_POSITION,   /* a position of a used step is above 1023 and has neither flag (0x4000, 0x2000) */
     PAGE_EMPTY           /* valid, but without action: page_is_playable. Ends a play; page_check never returns it */
 } page_status_t;
@@ -117,7 +117,7 @@ bool page_is_playable(const uint8_t *header);
  * reads of up to 64 bytes, a shaped one about fifteen, and each page that is passed over one more. */
 typedef struct {
     void *context;
-    /* Copies `count` bytes at byte `offset` of page `page` (0..127). */
+    /* Copies `count` bytes at byte `offset` of page `page` (0..PAGE_COUNT - 1). */
     void (*read)(void *context, uint8_t page, uint16_t offset, void *to, uint8_t count);
     /* page_status_t of the whole page, from a cache. */
     uint8_t (*check)(void *context, uint8_t page);

@@ -13,7 +13,7 @@
 
 typedef enum {
     PLAYER_OK = 0,
-    PLAYER_ERR_RANGE,        /* page 0 or above 127 */
+    PLAYER_ERR_RANGE,        /* page 0, or not below PAGE_COUNT */
     PLAYER_ERR_PAGE,         /* the page is damaged: page_status_t in player.fault, the page in .fault_page */
     PLAYER_ERR_EMPTY,        /* the page has no steps, or PLAY_COUNT 0 and nothing playable along its link */
     PLAYER_ERR_BUSY,         /* a play is on */

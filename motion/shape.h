@@ -27,7 +27,7 @@ typedef enum {
 typedef struct {
     uint16_t rate_percent;                       /* 10..400 */
     int8_t blend_percent;                        /* -100..100 */
-    uint8_t centre_page;                         /* 1..127; 0: no centre pose, no joint is scaled */
+    uint8_t centre_page;                         /* 1..PAGE_COUNT - 1; 0: no centre pose, no joint is scaled */
     uint8_t top_speed_q4_4;                      /* servo units a tick; 0: no limit */
     bool scales;                                 /* some amplitude is not 100 */
     uint8_t amplitude_percent[PAGE_JOINTS];      /* 0..150 */
@@ -39,7 +39,7 @@ void shape_reset(shape_t *shape);
 /* Rate, amplitude and blend 100, 100, 0; centre page 1; no limit until the voltage is known. */
 void shape_init(shape_t *shape);
 
-/* The ranges are those of shape_t. joints: bit per joint; at least one. page: 0..127. */
+/* The ranges are those of shape_t. joints: bit per joint; at least one. page: 0..PAGE_COUNT - 1. */
 MUST_CHECK shape_status_t shape_set_rate(shape_t *shape, uint16_t percent);
 MUST_CHECK shape_status_t shape_set_amplitude(shape_t *shape, uint16_t percent, uint32_t joints);
 MUST_CHECK shape_status_t shape_set_blend(shape_t *shape, int16_t percent);

@@ -14,7 +14,8 @@ typedef struct {
     uint8_t good[PAGE_COUNT / 8];      /* bit per page: page_check returned PAGE_OK */
 } page_store_t;
 
-/* Checks all 128 pages: blocks about 130 ms, kicks the watchdog. Images that can write flash call journal_recover first. */
+/* Checks all pages: blocks about 130 ms on a board, kicks the watchdog. Images that can write flash call journal_recover
+ * first. */
 void page_store_init(page_store_t *store);
 
 /* Checks one page again (after a save): about 1 ms. */
@@ -23,7 +24,7 @@ void page_store_refresh(page_store_t *store, uint8_t page);
 /* Byte address of a page in flash. */
 uint32_t page_store_addr(uint8_t page);
 
-/* Copies part of a page, offset + count <= 512. page 0..127. */
+/* Copies part of a page, offset + count <= 512. page 0..PAGE_COUNT - 1. */
 void page_store_read(uint8_t page, uint16_t offset, void *to, uint16_t count);
 
 /* Returns one byte of a page. */
@@ -46,7 +47,7 @@ void page_store_name(uint8_t page, char name[PAGE_NAME_BYTES]);
 /* The lowest good page above `after` with this name, ignoring case; 0: none. Start with after = 0. */
 uint8_t page_store_find(const page_store_t *store, const char *name, uint8_t after);
 
-/* The lowest good and playable page 1..127 with this play code (1..254); 0: none. */
+/* The lowest good and playable page 1..PAGE_COUNT - 1 with this play code (1..254); 0: none. */
 uint8_t page_store_find_code(const page_store_t *store, uint8_t code);
 
 /* Signed trim offsets from the third step of page 0 (PAGE_FORMAT.md, "Offset"). A word 0x4000..0x5FFF marks an unused joint

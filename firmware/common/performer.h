@@ -28,7 +28,7 @@
 
 typedef enum {
     PERFORMER_OK = 0,
-    PERFORMER_ERR_RANGE,      /* page 0 or above 127 */
+    PERFORMER_ERR_RANGE,      /* page 0, or not below PAGE_COUNT */
     PERFORMER_ERR_PAGE,       /* the page, or one that its links lead to, is damaged: performer.fault_page, .fault */
     PERFORMER_ERR_EMPTY,      /* the page has no action */
     PERFORMER_ERR_BUSY,       /* something is playing */

@@ -11,8 +11,8 @@
 
 enum {
     RANGE_NONE = 0,   /* not a number, or one that the handler checks */
-    RANGE_PAGE,       /* 0..127 */
-    RANGE_PLAYED,     /* 1..127 */
+    RANGE_PAGE,       /* 0..PAGE_COUNT - 1 */
+    RANGE_PLAYED,     /* 1..PAGE_COUNT - 1 */
     RANGE_DEG_S,      /* 1..360 */
     RANGE_ID,         /* 0..30 */
     RANGE_CODE,       /* 0..254 */

@@ -49,8 +49,8 @@ extern session_t the_session;   /* the only instance: all functions here use it 
  * page, because a first WRITE must not store speed 0. */
 void session_init(void);
 
-/* Opens `page` (0..127) from flash. Drops all changes and the undo history; keeps cursor and work pose. Marks only the cells
- * that differ. An erased page opens as a new one. */
+/* Opens `page` (0..PAGE_COUNT - 1) from flash. Drops all changes and the undo history; keeps cursor and work pose. Marks
+ * only the cells that differ. An erased page opens as a new one. */
 void session_open(uint8_t page);
 
 /* An editing command is session_begin, any number of session_set..., session_end. */
