@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""An hour of walking under a remote control, with pages called at random, stops, breaks, pauses, a serial line that is full in
-both directions, and servos that fail now and then; ten minutes of the same with 31 joints; and an editor that saves thousands
-of times. Nothing may be lost, late, or other at the end than at the start.
+"""A robot walks for an hour under a remote control, with randomly called pages, stops, breaks, pauses, a serial line that is full in
+both directions, and servos that fail from time to time. Another one with 31 joints does the same for ten minutes. An editor saves
+thousands of times. Nothing may be lost or late, and the end state must equal the start state.
 
 The hour is one run of one robot. Everything is drawn from --seed.
 """

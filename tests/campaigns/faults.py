@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Every fault a servo can have, in every situation of the robot, alone and in pairs on one servo and on two: each must be named
-on the screen with the joint's number within a simulated second, the rest of the robot must do what the setting says without
-a leap, and when the fault is over the servo must be usable again. No reset, no missed tick, nothing a chip would not forgive.
+"""Every fault that a servo can have, in every situation of the robot: alone, and in pairs on one servo and on two. Each fault must be
+named on the screen with the joint's number within a simulated second. The rest of the robot must do what the setting says,
+without a leap. When the fault is over, the servo must be usable again. There is no reset, no missed tick, and nothing that
+would damage a chip.
 
-What must be named, and what the retries hide and the statistics count, is the table in servofaults/README.md (model.py as code).
+servofaults/README.md lists what must be named, and what the retries hide and the statistics count (model.py is the same as code).
 """
 
 import collections

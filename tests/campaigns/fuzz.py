@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Bytes without sense, and nearly with: for the shipped images as a whole on the strict board (a million bytes each way in),
-for the portable modules and both applications as programs of the PC, guided by coverage, and for the files and answers that
-m512 reads.
+"""Random bytes, and bytes that are almost valid, go to three subjects: the shipped images on the strict board (a million bytes on
+each input), the portable modules and both applications as programs on the PC (guided by coverage), and the readers of m512 for
+files and answers.
 
-Nothing may hang, restart, write where nobody asked it to, or send a servo what it must not get."""
+Nothing may hang, restart, write anything that nobody asked for, or send a servo anything it must not get.
+"""
 
 import dataclasses
 import time

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""m512 flashes boards with a loader of the factory's kind over lines that are slow (down to 0.05 of the rate), late, in lumps,
-with holes, that lose, double and change bytes; it is killed or cancelled at any moment, the line breaks, somebody presses
-MODE, and it is called again. The pages hold chance, or text that would do harm if the loader took it for typed. All in
-simulated time, by the loader's description. `tools/prove links --only 66` repeats schedule 66 and says what it was.
+"""m512 flashes boards that have the factory's kind of loader. Their lines are slow (down to 0.05 of the rate), late, uneven and
+interrupted; they lose, double and change bytes. m512 is killed or cancelled at any moment, the line breaks, somebody presses
+MODE, and m512 is called again. The pages contain random bytes, or text that would do harm if the loader took it for typed
+commands. Everything runs in simulated time, with a loader written from its description. `tools/prove links --only 66` repeats
+schedule 66 and describes it.
 
-The same with our own loader: the shipped image on the simulated board, at the end of the same lines (`--ours --only 66`).
+Our own loader is tested in the same way: the shipped image runs on the simulated board, at the end of the same lines
+(`--ours --only 66`).
 
-The line, the loaders and the schedules: badlinks/.
+The line, the loaders and the schedules are in badlinks/.
 """
 
 import collections

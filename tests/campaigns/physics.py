@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Motions in physics: the shipped player and true servos move a body in MuJoCo, in bodies by chance. First the yardstick: the
-maker's own motions for its GP robot, which walk on the real one, must walk here, and must fall when they are spoiled. A physics in
-which they do not may judge nothing. Physics is a model, and no real robot has walked our motions yet.
+"""The shipped player and accurate servo models move random bodies in MuJoCo. A yardstick comes first: the maker's own motions for its
+GP robot, which walk on the real robot, must walk here, and must fall when they are spoiled. Without that, the physics could not
+judge anything. Physics is a model, and no real robot has walked our motions yet.
 
-Bodies that were tried are kept in build/prove/bodies.jsonl: an interrupted campaign goes on, and its parts are added up.
+build/prove/bodies.jsonl keeps the bodies that were tried: an interrupted campaign resumes, and its parts are added up.
 """
 
 import functools

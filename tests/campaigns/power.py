@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""The power goes at every flash and EEPROM operation of whole shipped images on the strict board, before it, in its
-middle with torn contents (seven kinds), and behind it; then the same images start again. All 128 motion pages, the
-application, the loader and the EEPROM are compared byte for byte with what they may hold; the application has to answer,
-the loader to say who it is, and the next save to work. Repairs at the start are cut as well, three deep. A state is called
-scene:operation:phase; `tools/prove power --only save:7:half/2:after` repeats the one where SAVE was cut in the middle of its
-7th operation and its repair behind its 2nd.
+"""The power fails at every flash and EEPROM operation of the shipped images on the strict board: before it, in its middle with
+torn contents (seven kinds), and after it. Then the same images start again. All 128 motion pages, the application, the loader
+and the EEPROM are compared byte for byte with what they may contain. The application must answer, the loader must identify
+itself, and the next save must work. The repairs at the start are interrupted as well, three levels deep. A state has the name
+scene:operation:phase. `tools/prove power --only save:7:half/2:after` repeats the state in which SAVE was interrupted in the middle
+of its 7th operation and its repair after its 2nd.
 
-The scenes and what plays them: powercuts/.
+The scenes and the code that plays them are in powercuts/.
 """
 
 import collections

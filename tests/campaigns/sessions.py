@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Play and Edit, the same sources as on the chip, run as programs in simulated time, with simulated servos on their line. One seed
-makes a session: typing, the remote, the panel, faults of servos and of the line, a hand at a joint, a late computer, a pulled
-adapter, power cuts at any tick and within any write. Rules are asked at every tick (simtime/rules.c), and places that must have been
-reached are counted (simtime/marks.c). `tools/prove sessions --only 66` repeats session 66 and, if it fails, makes it short.
+"""Play and Edit run as programs in simulated time, from the same sources as on the chip, with simulated servos on their line. One seed
+makes a session: typing, the remote, the panel, faults of servos and of the line, a hand at a joint, a late computer, an adapter
+that is pulled out, and power cuts at any tick and within any write. Rules are checked at every tick (simtime/rules.c), and the
+places that a campaign must reach are counted (simtime/marks.c). `tools/prove sessions --only 66` repeats session 66 and shortens it
+if it fails.
 
-What is special to the chip (interrupts, stack, its loader, timing) is not here; the other parts have that.
+What only the chip can show (interrupts, stack, its loader, timing) is left to the other parts.
 """
 
 import collections
@@ -15,7 +16,7 @@ from tests.campaigns import proof
 from tests.campaigns.simtime import board, chance, runs
 
 TITLE = "Sessions in simulated time"
-PROMISE = "Whatever a person, servos, lines, a computer and the power do at any tick: no leap, nothing moves unasked, text and pages stand."
+PROMISE = "Whatever a person, servos, lines, a computer and the power do at any tick: no leap, nothing moves unasked, text and pages are kept."
 SESSIONS, SAMPLE, CHUNK, SHOWN = 8400, 60, 25, 6
 BOTH = 100  # sessions that the strict board plays as well, 4 s each
 PLAYED = proof.RESULTS / "board_sessions.jsonl"

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""A motion shaped while it plays, on a body: the shipped Play image on the simulated board walks in MuJoCo, driven twenty times a second
-by `@drive` as a joystick would. Bodies by chance (friction 0.5..1.1, 9.6..12 V, masses +-15 %, joints off by 1.5 units, the floor tilted by up
-to 2 degrees, servo friction and rotor varied; with --hard those of the part physics, whose servo zeros are off by a degree as well). Physics
-is a model, and no real robot has walked our motions yet.
-"""
+"""The shipped Play image on the simulated board walks a body in MuJoCo. `@drive` changes the motion twenty times a second, as a joystick
+would. The bodies are random: friction 0.5..1.1, 9.6..12 V, masses +-15 %, joints off by 1.5 units, a floor tilted by up to 2 degrees,
+varied servo friction and rotor. With --hard they are those of the part physics, whose servo zeros are off by a degree as well.
+Physics is a model, and no real robot has walked our motions yet."""
 
 import dataclasses
 import functools

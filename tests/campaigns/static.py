@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""What can be seen without running anything: in the sources, and in the images as they are shipped.
+"""Checks of the sources and of the shipped images that run nothing.
 
-Every check is a command of its own (tools/dev/lint, check_layers, check_images, size_report), a ctest by its name,
-and has tests in tools/dev/tests that show that it bites.
+Every check is a command of its own (tools/dev/lint, check_layers, check_images, size_report) and a ctest with that name.
+tools/dev/tests shows that each one fails when it must.
 """
 
 import importlib.machinery
