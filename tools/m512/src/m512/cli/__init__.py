@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The command line. Commands are imported when they are called: `m512 --help` reads only this file."""
+"""The command line. Each command's module is imported when the command runs: `m512 --help` reads only this file."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class LazyGroup(click.Group):
             formatter.write_dl([(name, text) for name, (_, text) in COMMANDS.items()])
 
     def main(self, *args: Any, **kwargs: Any) -> Any:
-        """What the system refuses is said in a sentence, wherever it comes from: a full disk behind --help, a name of 300 letters."""
+        """Reports every OSError in one sentence, wherever it occurs: a full disk behind --help, a name of 300 letters."""
         try:
             return super().main(*args, **kwargs)
         except OSError as error:
@@ -69,7 +69,7 @@ class LazyGroup(click.Group):
     def invoke(self, ctx: click.Context) -> Any:
         from m512.errors import EXIT_CANCELLED, M512Error
 
-        for name in ("SIGTERM", "SIGHUP"):  # the simulator and a robot that is driven do not outlive this program
+        for name in ("SIGTERM", "SIGHUP"):  # the simulator and a driven robot must not outlive this program
             if hasattr(signal, name):
                 signal.signal(getattr(signal, name), lambda number, _: sys.exit(128 + number))
         try:
@@ -82,7 +82,7 @@ class LazyGroup(click.Group):
         except (KeyboardInterrupt, click.Abort):
             click.echo("m512: stopped", err=True)
             sys.exit(EXIT_CANCELLED)
-        except BrokenPipeError:  # the results' reader went away, as `| head` does: ended early, which is no success
+        except BrokenPipeError:  # the reader of the results has gone, as with `| head`: an early end, not a success
             from m512.streams import end_results
 
             end_results()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`m512 flash`, `run`, `backup`, `restore`: what goes through a boot loader."""
+"""`m512 flash`, `run`, `backup`, `restore`: the commands that use a boot loader."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from m512.errors import FileError, M512Error, NoAnswerError, PortError, RefusedE
 
 
 class Finite(click.FloatRange):
-    """A range that nan is not in."""
+    """A range that excludes nan."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
         number = super().convert(value, param, ctx)
@@ -28,7 +28,7 @@ class Finite(click.FloatRange):
 
 
 class FilePath(click.Path):
-    """A file's or folder's name; what is wrong with the file is said by who opens it. Path("") would be the folder that we are in."""
+    """The name of a file or folder. The code that opens it reports its errors. Path("") would mean the current folder."""
 
     def __init__(self, kind: type = Path):
         super().__init__(readable=False, path_type=kind)
@@ -60,13 +60,13 @@ json_option = click.option("--json", "as_json", is_flag=True, help="Result on st
 
 
 def only_the_simulator() -> None:
-    """UsageError where --sim and a port were typed: one of the two would be ignored. M512_PORT is no such word."""
+    """UsageError if --sim and --port are both on the command line: one of them would be ignored. M512_PORT does not count."""
     if click.get_current_context().get_parameter_source("port") is ParameterSource.COMMANDLINE:
         raise click.UsageError("--sim starts a simulated robot, --port means a real one: say one of the two")
 
 
 def refuse_words(names: set[str], why: str) -> None:
-    """UsageError where one of these options was typed: it would be ignored."""
+    """UsageError if one of these options is on the command line: it would be ignored."""
     context = click.get_current_context()
     for option in context.command.params:
         if option.name in names and context.get_parameter_source(option.name) is ParameterSource.COMMANDLINE:
@@ -74,7 +74,7 @@ def refuse_words(names: set[str], why: str) -> None:
 
 
 def connect(port: str, wait: float, yes: bool = False, board: str = "") -> Any:
-    """(link, loader) of the board on a port. A running Play or Edit restarts by itself; edits are lost only after a yes."""
+    """(link, loader) of the board on a port. A running Play or Edit is restarted; unsaved edits are lost only after a yes."""
     from m512.board import bus, loaders, ports
     from m512.board.link import Link
 
@@ -173,7 +173,7 @@ def _flash(
 
 
 def _agreed(loader: Any, plan: Any, yes: bool) -> Any:
-    """The flash pages to write, after a yes if motions of the board would be lost by it."""
+    """The flash pages to write. Asks first if motions of the board would be lost."""
     from m512.board import download, look
     from m512.files.wording import named_pages_text
 
@@ -191,7 +191,7 @@ def _agreed(loader: Any, plan: Any, yes: bool) -> Any:
 
 
 def _look(plan: Any, port: str, board: str) -> list[str]:
-    """Says, and returns, what a plan would change on the board, which goes on with what it does."""
+    """Prints and returns what a plan would change on the board. The board keeps running."""
     from m512.board import bus, loaders, look, ports
     from m512.board.client import Client
     from m512.board.link import Link
@@ -348,7 +348,7 @@ def restore(folder: Path, what: str | None, yes: bool, port: str, board: str, wa
 
 @contextmanager
 def as_found(loader: Any) -> Iterator[None]:
-    """Whatever ends this early (an error, a no, Ctrl-C) leaves the board as it was found."""
+    """Leaves the board as it was found when something ends the block early: an error, a no, Ctrl-C. Not after a PortError."""
     from m512.board import loaders
 
     try:
@@ -361,7 +361,7 @@ def as_found(loader: Any) -> Iterator[None]:
 
 
 def _compare(loader: Any, saved: Any, areas: list[str], pages: Any) -> Any:
-    """(flash pages that differ, EEPROM cells that differ, changes of motions), told in words."""
+    """(flash pages that differ, EEPROM cells that differ, changes of motions). Also prints them."""
     from m512.board import backup as backups
     from m512.board.memory import MOTIONS, Record
     from m512.files.image import from_bytes

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class PageNumber(click.ParamType):  # type: ignore[type-arg]  # generic from click 8.2 on
-    """A page's number and nothing else: int() also takes 1_0 and digits of other scripts."""
+    """A page number and nothing else: int() would also accept 1_0 and digits of other scripts."""
 
     name = "number"
 
@@ -36,19 +36,19 @@ PAGE_NUMBER = PageNumber()
 
 
 def page_numbers(words: Sequence[str], pages: Any) -> Any:
-    """The pages that arguments mean, of a file or a board (files/selection.py)."""
+    """The page numbers that arguments mean, in a file or on a board (files/selection.py)."""
     return _meant(selection.numbers, words, pages)
 
 
 def one_of_csv(target: str | Path | None, numbers: Sequence[int]) -> int | None:
-    """The page of a .csv that is to hold the pages asked for; None: there are several, and another kind of file holds them."""
+    """The page for a .csv target, or None if there are several. UsageError: several pages for a .csv."""
     if target and formats.BY_SUFFIX.get(Path(target).suffix.lower()) == formats.CSV and len(numbers) > 1:
         raise click.UsageError(f"{target}: a .csv holds one page, and not {pages_text(numbers)}")
     return numbers[0] if len(numbers) == 1 else None
 
 
 def page_moves(words: Sequence[str], pages: Any) -> Any:
-    """[(number there, number here)] of arguments such as 3, wave:40, 20..25:60, all."""
+    """[(source number, target number)] of arguments such as 3, wave:40, 20..25:60, all."""
     return _meant(selection.moves, words, pages)
 
 
@@ -60,7 +60,7 @@ def _meant(parse: Callable[..., Any], words: Sequence[str], pages: Any) -> Any:
 
 
 def id_list(text: str) -> list[int]:
-    """IDs of the option --joints."""
+    """The IDs in the option --joints."""
     from m512.files.text.words import joints_of
 
     try:
@@ -183,7 +183,7 @@ def convert(
 
 
 def _motions_of(word: str, bits: int | None, board: str) -> Image:
-    """The motions of a file, a backup's folder, or a board."""
+    """The motions of a file, of a backup folder, or of a board."""
     from m512.board.ports import is_port
 
     if is_port(word):

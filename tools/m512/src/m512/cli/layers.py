@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`m512 layer`, `aim`, `swing`, `free`: what moves joints of its own over the motion that plays (Play)."""
+"""`m512 layer`, `aim`, `swing`, `free`: commands that move single joints on top of the motion that plays (Play)."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ if TYPE_CHECKING:
 
 SECOND_MS = 1000
 AMPLITUDES = (0, 511)
-AIMED_MOST = 4  # joints that code moves at once
+AIMED_MOST = 4  # joints that code can move at the same time
 
 
 def must_last(what: str, options: dict[str, Any]) -> None:
-    """RefusedError where the robot's program would end with this command."""
+    """RefusedError if the robot's program would end with this command."""
     from m512.board import bus
 
     bus.refuse_lasting(options["port"] or "", what)
 
 
 def show_shape(client: Client, as_json: bool) -> None:
-    """What is in force now."""
+    """Prints the current shape."""
     found = client.shape()
     if as_json:
         ui.show(json.dumps({word: int(text) if re.fullmatch("-?[0-9]+", text) and word != "aim" else text for word, text in found.items()}))
@@ -119,7 +119,7 @@ def free(ids: list[int], **options: Any) -> None:
 
 
 def _amplitude(text: str) -> int:
-    """Servo units of 30deg or 100."""
+    """Servo units, from text such as 30deg or 100."""
     found = re.fullmatch(r"([0-9]{1,9}(?:\.[0-9]{0,9})?)(deg)?", text)
     units = -1 if not found or not found.group(2) and "." in text else round(float(found.group(1)) * (1024 / 300 if found.group(2) else 1))
     if not AMPLITUDES[0] <= units <= AMPLITUDES[1]:
@@ -128,7 +128,7 @@ def _amplitude(text: str) -> int:
 
 
 def _milliseconds(text: str) -> int:
-    """Milliseconds of 2s or 1500ms."""
+    """Milliseconds, from text such as 2s or 1500ms."""
     found = re.fullmatch(r"([0-9]{1,9}(?:\.[0-9]{0,9})?)(ms|s)", text)
     if found:
         return round(float(found.group(1)) * (1 if found.group(2) == "ms" else SECOND_MS))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`m512 pages FILE ACTION`: looking at pages and changing them."""
+"""`m512 pages FILE ACTION`: shows and changes pages."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from m512.files.page import Page
 
 
 class Source:
-    """The file or board that an action works on; read when the action first asks."""
+    """The file or board that an action works on. It is read on first use."""
 
     def __init__(self, word: str, bits: int | None, which_board: str = ""):
         self.word, self.bits, self.which_board = word, bits, which_board
@@ -47,7 +47,7 @@ class Source:
         return image
 
     def store(self, remarks: Iterable[str], output: Any, in_place: bool, yes: bool, number: int | None = None) -> None:
-        """Writes the changed image where it was asked for: to the file or board that it is from, unless `output`. `number`: the page of a .csv."""
+        """Writes the changed image to `output`, or else back to its file or board. `number`: the page of a .csv."""
         for remark in remarks:
             ui.say(f"note: {remark}")
         if not self.board:
@@ -63,7 +63,7 @@ class Source:
                 ui.say(f"loss: {loss}")
 
     def _to_board(self, yes: bool) -> None:
-        """Shows what changes, asks, writes."""
+        """Shows the changes, asks, writes."""
         from m512.board.motions import write_motions
         from m512.pages import difference
 
@@ -78,7 +78,7 @@ class Source:
 
 
 def changes(function: Any) -> Any:
-    """Options of the actions that change pages; where the result goes is looked at before a file or board is read."""
+    """Decorator with the options of actions that change pages. Checks the destination before a file or board is read."""
 
     @wraps(function)
     def action(source: Source, force: bool, **options: Any) -> None:

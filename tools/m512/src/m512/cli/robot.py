@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`m512 play`, `stop`, `pose`, `torque`, `get`, `put`: what a running Play or Edit does for a program."""
+"""`m512 play`, `stop`, `pose`, `torque`, `get`, `put`: the commands for a running Play or Edit."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ ID_MAX = 30
 
 
 def _servos(_context: click.Context, _parameter: click.Parameter, text: str) -> str:
-    """--servos of the simulator (a model or a rate may follow an ID), if Play and Edit can move them all."""
+    """Checks --servos of the simulator: Play and Edit must be able to move them all. A model or rate may follow an ID."""
     for part in [] if text == "none" else text.split(","):
         ids = re.fullmatch("([0-9]{1,3})(?:-([0-9]{1,3}))?([:@].*)?", part)
         if not ids or not int(ids[1]) <= int(ids[2] or ids[1]) <= ID_MAX:
@@ -59,7 +59,7 @@ def robot_options(function: Any) -> Any:
 
 @contextmanager
 def robot(options: dict[str, Any], image: Any = "play") -> Iterator[Client]:
-    """The Client that the options mean; whatever was started for it ends with the command. image: what to start behind -p bus:..."""
+    """The Client for these options. Whatever was started for it ends with the block. image: the program to start for -p bus:..."""
     from m512.board import ports
     from m512.board.client import Client
     from m512.board.link import Link
@@ -83,7 +83,7 @@ def robot(options: dict[str, Any], image: Any = "play") -> Iterator[Client]:
 
             if not loaders.at_prompt(link):
                 raise NoAnswerError(f"{error} on {link.url} (m512 doctor looks why)") from None
-            loaders.identify(link).leave(loaders.STAY)  # refuses a board that is none of ours
+            loaders.identify(link).leave(loaders.STAY)  # refuses an unsupported board
             raise NoAnswerError("the board waits in its boot loader: `m512 run` starts the application") from None
         yield client
 
@@ -127,7 +127,7 @@ def play(page: str, rate: int | None, amplitude: int | None, blend: int | None, 
                 client.ask(f"{word} {value}")
         client.play(number, code)
         ui.say(f"page {number} plays" + ("; waiting for its end, Ctrl-C stops it" if wait else ""))
-        is_ours = options["sim"] or is_bus(options["port"])  # what was started for this command ends with it
+        is_ours = options["sim"] or is_bus(options["port"])  # a program started for this command ends with it
         stopped = False
         if wait or is_ours:
             try:
@@ -140,8 +140,8 @@ def play(page: str, rate: int | None, amplitude: int | None, blend: int | None, 
 
 
 def _follow(client: Client) -> bool:
-    """Tells pages and steps until the robot is idle. The first Ctrl-C is a stop, the second a break. Returns whether there was one.
-    What else ends this program (the terminal's window is closed) is a stop, too: nobody is there any more to press Ctrl-C."""
+    """Shows the state until the robot is idle. The first Ctrl-C stops, the second breaks. Returns whether there was one. Anything else
+    that ends this program (a closed terminal window) also stops the play, because nobody can press Ctrl-C any more."""
     before, asked = None, 0
     while True:
         try:
@@ -224,7 +224,7 @@ def positions_of(words: Sequence[str]) -> Any:
         try:
             if not colon:
                 raise WordError(f"{word}: say ID:POSITION, such as 2:600 or 2:30deg")
-            if re.fullmatch(r"[+-][0-9]*|\.", value):  # words of a motion file, where a step stands before
+            if re.fullmatch(r"[+-][0-9]*|\.", value):  # valid in a motion file only, relative to the step before
                 raise WordError(f"{word}: a position is 0..1023, or an angle from the centre such as 30deg or -30deg")
             at = position(value, 0x4000, 1023)
             if at > 1023:
@@ -270,7 +270,7 @@ def get(pages: Sequence[str], output: Any, force: bool, **options: Any) -> None:
     from m512.files import formats
     from m512.files.image import Image
 
-    formats.must_be_writable(output, force)  # before a robot is asked
+    formats.must_be_writable(output, force)  # before a robot is contacted
     with robot(options) as client:
         numbers = page_numbers(pages, client)
         only = one_of_csv(output, numbers)
@@ -313,7 +313,7 @@ def put(source: Path, pages: Sequence[str], yes: bool, **options: Any) -> None:
         raise click.UsageError("the simulator forgets what is saved in it; `m512 play PAGE --sim --motions FILE` plays a file's pages")
     image = formats.load(source)
     moves = page_moves(pages, image)
-    goal = Image.empty(256)  # the board says how many of them it has
+    goal = Image.empty(256)  # the board reports how many pages it has
     for remark in operations.place(goal, image, moves, replace=True):
         ui.say(f"note: {remark}")
     if goal[0].trim_problem():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`m512 shape`, `drive`: a motion that plays made faster, larger, turned."""
+"""`m512 shape`, `drive`: change the speed, size and turn of the motion that plays."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def shape_options(function: Any) -> Any:
 
 
 def apply(client: Client, rate: int | None, amplitude: int | None, blend: int | None) -> None:
-    """Sends what was asked for."""
+    """Sends the given values."""
     for word, value in zip(FIELDS, (rate, amplitude, blend)):
         if value is not None:
             client.ask(f"{word} {value}")
@@ -78,7 +78,7 @@ def drive(page: str, pad: bool, laid: Any, **options: Any) -> None:
     from m512.board import driving
 
     with robot(options) as client:
-        client.shape()  # Edit refuses here; it would play the page, and could not be driven
+        client.shape()  # Edit refuses this; it would play the page but could not be driven
         number, second = client.motion(page), client.motion(laid) if laid else 0
         with _pad() if pad else _keys() as source:
             client.play(number)

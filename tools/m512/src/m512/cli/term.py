@@ -39,7 +39,7 @@ def term(port: str, log: Path | None, force: bool, send: Path | None, listing: b
     from m512.board.terminal import Terminal
     from m512.files import storage
 
-    data = storage.read(send) if send else b""  # what cannot be read or written is said before the board is touched
+    data = storage.read(send) if send else b""  # file errors are reported before the board is touched
     if log:
         storage.must_be_free(log, force)
     if listing:

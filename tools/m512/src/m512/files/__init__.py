@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Motions in files: the page, the image, and every format that holds them."""
+"""Motion files: the page, the image, and all file formats."""

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""python -m m512.files SOURCE TARGET: as `m512 convert`, with nothing but Python's own library.
+"""python -m m512.files SOURCE TARGET: like `m512 convert`, with Python's standard library only.
 
-So the first build of the motion library needs no Python package. Exits 1 with one sentence when the source is wrong.
+So the first build of the motion library needs no Python package. An invalid source prints one sentence and exits with code 1.
 """
 
 import sys

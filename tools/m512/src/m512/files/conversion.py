@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""What happens to an image between two files: damaged pages, and how many pages the result has.
+"""Changes to an image between two files: damaged pages, and the number of pages of the result.
 
-For `m512 convert` and for the page in the browser, which must do the same.
+Used by `m512 convert` and by the page in the browser, which must agree.
 """
 
 from __future__ import annotations
@@ -14,17 +14,17 @@ from m512.files.image import Image, is_erased
 from m512.files.page import Page
 from m512.files.wording import Findings, named_pages_text
 
-FEW = 3  # damaged pages told with what is wrong in each
+FEW = 3  # up to this many damaged pages are reported with their faults
 
 
 def damaged_pages(image: Image) -> list[tuple[int, str]]:
-    """[(number, what is wrong)]. Erased flash is empty, and no damage."""
+    """[(number, fault)] of the damaged pages. Erased flash counts as empty, not as damaged."""
     return [(number, page.fault_text(image.kind)) for number, page in image.items() if page.fault(image.kind) and not is_erased(page)]
 
 
 def treat_damaged(image: Image, source: Path, how: str, notes: list[str]) -> list[int]:
-    """Keeps or drops damaged pages (`how`: keep, drop), in place and with a note, or refuses to go on (ask); returns their numbers.
-    FileError: every page is damaged, or was never written, so that this is something else than motions."""
+    """Keeps or drops damaged pages (`how`: keep, drop), in place and with a note. Returns their numbers. RefusedError: damaged pages and
+    `how` is ask. FileError: every page is damaged or erased, so the file holds no motions."""
     bad = damaged_pages(image)
     if bad and len(bad) + sum(is_erased(page) for page in image.pages) == len(image.pages):
         raise FileError(
@@ -44,8 +44,8 @@ def treat_damaged(image: Image, source: Path, how: str, notes: list[str]) -> lis
 
 
 def fitted(image: Image, count: int | None, target: Path) -> tuple[Image, list[str]]:
-    """The image with as many pages as the result has (`count`; None: what suits the two kinds of file), and what that loses.
-    RefusedError: pages of the user's would be lost and nobody asked for that count."""
+    """The image with the number of pages of the result (`count`, or what suits both kinds of file if None), and the losses.
+    RefusedError: the user's pages would be lost without a `count`."""
     wanted = count or fitting(image, target)
     if wanted == image.end:
         return image, []
@@ -60,7 +60,6 @@ def fitted(image: Image, count: int | None, target: Path) -> tuple[Image, list[s
 
 
 def fitting(image: Image, target: Path) -> int:
-    """As many as the source has. A .mtn always has 255, whatever the robot has: one is made from what there is, and read
-    for a board of 128."""
+    """The number of pages of the source. A .mtn always has 255: it is written from the existing pages, and read for a board of 128."""
     to_mtn = formats.BY_SUFFIX.get(target.suffix.lower()) == formats.MTN
     return 128 if image.form == formats.MTN and not to_mtn else image.end

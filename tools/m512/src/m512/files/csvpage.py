@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""One page as a table for spreadsheets: header fields, then a line a step. An empty cell is a joint not used."""
+"""One page as a table for spreadsheets: header fields, then one line per step. An empty cell is an unused joint."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def write(image: Image, which: int | None) -> tuple[bytes, list[str]]:
 
 
 def read(text: str, where: str) -> Image:
-    """A 128-page image (256 when the number needs it) with that one page."""
+    """A 128-page image (256 if the number needs it) with the table's page. FileError: not a valid table."""
     lines = text.replace("\r\n", "\n").replace("\r", "\n").replace("\0", "")
     page, which, line, in_steps, bits = Page(), 0, 0, False, 0
     said: set[str] = set()
@@ -120,7 +120,7 @@ def read(text: str, where: str) -> Image:
 
 
 def _resolution(page: Page, said: int, where: str) -> int:
-    """10 or 12 bits: as the table says, else as its positions need it."""
+    """10 or 12 bits: from the table's `bits` line, else as large as its positions need."""
     highest = max((word for step in range(page.steps) for word in page.words(step) if word <= 4095), default=0)
     if said == 10 and highest > 1023:
         raise FileError(f"{where}: bits are 10 and there is a position {highest} (0..1023)")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Motion files of every kind, by suffix and contents.
+"""Motion files of every kind, recognised by suffix and contents.
 
-load() says in Image.notes what it had to decide; save() returns what the new format cannot say (its losses).
+load() puts its assumptions into Image.notes. save() returns the losses: what the new format cannot express.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ def write_bytes(path: Path, data: bytes) -> None:
 
 
 def recognise(data: bytes, path: Path) -> str:
-    """What a file is, by its contents; the suffix decides only where they do not."""
+    """The kind of a file, from its contents. The suffix decides only if the contents do not. FileError: no known kind."""
     if not data:
         raise FileError(f"{path}: empty, so it holds no motions")
     if len(data) in raw.SIZES:
@@ -58,13 +58,13 @@ def _text_of(data: bytes, path: Path) -> str:
 
 
 def load(path: Path, bits: int | None = None, base: Image | None = None) -> Image:
-    """Reads any motion file. `bits`: 10 or 12; None takes what the positions look like, with a note (text says it itself).
-    `base`: gives what the file cannot say (page 0 of a .mtn)."""
+    """Reads any motion file. `bits`: 10 or 12; None guesses from the positions, with a note (a text states it). `base`: supplies what
+    the file cannot hold (page 0 of a .mtn)."""
     return decode(read_bytes(path), path, bits, base)
 
 
 def decode(data: bytes, path: Path, bits: int | None = None, base: Image | None = None) -> Image:
-    """An image out of a file's bytes. Every FileError names the file."""
+    """The image in a file's bytes. Every FileError names the file."""
     storage.must_fit(len(data), path)
     try:
         return _decoded(data, path, bits, base)
@@ -100,14 +100,14 @@ def _image(kind: str, data: bytes, path: Path, bits: int | None, base: Image | N
 
 
 def save(path: Path, image: Image, number: int | None = None, mtn_version: str = "1.01", kind: str | None = None) -> list[str]:
-    """Writes an image in the format of the path's suffix, or as `kind`; returns the losses. `number`: the page of a CSV."""
+    """Writes an image in the format of the path's suffix, or as `kind`. Returns the losses. `number`: the page for a CSV."""
     data, losses = encode(path, image, number, mtn_version, kind)
     write_bytes(path, data)
     return losses
 
 
 def kind_of(path: Path) -> str:
-    """What is written to a path. FileError: its suffix names no format."""
+    """The format for a path. FileError: its suffix names no format."""
     kind = BY_SUFFIX.get(path.suffix.lower(), TEXT if storage.is_stream(path) else None)
     if kind is None:
         raise FileError(f"{path}: the suffix decides the format: {' '.join(BY_SUFFIX)}")
@@ -115,13 +115,14 @@ def kind_of(path: Path) -> str:
 
 
 def must_be_writable(path: Path, force: bool) -> None:
-    """The cheap questions, before the motions are read. RefusedError, FileError: it is there already, or its suffix names no format."""
+    """The cheap checks, before the motions are read. RefusedError: the file exists. FileError: the suffix names no format, or the path
+    is a folder."""
     storage.must_be_free(path, force)
     kind_of(path)
 
 
 def keep_text(source: Path, target: Path) -> None:
-    """RefusedError: the motions of a text are to replace it, and it says more than this program would write."""
+    """RefusedError if a text would be overwritten by its own motions and would lose content, such as comments."""
     if not (storage.exists(source) and storage.exists(target) and target.samefile(source)):
         return
     data = read_bytes(source)

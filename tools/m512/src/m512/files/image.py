@@ -6,7 +6,7 @@
 | 65,024  | 1..127 | the same without page 0                       |
 | 131,072 | 0..255 | CM-510, DARwIn-OP and later (OP3: 12-bit)     |
 
-Which kind a file is follows from its length; whether it is 12-bit does not, and has to be told.
+The length tells which kind a file is. It does not tell whether positions have 12 bits; the caller must say so.
 """
 
 from __future__ import annotations
@@ -28,14 +28,14 @@ TWELVE_BIT_MAX = 4095
 
 @dataclass
 class Image:
-    """All pages of a motion area, `first` (0 or 1) to `end` - 1. `notes` says what reading it had to decide."""
+    """All pages of a motion area, `first` (0 or 1) to `end` - 1. `notes` lists the assumptions made by the reader."""
 
     pages: list[Page]
     first: int = 0
     bits: int = 10
     notes: list[str] = field(default_factory=list)
-    joints: dict[int, str] = field(default_factory=dict)  # names, where the file gives some
-    form: str = ""  # what kind of file it was read from (formats.TEXT, BINARY, ...)
+    joints: dict[int, str] = field(default_factory=dict)  # names, if the file has some
+    form: str = ""  # the kind of file it was read from (formats.TEXT, BINARY, ...)
 
     @classmethod
     def empty(cls, count: int = 128) -> Image:
@@ -64,7 +64,7 @@ class Image:
         return b"".join(bytes(page) for page in self.pages)
 
     def names(self) -> dict[bytes, list[int]]:
-        """Page numbers by name, nameless and untouched pages left out."""
+        """Page numbers by name, without page 0 and nameless pages."""
         found: dict[bytes, list[int]] = {}
         for number, page in self.items():
             if page.name and number:
@@ -72,7 +72,7 @@ class Image:
         return found
 
     def find(self, word: str) -> int:
-        """A page by number or name (exact, else unambiguous without regard to case)."""
+        """The page number for a number or name (exact, else unambiguous regardless of case). FileError: no such page."""
         number = selection.page_number(word)
         if number is None:
             return selection.find(word, self._words(), FileError)
@@ -83,19 +83,19 @@ class Image:
         return word in self._words().values()
 
     def used(self) -> list[int]:
-        """Pages that hold something, damaged ones too; page 0, the trim, among them."""
+        """Pages that hold something, including damaged ones and page 0 (the trim)."""
         return [number for number, page in self.items() if not is_erased(page) and (not page.is_empty or page.fault(self.kind))]
 
     def _words(self) -> dict[int, str]:
-        """The names as somebody types them."""
+        """The names as a user types them."""
         return {number: name.decode("utf-8", "replace") for name, numbers in self.names().items() for number in numbers}
 
     def beyond(self, count: int) -> dict[int, str]:
-        """{number: title} of the used pages that 0..count-1 have no room for."""
+        """{number: title} of the used pages beyond 0..count-1."""
         return {number: page.title for number, page in self.items() if number >= count and not page.is_empty and len(set(page.data)) > 1}
 
     def resized(self, count: int) -> tuple[Image, list[str]]:
-        """The same as pages 0..count-1, with a list of what is lost. Links to pages that are no longer there become empty."""
+        """A copy with pages 0..count-1, and a list of losses. Links to missing pages become empty."""
         losses = []
         out = Image([Page() for _ in range(count)], 0, self.bits, list(self.notes), dict(self.joints), self.form)
         lost = self.beyond(count)
@@ -110,7 +110,7 @@ class Image:
 
 
 def _cut_links(page: Page, number: int, count: int, cut: Findings) -> None:
-    """Empties the links of a good page that lead beyond the last page."""
+    """Empties the links of an undamaged page that lead beyond the last page."""
     if page.fault(Kind(256, TWELVE_BIT_MAX)) is Fault.OK:
         for link in page.LINKS:
             if getattr(page, link) >= count:
@@ -127,7 +127,7 @@ def from_bytes(data: bytes, bits: int = 10) -> Image:
 
 
 def hex_segments(text: str) -> list[tuple[int, bytes]]:
-    """Intel HEX text as [(address, bytes)], ascending, adjacent pieces joined."""
+    """Intel HEX text as [(address, bytes)], ascending, adjacent pieces joined. FileError: not a valid or complete file."""
     from intelhex import IntelHex, IntelHexError
 
     if not re.search(r"^:00[0-9A-Fa-f]{4}01", text, re.M):
@@ -141,7 +141,7 @@ def hex_segments(text: str) -> list[tuple[int, bytes]]:
 
 
 def from_hex(text: str, bits: int = 10) -> Image:
-    """A motion area in Intel HEX. What the file leaves out stays empty; only whole pages count."""
+    """The motion area in an Intel HEX file. Missing pages are empty. FileError: another area, or incomplete pages."""
     segments = hex_segments(text)
     if not segments:
         raise FileError("the Intel HEX file holds no data")

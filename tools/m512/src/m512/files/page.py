@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The 512-byte motion page: layout, checks, field access. Twin of motion/page.h; both pass page_vectors.json.
+"""The 512-byte motion page: layout, checks, field access. The same as motion/page.h; both are tested with page_vectors.json.
 
-A Page never refuses bytes: damaged pages have to be shown, kept and repaired. `fault()` and `faults()` say what is
-wrong, in the order of page_status_t.
+A Page accepts any bytes, because damaged pages must be shown, kept and repaired. `fault()` and `faults()` report what is wrong, in
+the order of page_status_t.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ SCHEDULE_SPEED = 0x00
 SCHEDULE_TIME = 0x0A
 POS_UNUSED = 0x4000  # joint not used in this step: it keeps its last target
 POS_TORQUE_OFF = 0x2000  # Edit's work pose only
-TRIM_MAX = 300  # the robot takes a trim beyond this for damaged, and for 0
+TRIM_MAX = 300  # the robot treats a larger trim as damaged and as 0
 CODE_STOP = 255
 
 
 class Fault(IntEnum):
-    """page_status_t of motion/page.h. LINK is no fault of a page: a link beyond the last page counts as none (links_beyond)."""
+    """page_status_t of motion/page.h. LINK is never reported: a link beyond the last page counts as no link (links_beyond)."""
 
     OK = 0
     CHECKSUM = 1
@@ -40,7 +40,7 @@ class Fault(IntEnum):
 
 @dataclass(frozen=True)
 class Kind:
-    """What the origin of a page decides and its bytes do not tell."""
+    """Properties of a page that depend on its origin and are not in its bytes."""
 
     pages: int = 128
     pos_max: int = 1023
@@ -57,7 +57,7 @@ def _field(at: int, doc: str) -> property:
 
 
 class Page:
-    """512 bytes with names. Setting a field does not touch the checksum: call seal()."""
+    """512 bytes with named fields. Setting a field does not update the checksum: call seal()."""
 
     __slots__ = ("data",)
 
@@ -105,7 +105,7 @@ class Page:
 
     @property
     def name(self) -> bytes:
-        """The name's bytes up to the NUL (14 of them when there is none)."""
+        """The bytes of the name up to the NUL (all 14 if there is none)."""
         return bytes(self.data[:NAME_BYTES]).split(b"\0")[0]
 
     @name.setter
@@ -116,7 +116,7 @@ class Page:
 
     @property
     def title(self) -> str:
-        """The name as something that can be shown: ASCII, other bytes escaped."""
+        """The name for display: ASCII, other bytes escaped."""
         return "".join(chr(b) if 0x20 <= b < 0x7F else f"\\x{b:02x}" for b in self.name)
 
     # Compliance and positions
@@ -168,7 +168,7 @@ class Page:
         return self
 
     def faults(self, kind: Kind = Kind()) -> Iterator[Fault]:
-        """All that is wrong, in the order of page_status_t."""
+        """All faults, in the order of page_status_t."""
         if sum(self.data) & 0xFF != 0xFF:
             yield Fault.CHECKSUM
         if self.steps > STEPS:
@@ -185,7 +185,7 @@ class Page:
         return next(self.faults(kind), Fault.OK)
 
     def fault_text(self, kind: Kind = Kind()) -> str:
-        """In words; empty for a good page."""
+        """The faults in words; empty for a good page."""
         return "; ".join(self._describe(fault, kind) for fault in self.faults(kind))
 
     def _describe(self, fault: Fault, kind: Kind) -> str:
@@ -208,14 +208,14 @@ class Page:
         return f"position beyond {kind.pos_max}: " + ", ".join(bad[:3]) + more
 
     def trims(self) -> list[int]:
-        """What a robot whose page 0 this is adds to its joints' goals: the third step holds it, signed (motion/PAGE_FORMAT.md)."""
+        """For page 0: what a robot adds to its joints' goals. The third step holds it, signed (motion/PAGE_FORMAT.md)."""
         if self.data == b"\xff" * PAGE_BYTES:
             return [0] * JOINTS
         return [0 if POS_UNUSED <= word < POS_UNUSED + 0x2000 else word - 0x10000 if word & 0x8000 else word for word in self.words(2)]
 
     def trim_problem(self) -> str:
-        """For page 0: why it is no trim, in words; empty when it may be one. A joint's trim is its position in the second
-        step less that in the first, where both hold a pose."""
+        """For page 0: why it cannot be a trim, or an empty text. Where the first two steps both hold a pose, a joint's trim must be the
+        second step's position minus the first's."""
         for joint, trim in enumerate(self.trims()):
             master, own = self.word(0, joint), self.word(1, joint)
             if master <= 1023 and own <= 1023 and trim != own - master:
@@ -228,7 +228,7 @@ class Page:
         return ""
 
     def links_beyond(self, kind: Kind = Kind()) -> list[str]:
-        """Links beyond the last page, which a player takes for none: "next 200"."""
+        """Links beyond the last page, which a player ignores: "next 200"."""
         return [f"{link.replace('_', ' ')} {getattr(self, link)}" for link in self.LINKS if getattr(self, link) >= kind.pages]
 
     @property
@@ -237,12 +237,12 @@ class Page:
 
     @property
     def is_empty(self) -> bool:
-        """No action and no name: what lists leave out."""
+        """No action and no name: lists leave such pages out."""
         return self.steps == 0 and not self.name
 
 
 def is_used(word: int) -> bool:
-    """Whether a position word drives its joint: neither flag set."""
+    """Whether a position word drives its joint: neither flag is set."""
     return not word & (POS_UNUSED | POS_TORQUE_OFF)
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Positions between 10 bits (1024 = 300 degrees) and 12 bits (4096 = 360 degrees), about the centre.
+"""Converts positions between 10 bits (1024 = 300 degrees) and 12 bits (4096 = 360 degrees), about the centre.
 
-One 12-bit unit is exactly 0.3 10-bit units. What does not fit is cut and reported; what rounding costs is reported.
+One 12-bit unit is exactly 0.3 10-bit units. Positions out of range are clipped and reported. The rounding error is reported too.
 """
 
 from __future__ import annotations
@@ -13,14 +13,14 @@ from m512.files.image import TWELVE_BIT_MAX, Image
 from m512.files.page import JOINTS, POS_UNUSED, STEPS, Fault, Page, is_used
 from m512.files.wording import pages_text
 
-SHOWN = 4  # cut positions told one by one
+SHOWN = 4  # clipped positions reported one by one
 HINT = "m512 convert --bits 12 --scale 10 makes it fit a board of 10 bits"
 
 
 def judged(image: Image, bits: int | None) -> Image:
-    """The image, taken as one of 12 bits when nobody said how many it has and it looks like that: more than half of the positions that whole
-    pages use lie beyond 1023 (12-bit poses stand about 2048). A 0 does not count, nor what is beyond 4095: unused joints often hold such things.
-    Told in one note, whatever was said."""
+    """The image, marked as 12-bit if `bits` is None and it looks like that: more than half of the positions used by pages with a good
+    checksum are beyond 1023 (12-bit poses lie around 2048). Positions of 0 and beyond 4095 do not count: unused joints often hold them.
+    A note reports it, also if `bits` is 10."""
     words = [
         (number, word)
         for number, page in image.items()
@@ -42,7 +42,7 @@ def judged(image: Image, bits: int | None) -> Image:
 
 
 def scaled(image: Image, bits: int) -> tuple[Image, list[str]]:
-    """A copy of `image` with `bits` (10 or 12), and the report. Pages with a wrong checksum stay as they are."""
+    """A copy of `image` with `bits` (10 or 12), and a report. Pages with a wrong checksum stay as they are."""
     out = Image([page.copy() for page in image.pages], image.first, bits, list(image.notes), form=image.form)
     work = _Work(bits)
     for number, page in out.items():
@@ -55,7 +55,7 @@ def scaled(image: Image, bits: int) -> tuple[Image, list[str]]:
 
 
 class _Work:
-    """What one scaling does, for its report."""
+    """One scaling, with the data for its report."""
 
     def __init__(self, bits: int):
         self.bits = bits
@@ -114,13 +114,14 @@ def _ids(joints: Iterable[int]) -> str:
 
 
 def round_away(value: Fraction) -> int:
-    """To the nearest whole number, halves away from zero: the same on both sides of the centre."""
+    """Rounds to the nearest integer, halves away from zero: symmetric about the centre."""
     whole = int(abs(value) + Fraction(1, 2))
     return whole if value >= 0 else -whole
 
 
 def keep_joints(image: Image, joints: Iterable[int]) -> list[str]:
-    """Sets all other joints unused, in place; says how many positions that drops. Pages with a wrong checksum stay."""
+    """Sets all other joints unused, in place. Returns a line with the number of dropped positions. Pages with a wrong checksum stay as
+    they are."""
     kept = set(joints)
     dropped: dict[int, int] = {}
     for number, page in image.items():

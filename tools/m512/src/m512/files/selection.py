@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Which pages somebody means, for every command, of a file and of a board:
+"""Which pages a user means, for every command, in a file and on a board:
 
-    12  wave       one page that holds something, or page 0, by number or name (exact, else unambiguous without regard to case)
+    12  wave       one page that holds something, or page 0, by number or name (exact, else unambiguous regardless of case)
     20..25         those of them that hold something
-    all            all that hold something, but for page 0, the robot's trim
-    wave:40        page `wave` to number 40; 20..25:60 goes to 60..65
+    all            all that hold something, except page 0, the robot's trim
+    wave:40        page `wave` becomes number 40; 20..25:60 becomes 60..65
 
-A name goes before all but numbers: a page may be called "a:b" or "1..2". WordError: what somebody typed means nothing.
+A name takes precedence over everything but a number: a page may be called "a:b" or "1..2". WordError: the input means no page.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ from typing import Callable, Protocol
 
 from m512.errors import M512Error, WordError
 
-NUMBER_MOST = 255  # of a page, anywhere
+NUMBER_MOST = 255  # the largest page number on any board
 
 
 class Pages(Protocol):
-    """A file's pages, or a board's."""
+    """The pages of a file or of a board."""
 
     def find(self, word: str) -> int:
-        """The page that a number or a name means. M512Error: there is none, or more than one of that name."""
+        """The page for a number or a name. M512Error: none, or several with that name."""
 
     def is_named(self, word: str) -> bool:
         """Whether a page has exactly this name."""
@@ -34,7 +34,7 @@ class Pages(Protocol):
 
 
 def find(word: str, names: Mapping[int, str], error: Callable[[str], M512Error], whose: str = "") -> int:
-    """The number of the page of that name."""
+    """The number of the page with that name."""
     for fold in (str, str.lower):
         hits = [number for number, name in names.items() if fold(name) == fold(word)]
         if len(hits) == 1:
@@ -47,12 +47,12 @@ def find(word: str, names: Mapping[int, str], error: Callable[[str], M512Error],
 
 
 def page_number(text: str) -> int | None:
-    """The number that digits are; None: they are none, or too many."""
+    """The number, or None if the text is not a number of up to 9 digits."""
     return int(text) if re.fullmatch("[0-9]{1,9}", text) else None
 
 
 def number_range(text: str) -> tuple[int, int] | None:
-    """(1, 6) of `1..6`; None: it is no range."""
+    """(1, 6) for `1..6`; None if the text is not a range."""
     match = re.fullmatch(r"([0-9]{1,9})\.\.([0-9]{1,9})", text)
     if not match:
         return None
@@ -63,12 +63,12 @@ def number_range(text: str) -> tuple[int, int] | None:
 
 
 def numbers(words: Iterable[str], pages: Pages) -> list[int]:
-    """The pages that the words mean, each once, in the words' order."""
+    """The pages that the words mean, each once, in the order of the words."""
     return list(dict.fromkeys(number for word in words for number in _meant(word, pages)))
 
 
 def moves(words: Iterable[str], pages: Pages) -> list[tuple[int, int]]:
-    """[(number there, number here)]. No two go to the same place."""
+    """[(source number, target number)]. WordError: two sources for one target."""
     out = [move for word in words for move in _moves(word, pages)]
     taken: dict[int, int] = {}
     for there, here in dict.fromkeys(out):

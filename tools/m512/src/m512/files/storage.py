@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Files read and written: whole or not at all, and pipes too ("-" is standard input or output)."""
+"""Reads and writes files, completely or not at all, and pipes ("-" is standard input or output)."""
 
 from __future__ import annotations
 
@@ -14,21 +14,22 @@ from pathlib import Path
 from m512.errors import FileError, RefusedError
 from m512.streams import end_results
 
-MOST_BYTES = 4 << 20  # no motion file, firmware or backup is larger; /dev/zero is. Readers take time in proportion to it
+MOST_BYTES = 4 << 20  # larger than any motion file, firmware or backup; stops /dev/zero. Readers take time in proportion to the size
 
 
-_read_already: object = None  # the standard input that was
+_read_already: object = None  # the sys.stdin that has been read
 
 
 def _descriptor(path: Path) -> int | None:
-    """Of what this program was started with: 1 for "-" and /dev/stdout. It may be a file that somebody appends to, which is written on."""
+    """The number of an inherited descriptor: 1 for "-" and /dev/stdout. It may be a file opened for appending, so it is written to and
+    not replaced."""
     names = {"-": 1, "/dev/stdin": 0, "/dev/stdout": 1, "/dev/stderr": 2}
     found = re.fullmatch(r"/(?:dev|proc/self)/fd/([0-9]{1,9})", str(path))
     return int(found.group(1)) if found else names.get(str(path))
 
 
 def is_stream(path: Path) -> bool:
-    """Whether bytes go to or come from something that is no file of its own: "-", a pipe, a terminal."""
+    """Whether the path is a stream and not a regular file: "-", a pipe, a terminal."""
     if _descriptor(path) is not None:
         return True
     try:
@@ -43,7 +44,7 @@ def exists(path: Path) -> bool:
 
 
 def must_be_free(path: Path, force: bool) -> None:
-    """RefusedError: a file is there already. FileError: a folder is."""
+    """RefusedError: the file exists. FileError: the path is a folder."""
     if path.is_dir():
         raise FileError(f"{path} is a folder; name a file in it")
     if exists(path) and not force:
@@ -51,7 +52,7 @@ def must_be_free(path: Path, force: bool) -> None:
 
 
 def read(path: Path) -> bytes:
-    """All bytes of a file or pipe. FileError: standard input a second time, where nothing is left."""
+    """All bytes of a file or pipe. FileError: also when standard input is read a second time."""
     global _read_already
     if path.is_dir():
         raise FileError(f"{path} is a folder; name a file in it")
@@ -73,13 +74,13 @@ def read(path: Path) -> bytes:
 
 
 def must_fit(size: int, path: Path) -> None:
-    """FileError: so many bytes are no file of this program's."""
+    """FileError: too large for a file of this program."""
     if size > MOST_BYTES:
         raise FileError(f"cannot read {path}: more than {MOST_BYTES >> 20} MiB, which is no file for this program")
 
 
 def write(path: Path, data: bytes) -> None:
-    """Replaces a file in one step: after a crash or a full disk the old one is still there."""
+    """Replaces a file in one step: after a crash or on a full disk the old one remains."""
     try:
         descriptor = _descriptor(path)
         if descriptor == 1:

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""Sentences about many pages: what is the same for several pages is said once."""
+"""Sentences about many pages: what applies to several pages is stated once."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-SHOWN_NAMES = 6  # pages named with their names; more get numbers only
+SHOWN_NAMES = 6  # up to this many pages are listed with their names; more get numbers only
 
 
 def ranges(numbers: Iterable[int]) -> list[str]:
-    """[1, 2, 3, 7] -> ["1..3", "7"]; two neighbours stay two."""
+    """[1, 2, 3, 7] -> ["1..3", "7"]; two neighbours stay separate."""
     out: list[tuple[int, int]] = []
     for number in sorted(set(numbers)):
         if out and out[-1][1] == number - 1:
@@ -34,7 +34,7 @@ def pages_text(numbers: Iterable[int]) -> str:
 
 
 def named_pages_text(titles: dict[int, str]) -> str:
-    """The same with names, as long as they are few: 'pages 3 "wave" and 7 "bow"'."""
+    """The same with names, if there are few: 'pages 3 "wave" and 7 "bow"'."""
     if len(titles) > SHOWN_NAMES:
         return pages_text(titles)
     texts = [f'{number} "{title}"' if title else str(number) for number, title in sorted(titles.items())]
@@ -47,7 +47,7 @@ def counted(count: int, thing: str) -> str:
 
 
 class Findings:
-    """Sentences about pages, gathered page by page and told once each. A value is what differs from page to page."""
+    """Sentences about pages, collected page by page and printed once each. A value is the part that differs from page to page."""
 
     def __init__(self) -> None:
         self._pages: dict[str, dict[int, tuple[str, str]]] = {}

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""The order of steps and the two laws of motion, told a second time; drawings of them."""
+"""A second implementation of the player: the order of steps and the exact law of motion."""

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The exact law: no way-point passed, no tick idle, every step ends on its target. Source: the specification of the
-player, section 2. Told in fractions, so that nothing but the last rounding is inexact.
-"""
+"""The exact law: no overshoot at a way-point, no idle tick, every step ends on its target. The source is the specification of the
+player, section 2. It computes in fractions, so that only the last rounding is inexact."""
 
 from __future__ import annotations
 
@@ -47,7 +46,7 @@ class Exact:
         self.after = self._way_point(ahead, bool(pause))
 
     def _whole(self, ideal: Fraction, least: int) -> int:
-        """Whole ticks; what is left is carried on, so that a page takes the time it should."""
+        """Rounds down to integer ticks, at least `least`. The remainder is carried over, so that a page takes its exact time."""
         self.carry += ideal
         ticks = max(int(self.carry), least)
         self.carry -= ticks

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Plays pages by the exact law, for play times and speeds.
+"""Plays pages by the exact law, to compute play times and speeds.
 
-A model of the law; the firmware's player is in C. A play is a generator of
-Ticks, one each 1/128 s. Only next and exit links are followed: there is no remote control here.
+This is a model of the law; the firmware's player is in C. A play is a generator of Ticks, one per 1/128 s. It follows only next and exit
+links, because there is no remote control.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ NEUTRAL = 512
 
 @dataclass
 class Tick:
-    """What one tick did. goals is None in a pause and in idle ticks: nothing is sent."""
+    """The result of one tick. goals is None in a pause and in idle ticks: nothing is sent."""
 
     number: int
     page: int
@@ -30,7 +30,7 @@ class Tick:
 
 
 def play(image: Image, page: int, pose: Sequence[int] | None = None, limit: int = 128 * 60, stop_at: int | None = None) -> Iterator[Tick]:
-    """The ticks of a play that starts with `page`, at most `limit` of them. `pose`: where the joints stand."""
+    """The ticks of a play that starts with `page`, at most `limit` of them. `pose`: the initial pose. stop_at: the tick of a soft stop."""
     walk = Walk(image, page)
     law = Exact(walk, list(pose or [NEUTRAL] * JOINTS))
     for number in range(limit):
@@ -43,8 +43,8 @@ def play(image: Image, page: int, pose: Sequence[int] | None = None, limit: int 
 
 
 def page_seconds(page: Page, start: Sequence[int] | None = None) -> float:
-    """Ideal play time of one repetition. `start`: the pose before it; without one a page in speed base is taken to begin
-    where it ends, as pages that are repeated do."""
+    """Ideal play time of one repetition in seconds. `start`: the pose before it. Without it, a page in speed base is assumed to begin
+    where it ends, like a repeated page."""
     if page.steps == 0 or page.speed == 0:
         return 0.0
     steps = [Step(0, k + 1, page) for k in range(min(page.steps, 7))]

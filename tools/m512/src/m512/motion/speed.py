@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""What a servo can do, and where a motion asks for more.
+"""Finds where a motion asks for more speed than a servo has.
 
-An AX-12 turns 59 rpm without load at 12 V (its maker's sheet), less in proportion at a lower supply. Goals that run away
-faster are not reached: the joint lags, and the motion is another one than was made.
+An AX-12 turns at 59 rpm without load at 12 V (data sheet), and proportionally slower at a lower supply. It does not reach goals that move
+faster: the joint lags, and the motion differs from the intended one.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ NO_LOAD_RPM, SHEET_V = 59.0, 12.0
 BATTERY_V = 9.6  # a CM-5's pack: 8 cells of 1.2 V
 DEGREES_PER_UNIT = 300 / 1024
 TICKS_PER_SECOND = 128
-WINDOW = 4  # ticks over which speed is measured: goals are whole units
+WINDOW = 4  # ticks over which the speed is measured, because goals are integers
 
 
 @dataclass
 class TooFast:
-    """The fastest joint of a step that asks too much."""
+    """The fastest joint in a step that asks for too much speed."""
 
     page: int
     step: int  # 1..7
@@ -41,8 +41,8 @@ def no_load_units_per_tick(volts: float) -> float:
 
 
 def too_fast(image: Image, number: int, volts: float = BATTERY_V, pose: Sequence[int] | None = None, seconds: float = 60) -> list[TooFast]:
-    """Steps of a play from page `number` on (along its next links) in which a joint is asked for more than an unloaded servo
-    does at this supply. `pose`: where the joints stand; else in page `number`'s first step, for the robot goes there slowly."""
+    """The steps of a play from page `number` (along its next links) in which a joint must move faster than an unloaded servo can at this
+    supply. `pose`: the initial pose; by default that of the page's first step, because the robot approaches it slowly."""
     limit = no_load_units_per_tick(volts)
     found: dict[tuple[int, int], TooFast] = {}
     recent: deque[list[int]] = deque(maxlen=WINDOW + 1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The order in which a play goes through steps: pages, repetitions, next and exit links. Knows no law of motion."""
+"""The order of steps in a play: pages, repetitions, next and exit links. Independent of the law of motion."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from m512.files.page import SCHEDULE_TIME, Page, is_used
 
 @dataclass
 class Step:
-    """A step as the player meets it, `following` the one it looks ahead to (None: the play ends here)."""
+    """One step of a play."""
 
     page: int
     number: int  # 1..7
@@ -26,18 +26,18 @@ class Step:
 
 
 class Walk:
-    """The order of steps: pages, repetitions, links. `why` says what ended it when it was not the last link."""
+    """The order of steps: pages, repetitions, links. `why` tells why the walk ended, if not by its last link."""
 
     def __init__(self, image: Image, page: int):
         self.image, self.page = image, page
         self.step, self.left = 0, 0
-        self.follow: int | None = None  # page after this one, decided at the beginning of its last step
+        self.follow: int | None = None  # the page after this one; set at the beginning of the last step
         self.stopping, self.ended, self.why = False, False, ""
         self.exits: dict[int, None] = {}
         self._enter(page)
 
     def _enter(self, number: int) -> None:
-        """Begins a page; those with PLAY_COUNT 0 are passed over along their link."""
+        """Begins a page. Pages with PLAY_COUNT 0 are skipped along their link."""
         seen = set()
         while True:
             if number == 0 or number in seen:
@@ -64,7 +64,7 @@ class Walk:
         return target if self.image.first <= target < self.image.end else 0
 
     def advance(self) -> tuple[Step, Step | None] | None:
-        """The next step and the one to look ahead to; None at the end."""
+        """(the next step, the step to look ahead to), or None at the end."""
         if self.ended:
             return None
         page = self.image[self.page]

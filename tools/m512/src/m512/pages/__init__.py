@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""What `m512 pages` and `m512 diff` do with a motion image."""
+"""The operations of `m512 pages` and `m512 diff` on a motion image."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How two motion areas differ, in words: which page, which field or step and joint, from, to."""
+"""The differences between two motion areas, in words: page, field or step and joint, old value, new value."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ FIELDS = {
     "byte63": "byte 63",
 }
 CODES = {"code": "code", "link1_code": "code of linked page 1", "link2_code": "code of linked page 2"}
-BOARD = Kind()  # what is not said is of a board
+BOARD = Kind()  # the default: a page of a board
 SCHEDULES = {SCHEDULE_TIME: "time base", SCHEDULE_SPEED: "speed base"}
 
 
@@ -60,7 +60,7 @@ BOTH_EMPTY = "empty in both; bytes without effect differ"
 
 
 def lines(changes: list[Change]) -> list[str]:
-    """As a person reads them: of empty pages one line, in the end."""
+    """The changes as lines for people. Empty pages share one line at the end."""
     empty = [change.page for change in changes if change.what == BOTH_EMPTY]
     return [str(change) for change in changes if change.what != BOTH_EMPTY] + ([f"{pages_text(empty)}: {BOTH_EMPTY}"] if empty else [])
 
@@ -80,12 +80,12 @@ def images(first: Image, second: Image) -> list[Change]:
 
 
 def _both_nothing(a: Page, b: Page) -> bool:
-    """Flash that was never written and the empty page are the same to a robot."""
+    """Erased flash and the empty page mean the same to a robot."""
     return is_erased(a) and bytes(b) == EMPTY or is_erased(b) and bytes(a) == EMPTY
 
 
 def pages(number: int, a: Page, b: Page, kind: Kind = BOARD, other: Kind = BOARD) -> list[Change]:
-    """All changes between two versions of a page; never empty when their bytes differ."""
+    """All changes between two versions of a page; never empty if their bytes differ."""
     whole = _whole(number, a, b, kind, other)
     if whole:
         return whole
@@ -130,7 +130,7 @@ def _softness(page: Page, joint: int) -> str:
 
 
 def _whole(number: int, a: Page, b: Page, kind: Kind, other: Kind) -> list[Change]:
-    """Pages that came, went or have nothing in common."""
+    """The change as a whole, for pages that appear, disappear or have nothing in common; else an empty list."""
     if number == 0 and all(is_erased(page) or page.is_empty and not page.fault() for page in (a, b)):
         trims = [Change(0, "", "trim", str(x), str(y), joint=joint) for joint, (x, y) in enumerate(zip(a.trims(), b.trims())) if x != y]
         if trims:

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Some pages of an image with all that they lead to, as an image that has room for them.
+"""Takes some pages of an image, and all that they lead to, into an image with room for them.
 
-A page keeps its number where that exists in the new image; the others go to its free numbers, in their order. Links, blend partners and the
-codes that choose them follow; a page's own remote code is in it. A link to a page that holds nothing, at which a play ends, becomes none:
-another page may stand there now.
+A page keeps its number if the new image has it. The others get free numbers, in order. Links and blend partners follow; link codes and a
+page's own remote code stay. A link to a page that holds nothing, where a play ends, becomes empty, because another page may take that
+number.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ LINKS = Page.LINKS + Page.PARTNERS
 @dataclass
 class Excerpt:
     image: Image
-    moved: dict[int, int] = field(default_factory=dict)  # old number -> new one, of all that were taken
-    left: list[int] = field(default_factory=list)  # pages that hold something and were not
+    moved: dict[int, int] = field(default_factory=dict)  # old number -> new one, of all pages taken
+    left: list[int] = field(default_factory=list)  # pages that hold something and were not taken
 
     def notes(self, whole: Image, wanted: Iterable[int]) -> list[str]:
         """What was taken, renumbered and left out, in words."""
@@ -38,7 +38,7 @@ class Excerpt:
 
 
 def excerpt(image: Image, wanted: Iterable[int], count: int) -> Excerpt:
-    """The pages `wanted` and all that they lead to, in an image of `count` pages. RefusedError: they are more than that."""
+    """The pages `wanted` and all that they lead to, in an image of `count` pages. RefusedError: more pages than that."""
     used = set(image.used())
     taken = _reached(image, set(wanted) & used, used) - {0}
     room = range(1, count)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""One line a page, for people and for programs."""
+"""One line per page, as text or as data."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What `m512 pages` does to pages. Each function changes the image it is given and returns remarks for the user."""
+"""The operations of `m512 pages`. The functions that change the given image return remarks for the user."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ NOMINAL_SPEED = 32
 
 
 def check(image: Image) -> list[tuple[int, str]]:
-    """(page, what is wrong or odd) for a whole image; page 0 is the trim and not a motion."""
+    """(page, fault or oddity) for an image. Page 0 is checked as a trim, not as a motion."""
     out = []
     for number, page in image.items():
         if is_erased(page):
@@ -43,7 +43,7 @@ def check(image: Image) -> list[tuple[int, str]]:
 
 
 def _partner_problems(image: Image, page: Page) -> list[str]:
-    """Why a blend partner is not blended (the firmware then plays the page as it is)."""
+    """Why a blend partner is not used. The firmware then plays the page unblended."""
     out = []
     for side in Page.PARTNERS:
         number, where = getattr(page, side), side.replace("_", " ")
@@ -59,7 +59,7 @@ def _partner_problems(image: Image, page: Page) -> list[str]:
 
 
 def remarks(image: Image) -> list[tuple[int, str]]:
-    """(page, what is right and may surprise)."""
+    """(page, remark) about correct pages that may surprise."""
     out = []
     for number, page in image.items():
         if number and not page.fault(image.kind) and page.is_playable and page.schedule == SCHEDULE_TIME and page.speed != NOMINAL_SPEED:
@@ -104,7 +104,7 @@ def _no_trim(number: int) -> None:
 
 
 def rename(image: Image, number: int, name: str) -> list[str]:
-    """WordError: no page can have this name."""
+    """WordError: not a valid page name."""
     _no_trim(number)
     if not all(" " <= letter <= "~" for letter in name):
         raise WordError(f"{name!r}: a page name is made of ASCII letters, digits, signs and blanks")
@@ -136,7 +136,8 @@ def _must_be_free(image: Image, number: int, replace: bool, how: str = "--replac
 
 
 def keep_trim(source: int, target: int) -> None:
-    """Page 0 goes to page 0 alone, and nothing else goes there: a robot with a motion for a trim stands askew."""
+    """RefusedError if page 0 would become another page or another page would become page 0. A robot with a motion as its trim stands
+    crooked."""
     if (source == 0) != (target == 0):
         raise RefusedError("page 0 is a robot's trim and no motion: it stays page 0, and no other page becomes it")
 
@@ -145,7 +146,7 @@ def copy(image: Image, source: int, target: int, replace: bool = False) -> list[
     keep_trim(source, target)
     _must_be_free(image, target, replace)
     page = _need_motion(image, source).copy()
-    relink(page, {source: target})  # a page that leads to itself goes on doing so
+    relink(page, {source: target})  # a page that links to itself does so after the copy
     image[target] = page.seal()
     return [f"the copy has the same name {page.title!r} and code {page.code}"] if page.name or page.code else []
 
@@ -157,7 +158,7 @@ def delete(image: Image, numbers: Iterable[int]) -> list[str]:
         remarks.append("page 0 held the robot's trim")
     for number in gone:
         image[number] = Page()
-    gone -= {0}  # a link of 0 is none
+    gone -= {0}  # a link of 0 is no link
     for number, page in image.items():
         if number not in gone:
             remarks += [
@@ -169,7 +170,7 @@ def delete(image: Image, numbers: Iterable[int]) -> list[str]:
 
 
 def relink(page: Page, moved: dict[int, int]) -> bool:
-    """Follows pages that moved, blend partners too; returns whether a link changed (the page is sealed then)."""
+    """Updates links and blend partners to pages that moved. Returns whether one changed (the page is sealed then)."""
     changed = False
     for link in Page.LINKS + Page.PARTNERS:
         target = getattr(page, link)
@@ -182,7 +183,7 @@ def relink(page: Page, moved: dict[int, int]) -> bool:
 
 
 def renumber(image: Image, source: int, target: int, swap: bool = False) -> list[str]:
-    """Moves a page; all links in the image follow."""
+    """Moves a page and updates all links in the image."""
     if not source or not target:
         raise RefusedError("page 0 is the trim and stays where it is")
     _need_motion(image, source)
@@ -200,7 +201,7 @@ def renumber(image: Image, source: int, target: int, swap: bool = False) -> list
 
 
 def place(image: Image, source: Image, moves: list[tuple[int, int]], replace: bool = False) -> list[str]:
-    """Takes pages (number there, number here) from another image; links among them follow."""
+    """Takes pages (source number, target number) from another image and updates the links among them."""
     if source.bits != image.bits:
         raise RefusedError(f"the sources have {image.bits} and {source.bits} bits: scale one of them first (convert --scale)")
     remarks, moved = [], dict(moves)
@@ -219,7 +220,7 @@ def place(image: Image, source: Image, moves: list[tuple[int, int]], replace: bo
 
 
 def mirror(image: Image, number: int, pairs: dict[int, int], target: int | None = None, replace: bool = False) -> list[str]:
-    """Left for right: joints of a pair exchange positions (p becomes 1024 - p) and softness."""
+    """Mirrors left to right: joints of a pair exchange positions (p becomes 1024 - p) and softness."""
     target = number if target is None else target
     keep_trim(number, target)
     _no_trim(number)
@@ -265,7 +266,7 @@ def _scaled(value: int, factor: float, least: int, what: str) -> int:
 
 
 def chain(image: Image, number: int) -> tuple[list[tuple[int, int, float]], str]:
-    """[(page, repetitions, seconds)] along the next links, and how it ends."""
+    """[(page, repetitions, seconds)] along the next links, and how the chain ends."""
     out: list[tuple[int, int, float]] = []
     pose: list[int] | None = None
     seen: dict[int, None] = {}

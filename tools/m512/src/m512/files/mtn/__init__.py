@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""RoboPlus Motion 1.x `.mtn` text files, versions 1.00 and 1.01, both ways.
+"""Reads and writes RoboPlus Motion 1.x `.mtn` text files, versions 1.00 and 1.01.
 
-envelope: byte-order mark, line ends, checksum. reader: the text. long_pages: pages with more than seven steps. writer: the
-way back, and what it loses. What reading had to decide stands in Image.notes, in sentences for the user.
+envelope: byte-order mark, line ends, checksum. reader: the text. long_pages: pages with more than seven steps. writer: output and its
+losses. The reader puts its assumptions into Image.notes, as sentences for the user.
 """
 
 from m512.files.mtn.envelope import BOM, file_checksum

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The outside of a .mtn: byte-order mark, line ends and the two bytes of checksum behind the last line.
+"""The envelope of a .mtn: byte-order mark, line ends and the two checksum bytes after the last line.
 
-Editors and version control change these without knowing: a line end behind the checksum, the byte-order mark taken off
-although the sum counted it, CR LF, a checksum that is gone or stale. None of it makes the text wrong. So the text is taken whenever it is
-whole, and what was found is told.
+Editors and version control change these unnoticed: a line end after the checksum, a byte-order mark removed although the sum includes
+it, CR LF, a missing or outdated checksum. The text itself remains valid. So every complete text is accepted, and the findings are
+reported.
 """
 
 from __future__ import annotations
@@ -17,24 +17,23 @@ from m512.files.wording import counted
 BOM = b"\xef\xbb\xbf"
 LAST = b"page_end"
 BLANK = b" \t\r\n\0\x1a"
-LONGEST_TAIL = 16  # what an editor can make of two bytes; more is text
+LONGEST_TAIL = 16  # the most that an editor can make of two bytes; anything longer is text
 
 
 def file_checksum(body: bytes) -> bytes:
-    """The trailer: complement of the 16-bit sum of all bytes before it, high byte first."""
+    """The trailer: the complement of the 16-bit sum of all bytes before it, high byte first."""
     return (~sum(body) & 0xFFFF).to_bytes(2, "big")
 
 
 def unwrap(data: bytes, where: str) -> tuple[str, list[str]]:
-    """The text, its lines ended by LF, and remarks. Bytes that are no UTF-8 survive as surrogate escapes.
-    FileError: the text is not whole."""
+    """The text with LF line ends, and remarks. Bytes that are not UTF-8 become surrogate escapes. FileError: the text is incomplete."""
     at = data.rfind(LAST)
     if at < 0:
         raise FileError(f'{where}: no page ends in it (no line "page_end"): the file is not a whole .mtn')
     end = at + len(LAST)
     _must_end_here(data, end, where)
     text = data[:end].replace(b"\r\n", b"\n").replace(b"\r", b"\n") + b"\n"
-    text = re.sub(rb"\A(?:\xef\xbb\xbf)+", b"", text)  # BOM, or several
+    text = re.sub(rb"\A(?:\xef\xbb\xbf)+", b"", text)  # one BOM or several
     return text.decode("utf-8", "surrogateescape"), _judge(data, end)
 
 
@@ -47,7 +46,7 @@ def _must_end_here(data: bytes, end: int, where: str) -> None:
 
 
 def _judge(data: bytes, end: int) -> list[str]:
-    """What the checksum says, in a sentence; nothing if all is as RoboPlus wrote it."""
+    """The result of the checksum in one sentence; empty if the file is as RoboPlus wrote it."""
     if data[:-2].endswith(LAST + b"\n") and file_checksum(data[:-2]) == data[-2:]:
         return []
     for changes, body, trailer in _as_it_was(data, end):
@@ -68,12 +67,12 @@ def _line_end(tail: bytes) -> bytes:
 
 
 def _trailer(tail: bytes) -> bytes | None:
-    """The bytes that stand where the checksum belongs; None: nothing does."""
+    """The bytes in the checksum's place, or None."""
     return tail.strip(BLANK)[:2] or None
 
 
 def _tails(tail: bytes) -> Iterator[tuple[list[str], bytes]]:
-    """Where the checksum may be: behind the line's end or without one, before white space, written again as UTF-8."""
+    """Possible checksums: after a line end or without one, before white space, re-encoded as UTF-8."""
     for line_end in (b"\n", b"\r\n", b"\r", b""):
         rest = tail[len(line_end) :]
         if not tail.startswith(line_end) or len(rest) < 2:
@@ -90,7 +89,7 @@ def _tails(tail: bytes) -> Iterator[tuple[list[str], bytes]]:
 
 
 def _as_it_was(data: bytes, end: int) -> Iterator[tuple[list[str], bytes, bytes]]:
-    """Bodies as they may have been when the sum was made, with what happened since."""
+    """(changes, body, trailer): what the body may have been when the sum was computed, and what has changed since."""
     text = data[:end]
     bare = text[len(BOM) :] if text.startswith(BOM) else text
     marks = [(["byte-order mark added"] if bare != text else [], bare), (["byte-order mark removed"] if bare == text else [], BOM + bare)]

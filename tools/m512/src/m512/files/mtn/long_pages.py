@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Pages of a .mtn with more than seven steps (newer tools write them), as linked pages of seven.
+"""Splits pages of a .mtn with more than seven steps (newer tools write them) into linked pages of seven.
 
-The chain plays what the long page would: the next link of each part is the following part, the last part has the links of the page. A
-stop is obeyed at the end of the whole page, as it would be there, so the exit links lead to that end. Parts cannot be repeated
-together; the repetitions are written out, and a stop ends them. Parts go where nothing is and nothing leads to, first of all to pages that a board of 128 has.
+The chain plays like the long page. The next link of each part is the following part; the last part has the links of the page. A stop
+takes effect at the end of the long page, so the exit links of the other parts lead to that end. Parts cannot be repeated together, so
+repetitions are written out, and a stop ends them. Parts go to empty pages that no link leads to, preferably those that a board of 128
+pages has.
 """
 
 from __future__ import annotations
@@ -20,8 +21,8 @@ BOARD_PAGES = 128
 
 
 def place_long_pages(image: Image, blocks: Sequence[Any], fill: Callable[[Page, list[Any]], None], where: str) -> None:
-    """Spreads the blocks of more than seven steps over free pages of the image; says so in its notes.
-    image: holds every block's first seven steps at its own number. FileError: there is no room."""
+    """Spreads the blocks of more than seven steps over free pages of the image, with a note. image: holds the first seven steps of every
+    block at its own number. FileError: not enough room."""
     targets = {link for block in blocks for link in (block.page.next, block.page.exit)}
     free = [number for number, page in image.items() if number and page.is_empty and number not in targets]
     free.sort(key=lambda number: number >= BOARD_PAGES)
@@ -47,7 +48,7 @@ def _spread(image: Image, number: int, block: Any, free: list[int], fill: Callab
         page = block.page.copy()
         if place:
             page.name = _part_name(block.page.name, number, place + 1)
-        if block.page.repeat:  # a page that is never played (repeat 0) keeps its links: it is passed over along them
+        if block.page.repeat:  # a page with repeat 0 is never played; the player skips it along its own links
             page.repeat = 1
             if place < needed:
                 page.next = chain[place + 1]
@@ -63,7 +64,7 @@ def _spread(image: Image, number: int, block: Any, free: list[int], fill: Callab
 
 
 def _part_name(name: bytes, number: int, part: int) -> bytes:
-    """The page's name with the part's number behind it: names stay different."""
+    """The page's name with the part's number appended, so that names stay unique."""
     behind = f"/{part}".encode()
     base = name or str(number).encode()
     return base[: NAME_BYTES - 1 - len(behind)].decode("utf-8", "ignore").encode("utf-8") + behind

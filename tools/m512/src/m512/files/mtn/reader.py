@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The text of a .mtn as pages. Mapping of the fields: the table in FILES.md is `_header`'s and `read`'s."""
+"""Parses the text of a .mtn into pages. FILES.md has the table of fields, which `_header` and `read` implement."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from m512.files.wording import counted, pages_text
 
 IDS = 26  # the text has IDs 0..25
 PAGES = 255  # and pages 1..255
-UNITS_PER_SECOND = 125  # of pause and time: a unit is 8 ms there
+UNITS_PER_SECOND = 125  # of pause and time: a unit is 8 ms in RoboPlus
 UNUSED_WORD = 0x4200
 DIGITS_MOST = 40
 VERSIONS = ("1.00", "1.01")
@@ -24,7 +24,7 @@ TOP = {10: 1023, 12: 4095}
 
 
 class Lines:
-    """The lines, with a place for errors."""
+    """The lines of the text, with the position for error messages."""
 
     def __init__(self, text: str, where: str):
         self.lines = text.split("\n")
@@ -42,7 +42,7 @@ class Lines:
 
     @property
     def more(self) -> bool:
-        """Whether anything but blank lines follows."""
+        """Whether more than blank lines follow."""
         return self.at < self.end
 
     def next_is(self, key: str) -> bool:
@@ -60,7 +60,7 @@ class Lines:
         if len(parts) != count:
             raise self.error(f"{what} has {counted(len(parts), 'value')}, not {count}")
         try:
-            # No exponents, few digits: "1e999999" would take for ever.
+            # No exponents and few digits: "1e999999" would take forever.
             if any(len(part) > DIGITS_MOST or set(part) - set("0123456789.-") for part in parts):
                 raise ValueError
             return [Fraction(int(part) if part.isdigit() else part) for part in parts]
@@ -92,7 +92,7 @@ class Step:
 
 @dataclass
 class Block:
-    """One page of the text, with as many steps as it has. `page` holds all of it but the steps."""
+    """One page of the text, with any number of steps. `page` holds everything but the steps."""
 
     page: Page
     rate: Fraction
@@ -107,8 +107,8 @@ class _File:
 
 
 def read(data: bytes, where: str = "mtn", base: Image | None = None, bits: int | None = None) -> Image:
-    """A .mtn as a 256-page image. Page 0 comes from `base` or is the empty page. `bits`: 10 or 12; None takes what the positions
-    look like. FileError: not whole, or a value that a page cannot hold."""
+    """A .mtn as a 256-page image. Page 0 comes from `base` or is the empty page. `bits`: 10 or 12; None guesses from the positions.
+    FileError: incomplete, or a value that a page cannot hold."""
     text, notes = unwrap(data, where)
     lines = Lines(text, where)
     file = _read_file(lines, notes)
@@ -137,7 +137,7 @@ def _read_file(lines: Lines, notes: list[str]) -> _File:
     file = _File(enabled, [], notes)
     while lines.more:
         file.blocks.append(_read_block(lines, len(file.blocks) + 1, file))
-    del file.blocks[PAGES:]  # empty ones
+    del file.blocks[PAGES:]  # the surplus blocks are empty
     if len(file.blocks) < PAGES:
         notes.append(f"the file holds {len(file.blocks)} of {PAGES} pages; the others are taken as empty")
     return file
@@ -189,7 +189,7 @@ def _read_step(lines: Lines, text: str) -> Step:
 
 
 def fill(page: Page, steps: list[Step], enabled: list[bool]) -> None:
-    """Writes at most seven steps into a page, the unused ones as RoboPlus does, and seals it."""
+    """Writes at most seven steps into a page, unused ones as RoboPlus does, and seals it."""
     page.steps = len(steps)
     for number in range(STEPS):
         step = steps[number] if number < len(steps) else None
@@ -202,7 +202,7 @@ def fill(page: Page, steps: list[Step], enabled: list[bool]) -> None:
 
 
 def _bits_of(file: _File, bits: int | None, where: str) -> int:
-    """10 or 12. Most positions of a robot of 12 bits lie beyond 1023; a few in a file of 10 are mistakes."""
+    """10 or 12. With 12 bits most positions lie beyond 1023; a few such positions in a 10-bit file are errors."""
     used = [(step.line, joint, step.positions[joint]) for block in file.blocks for step in block.steps for joint in range(IDS) if file.enabled[joint]]
     high = [place for place in used if place[2] > TOP[10]]
     if bits == 12 or not high:
@@ -222,7 +222,7 @@ def _bits_of(file: _File, bits: int | None, where: str) -> int:
 
 
 def _note_rates(file: _File) -> None:
-    """The pages whose rate is not 32 / page speed, to one decimal as the text has it. Only pages that move anything."""
+    """Notes the pages with steps whose rate is not 32 / page speed, within the one decimal of the text."""
     uneven: list[tuple[Fraction, int, list[int]]] = []
     for number, block in enumerate(file.blocks, 1):
         held = Fraction(32, block.page.speed)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Pages as the text of a .mtn, and what the text cannot say: it knows 26 joints, time base and two links a page."""
+"""Writes pages as the text of a .mtn. The text has 26 joints, time base and two links per page; everything else is a loss."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from m512.files.wording import Findings, counted, named_pages_text
 
 
 def rate_of(speed: int) -> Fraction | None:
-    """The rate (one decimal) that comes nearest to 32 / speed among those that read back as `speed`; None: none does."""
+    """The rate (one decimal) nearest to 32 / speed among those that read back as `speed`, or None."""
     exact = Fraction(32, speed) if speed else Fraction(0)
     near = int(exact * 10)
     fits = [Fraction(tenths, 10) for tenths in range(max(1, near - 1), near + 3) if 320 // tenths == speed]
@@ -24,7 +24,7 @@ def rate_of(speed: int) -> Fraction | None:
 
 
 def write(image: Image, version: str = "1.01") -> tuple[bytes, list[str]]:
-    """The file and its losses. RefusedError: pages that the text cannot hold at all (damaged, 12-bit positions)."""
+    """The file's bytes and the losses. RefusedError: pages that the text cannot hold at all (damaged, 12-bit positions)."""
     _must_fit(image)
     losses = Findings()
     enabled = _enabled(image)
@@ -50,7 +50,7 @@ def write(image: Image, version: str = "1.01") -> tuple[bytes, list[str]]:
 
 
 def _is_blank(page: Page) -> bool:
-    """Flash that was never written, or filled with one value: nothing of anybody's."""
+    """Erased flash, or flash filled with a single value: no content."""
     return len(set(page.data)) == 1
 
 
@@ -72,7 +72,7 @@ def _must_fit(image: Image) -> None:
 
 
 def _enabled(image: Image) -> list[bool]:
-    """A joint is enabled when any page drives it."""
+    """A joint is enabled if any page drives it."""
     pages = [page for number, page in image.items() if number and not _is_blank(page)]
     return [any(is_used(page.word(step, joint)) for page in pages for step in range(page.steps)) for joint in range(IDS)]
 
@@ -83,7 +83,7 @@ def _name_text(page: Page) -> str:
 
 
 def _rate(page: Page) -> Fraction:
-    """The rate that is written, to one decimal."""
+    """The rate to write, to one decimal."""
     near = Fraction(int(Fraction(320, page.speed) + Fraction(1, 2)), 10)
     return rate_of(page.speed) or max(near, Fraction(2, 10))
 
@@ -105,7 +105,7 @@ def _page_lines(page: Page) -> list[str]:
 
 
 def _page_losses(page: Page, enabled: list[bool], lose: Callable[..., None]) -> None:
-    """What matters, in words: lose(sentence, value)."""
+    """Reports the losses that matter: lose(sentence, value)."""
     if _name_text(page).encode("utf-8") != page.name:
         lose("the name changes", repr(_name_text(page)))
     if page.schedule != SCHEDULE_TIME:
@@ -129,7 +129,7 @@ def _page_losses(page: Page, enabled: list[bool], lose: Callable[..., None]) -> 
 
 
 def _changes_without_effect(page: Page) -> bool:
-    """Whether something changes that no play shows."""
+    """Whether something changes that has no effect on playing."""
     return (
         page.byte63 != 0x55
         or any(page.compliance(j) for j in range(IDS, JOINTS))

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Reads the text format of motions into an Image. FORMAT.md is the specification.
 
-A Reader walks through the lines once: statements about the file change its tables, statements about a page change the
-page that is open (or, before the first page and after `defaults`, the template of pages to come). Links by name are
-resolved at the end, when all names are known.
+A Reader goes through the lines once. Statements about the file change its tables. Statements about a page change the open
+page, or the template of later pages (before the first page and after `defaults`). Links by name are resolved at the end, when all
+names are known.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from m512.files.text.steps import Draft, JointWords, block_words, make_block
 from m512.files.text.words import IDENTIFIER, Token, code, continues, joint_list, joint_pairs, joints_of, name_bytes, number, ticks, tokenize
 
 VERSION = 1
-ONCE = set("repeat speed accel base code next exit link1 link2 dxl_setup byte63 steps checksum fill erased".split())  # in a page
+ONCE = set("repeat speed accel base code next exit link1 link2 dxl_setup byte63 steps checksum fill erased".split())  # at most once in a page
 MAX_INCLUDE_DEPTH = 8
 
 
@@ -28,7 +28,7 @@ class Reader(JointWords):
     def __init__(self) -> None:
         super().__init__()
         self.first, self.end = 0, 128
-        self.said: dict[str, str] = {}  # of the file: what was said of pages and bits
+        self.said: dict[str, str] = {}  # the file's values of `pages` and `bits`
         self.template = Draft()
         self.draft = self.template
         self.pages: dict[int, Draft] = {}
@@ -87,14 +87,14 @@ class Reader(JointWords):
             raise WordError(f"usage: {usage}")
 
     def _once(self, what: str) -> None:
-        """WordError: the open page has said it before. The defaults may be changed from page to page."""
+        """WordError: the open page already has this statement. The defaults may change from page to page."""
         if self.draft is not self.template:
             if what in self.draft.said:
                 raise WordError(f"page {self.draft.which}: {what} is here a second time, after line {self.draft.said[what]}")
             self.draft.said[what] = self.line
 
     def _same_as_before(self, what: str, text: str) -> None:
-        """WordError: the file, or one that it includes, has said otherwise."""
+        """WordError: the file, or a file that it includes, states a different value."""
         if self.said.setdefault(what, text) != text:
             raise WordError(f"{what} {text}: {what} {self.said[what]} was said before")
 
@@ -285,7 +285,7 @@ class Reader(JointWords):
         self.draft.raw.append((offset, data))
 
     def _do_erased(self, rest: list[Token]) -> None:
-        """Flash that was never written."""
+        """A page of flash that was never written."""
         self._count(rest, 0, 0, "erased")
         self._page_only("erased")
         self.draft.raw.append((0, b"\xff" * PAGE_BYTES))
@@ -310,7 +310,7 @@ class Reader(JointWords):
         self.draft.spares[k] = self.block(self.draft, self.line, rest[1:], "spare K", None)
 
     def _do_offset(self, rest: list[Token]) -> None:
-        """Page 0: step 2 holds signed offsets."""
+        """Page 0: the third step holds signed offsets."""
         if self.draft is not self.pages.get(0):
             raise WordError("offset belongs into page 0, the trim")
         words = block_words(self.draft.spares.get(2, self.draft.fill))
@@ -377,7 +377,7 @@ class Reader(JointWords):
 
 
 def read_text(text: str, where: str = "text", folder: Path = Path(".")) -> Image:
-    """The image that a text describes. Raises TextError with file and line."""
+    """The image that a text describes. TextError: with file and line."""
     reader = Reader()
     reader.read(text.lstrip("\ufeff"), where, folder)
     reader.where = where

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Steps of the text format: a page as it is being written, and the words of a line of joints. Used by textread.py."""
+"""Steps of the text format: a page under construction, and the words of a line of joints. Used by reader.py."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Words = dict[int, int]  # joint -> position word
 
 
 class Draft:
-    """A page being written: the header as a Page, steps as words, and what is decided at the end."""
+    """A page under construction: the header as a Page, the steps as blocks of 64 bytes, and what is resolved at the end."""
 
     def __init__(self, template: Draft | None = None):
         self.page: Page = template.page.copy() if template else Page()
@@ -27,8 +27,8 @@ class Draft:
         self.links: list[tuple[str, Token, int]] = list(template.links) if template else []
         self.units: list[tuple[str, int]] = []
         self.line = 0
-        self.which = ""  # the page, as the text has it
-        self.said: dict[str, int] = {}  # what a page says once -> its line
+        self.which = ""  # the page number or range as written in the text
+        self.said: dict[str, int] = {}  # statement allowed once -> its line
 
     def build(self) -> Page:
         page = self.page.copy()
@@ -56,7 +56,7 @@ def make_block(words: Words, pause: int, time: int) -> bytes:
 
 
 class JointWords:
-    """What lines of joints are read with: names, rows, pairs and poses, and the resolution."""
+    """The context for reading a line of joints: names, rows, pairs, poses and the resolution."""
 
     def __init__(self) -> None:
         self.bits = 10
@@ -70,8 +70,8 @@ class JointWords:
         return (1 << self.bits) - 1
 
     def block(self, draft: Draft, line: int, rest: list[Token], what: str, before: bytes | None, base: bytes | None = None) -> bytes:
-        """`TIME [pause TIME] | joints` as the 64 bytes of a step. `before`: the step before it; `base`: what joints that
-        are not named have, if not the page's fill."""
+        """`TIME [pause TIME] | joints` as the 64 bytes of a step. `before`: the step before it. `base`: the words of unnamed joints, if
+        not the page's fill."""
         bar = next((i for i, token in enumerate(rest) if token.text == "|" and not token.quoted), len(rest))
         head, joints = rest[:bar], rest[bar + 1 :]
         if len(head) not in (1, 3) or (len(head) == 3 and head[1].text != "pause"):
@@ -89,7 +89,7 @@ class JointWords:
         return make_block(words, pause, time)
 
     def joint_words(self, tokens: list[Token], words: Words, before: Words | None) -> Words:
-        """Applies the joint part of a line, left to right, to `words`. `before`: the step before, for `same`."""
+        """Applies the joint part of a line, left to right, to a copy of `words` and returns it. `before`: the step before, for `same`."""
         words, at = dict(words), 0
         while at < len(tokens):
             text = tokens[at].text
@@ -127,7 +127,7 @@ class JointWords:
         return out
 
     def _positional(self, tokens: list[Token], first: int, words: Words) -> int:
-        """Applies a row that begins there; returns where it ends."""
+        """Applies the row that begins at token `first`; returns the index after its end."""
         end = first
         while end < len(tokens) and not re.match(r"@|same\Z|mirror\Z|.*:", tokens[end].text):
             end += 1

@@ -32,7 +32,7 @@ class Token:
 
 
 def tokenize(line: str) -> list[list[Token]]:
-    """The statements of a line (`;` separates them), comments dropped. `|` is a token of its own."""
+    """The statements of a line (`;` separates them), without comments. `|` is a token of its own."""
     statements: list[list[Token]] = [[]]
     at, line = 0, line.rstrip()
     while at < len(line):
@@ -54,14 +54,14 @@ def tokenize(line: str) -> list[list[Token]]:
 
 
 def continues(line: str, quoted: bool = False) -> tuple[bool, bool]:
-    """Whether a backslash at the end of a line joins the next one to it (in a comment it is a part of the comment), and whether a quote is
-    open there. quoted: one is open where the line begins."""
+    """(whether a backslash at the end joins the next line, whether a quote is open there). In a comment the backslash is part of the
+    comment. quoted: whether a quote is open at the start of the line."""
     if not line.endswith("\\"):
         return False, False
     at, line = 0, line[:-1] + " "
     while at < len(line):
         some = (_IN_QUOTES if quoted else _OUTSIDE).match(line, at)
-        at = some.end() if some else at  # both match anything, at least nothing
+        at = some.end() if some else at  # both patterns match any text, even an empty one
         if line[at : at + 1] == "#" and not quoted:
             return False, False
         if at < len(line):
@@ -70,7 +70,7 @@ def continues(line: str, quoted: bool = False) -> tuple[bool, bool]:
 
 
 def name_bytes(token: Token) -> bytes:
-    """The 14 name bytes that a token means; \\xNN, \\\\ and \\" are undone in quotes, \\0 is a NUL."""
+    """The bytes of a name token, at most 14. In quotes the escapes \\xNN, \\\\ and \\" are resolved; \\0 is a NUL."""
     try:
         raw = token.text.encode("ascii")
     except UnicodeEncodeError:
@@ -93,18 +93,18 @@ def name_bytes(token: Token) -> bytes:
 
 
 def quote_name(name: bytes) -> str:
-    """A name as a token: bare when that is read back the same, else quoted. NULs at the end are dropped."""
+    """A name as a token: bare if that reads back the same, else quoted. Trailing NULs of a 14-byte name are dropped."""
     name = name.rstrip(b"\0") if len(name) == 14 else name
     if IDENTIFIER.match(name.decode("latin-1")) and len(name) < 14 and name not in (b"self", b"none"):
         return name.decode()
     out = "".join(f"\\{chr(b)}" if chr(b) in '"\\' else chr(b) if 0x20 <= b < 0x7F else f"\\x{b:02X}" for b in name)
-    if len(name) == 14 and "\\" not in out:  # the full 14 bytes are said by an escape
+    if len(name) == 14 and "\\" not in out:  # an escape marks a name of the full 14 bytes
         out = out[:-1] + f"\\x{name[13]:02X}"
     return f'"{out}"'
 
 
 def number(token: Token, low: int, high: int, what: str) -> int:
-    """A decimal or 0x number within a range; the error names the range."""
+    """A decimal or 0x number within a range. WordError: names the range."""
     text = token.text
     try:
         value = int(text, 16) if text[:2].lower() == "0x" else int(text, 10) if re.fullmatch(r"-?[0-9]+", text) else None
@@ -147,7 +147,7 @@ def joints_of(text: str, names: dict[str, int]) -> list[int]:
 
 
 def joint_pairs(texts: Iterable[str], names: dict[str, int]) -> dict[int, int]:
-    """{joint: its other} of `1-2`, `3-4` and single ones (`19`), which are turned round in place."""
+    """{joint: its partner} from `1-2`, `3-4` and single joints (`19`), which are mirrored in place."""
     pairs: dict[int, int] = {}
     for text in texts:
         ids = [joint for part in text.split("-") for joint in joints_of(part, names)]
@@ -158,7 +158,7 @@ def joint_pairs(texts: Iterable[str], names: dict[str, int]) -> dict[int, int]:
 
 
 def ticks(token: Token, what: str) -> int:
-    """A byte of time: ticks of 1/128 s, or a decimal number with `s` or `ms`, rounded to the nearest tick."""
+    """A time as a byte: ticks of 1/128 s, or a decimal number with `s` or `ms`, rounded to the nearest tick."""
     match = re.fullmatch(r"([0-9]{1,9}(?:\.[0-9]*)?|\.[0-9]+)(ms|s)", token.text)
     if not match or token.quoted:
         return number(token, 0, 255, what)
@@ -197,14 +197,14 @@ def code(token: Token) -> int:
 
 
 def code_text(value: int) -> str:
-    """The reverse of code(); 255 is stop and stays a number."""
+    """The reverse of code(). 255 means stop and stays a number."""
     if value in (0, 255):
         return str(value)
     return "+".join(key for key, bit in KEYS.items() if value & bit)
 
 
 def position(text: str, before: int, pos_max: int) -> int:
-    """A position word. `before` is the word that stands there so far (for + and -)."""
+    """A position word. `before` is the joint's current word (for +, - and `.`)."""
     if text == "-":
         return POS_UNUSED
     if text == ".":
@@ -248,7 +248,7 @@ def position_text(word: int, pos_max: int) -> str:
 
 
 def mirrored(word: int, pos_max: int) -> int:
-    """A position on the other side of the neutral middle (512, or 2048); unused words as they are."""
+    """A position mirrored about the centre (512, or 2048). Unused words stay as they are."""
     if word > pos_max:
         return word
     value = (pos_max + 1) - word

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Writes an Image in the text format, so that reading it gives the same bytes back. FORMAT.md is the specification.
+"""Writes an Image in the text format, such that reading it gives the same bytes. FORMAT.md is the specification.
 
-What most pages share (softness, ramp, the words of joints not used) is said once before the first page. Pages equal to
-the empty page are left out, runs of equal pages are written once. Every page is read back before it is trusted; what
-the words cannot say exactly is written as raw bytes.
+What most pages share (softness, ramp, words of unused joints) is written once before the first page. Pages equal to the empty page are
+left out, runs of equal empty pages are written once. The text is read back; pages that words do not describe exactly are written as
+raw bytes.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from m512.files.text.steps import block_words
 from m512.files.text.words import code_text, position_text, quote_name
 
 STANDARD_FILL = Page().step_bytes(0)
-MAX_ODD_WORDS = 8  # more impossible positions than this: the page is not a motion, show bytes
+MAX_ODD_WORDS = 8  # with more impossible positions than this, the page is not a motion and is shown as bytes
 
 
 class Style:
@@ -62,7 +62,7 @@ def _common(values: Iterable[T | None], standard: T) -> T:
 
 
 def clean_fill(page: Page) -> bytes | None:
-    """The block that fills the page's unused steps, if its last one is unused and holds no pose."""
+    """The block that fills the page's unused steps, if the last step is unused and holds no pose."""
     if page.steps >= STEPS:
         return None
     block = page.step_bytes(STEPS - 1)
@@ -71,7 +71,7 @@ def clean_fill(page: Page) -> bytes | None:
 
 
 def is_motion(page: Page, image: Image) -> bool:
-    """Whether words say more about a page than raw bytes do."""
+    """Whether words describe a page better than raw bytes."""
     odd = sum(
         1
         for step in range(min(page.steps, STEPS))
@@ -93,7 +93,7 @@ def ranges(numbers: Iterable[int]) -> str:
 
 
 def grouped(values: dict[int, str]) -> list[str]:
-    """`0..25:~512 26..30:0` from a text per joint."""
+    """`0..25:~512 26..30:0` from one text per joint."""
     out, run = [], []  # type: list[str], list[int]
     for joint in sorted(values):
         if run and (values[run[0]] != values[joint] or run[-1] != joint - 1):
@@ -171,7 +171,7 @@ def _header(page: Page, number: int, style: Style) -> list[str]:
 
 
 def _offset(page: Page, fill: bytes) -> str:
-    """The trim of page 0 in FORMAT.md's words; empty if they do not say its third step."""
+    """The trim of page 0 as an `offset` statement; empty if that cannot describe the third step."""
     base, block = block_words(fill), block_words(page.step_bytes(2))
     trims = {joint: word - 0x10000 if word & 0x8000 else word for joint, word in block.items() if word != base[joint]}
     if any(page.step_bytes(2)[-2:]) or not all(abs(trim) <= 1023 for trim in trims.values()):
@@ -222,7 +222,7 @@ def page_text(page: Page, numbers: tuple[int, int], style: Style) -> str:
 
 
 def raw_text(page: Page, numbers: tuple[int, int], style: Style) -> str:
-    """The same as bytes."""
+    """The same as raw bytes."""
     out = [_title(page, numbers)]
     if is_erased(page):
         return f"{out[0]} ; erased\n"
@@ -254,7 +254,7 @@ def _preamble(style: Style) -> list[str]:
 
 
 def write_text(image: Image) -> str:
-    """The whole image; read_text() of it gives the same bytes."""
+    """The text of an image. read_text() gives the same bytes back."""
     style = Style(image)
     head = "\n".join(_preamble(style)) + "\n"
     runs = [(numbers, page) for numbers, page in _runs(image) if bytes(page) != EMPTY]
@@ -263,7 +263,7 @@ def write_text(image: Image) -> str:
     )
     if _reads_as(whole, image):
         return whole
-    # Rare: something the words cannot say. Find the pages concerned, one by one, with links by number.
+    # Rare: words cannot describe every page. Finds these pages one by one, with links by number.
     style.names = {}
     out = [head]
     for numbers, page in runs:
@@ -273,7 +273,7 @@ def write_text(image: Image) -> str:
 
 
 def _runs(image: Image) -> list[tuple[tuple[int, int], Page]]:
-    """Runs of equal pages; pages that are linked to or have a name of their own stand alone."""
+    """Runs of equal pages that are empty or erased. Every other page is on its own."""
     out: list[tuple[tuple[int, int], Page]] = []
     for number, page in image.items():
         if out and out[-1][1] == page and out[-1][0][1] == number - 1 and (page.is_empty or is_erased(page)):
