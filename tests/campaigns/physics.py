@@ -258,7 +258,7 @@ def eases_figure(options, image, library):
     said = ", ".join(f"{promise.page} {what}" for promise, (_, what) in zip(asked, results))
     return proof.Figure(
         "No motion asks a servo for more than 90 % of its speed, or for more than a third of its torque on average.",
-        "nominal body, AX-12, 11.1 V, every motion once; goals are whole units (models.library_speeds: over four ticks)",
+        "nominal body, AX-12, 11.1 V, every motion once; goals are whole units (tests/models/test_library_speeds.py: over four ticks)",
         "; ".join(bad) or said,
         not bad,
     )

@@ -36,7 +36,7 @@ class Gait:
     accel: int = 3  # ACCEL_TIME of the pages
     slope: int = 5  # compliance of the legs
     hip_slope: int = 5  # of the hips' pitch, which carries the trunk: stiff
-    ankle_slope: int = 5  # of the ankles' pitch: soft, so that soles find the floor despite wrong zeros
+    ankle_slope: int = 5  # softness of the ankles' pitch; 4 is too stiff for wrong zeros, 6 sags (README.md)
     roll_slope: int = 5  # of the roll of hips and ankles: stiff where the robot stands on one foot for long
     stride: float = 0.0  # a foot moves this far to the front and back of its middle
     side: float = 0.0  # likewise, to the right
