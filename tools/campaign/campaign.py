@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""Runs many jobs of one kind: on the cores of this machine, or on machines that a Dask scheduler knows.
+"""Runs many jobs of one kind, on the cores of this machine or on the machines of a Dask scheduler.
 
     from campaign import each
     results = each(work, items, "bodies", jobs=4)                      # processes of this machine
     results = each(work, items, "bodies", scheduler="tcp://10.0.0.5:8786")
 
-work(item) is a function of a module (or a functools.partial of one); it and the items are pickled. Results come in the order of
-the items, wherever each was made: a job must take all that it leaves to chance from its item (a seed), nothing from its place.
+work(item) is a function of a module (or a functools.partial of one). It and the items are pickled. Results come in the order of
+the items, wherever they were computed. So a job must take all randomness from its item (a seed) and depend on nothing local.
 
-With a scheduler, every machine needs a tree like this one, built and with Dask (`tools/dev/setup campaign`), wherever it lies: a worker is
-started by its build/venv/bin/dask.
+With a scheduler, every machine needs a tree like this one, built and with Dask (`tools/dev/setup campaign`), at any path. Its
+build/venv/bin/dask starts a worker.
 """
 
 import concurrent.futures
@@ -17,19 +17,19 @@ import os
 import pickle
 import sys
 
-ANSWER_S = 10  # so long each() waits for a scheduler
+ANSWER_S = 10  # how long each() waits for a scheduler
 _scheduler = None
 
 
 class Progress:
-    """One line on standard error that says how far a campaign is; quiet lines only when it is no terminal."""
+    """Shows the progress of a campaign as one line on standard error; as a few separate lines if that is no terminal."""
 
     def __init__(self, what, total):
         self.what, self.total, self.done = what, total, 0
         self.step = max(1, total // (200 if sys.stderr.isatty() else 10))
 
     def advance(self, count=1):
-        """`count` more of the total are done."""
+        """Adds `count` to the completed items."""
         before, self.done = self.done // self.step, self.done + count
         if self.done // self.step != before or self.done >= self.total:
             start, end = ("\r", "" if self.done < self.total else "\n") if sys.stderr.isatty() else ("", "\n")
@@ -37,12 +37,12 @@ class Progress:
 
 
 def cores():
-    """How many processes may run at once."""
+    """How many processes can run at once."""
     return len(os.sched_getaffinity(0))
 
 
 def use(scheduler):
-    """Where each() runs when it is not told: the address of a Dask scheduler, or None for this machine."""
+    """Sets the default for each(): the address of a Dask scheduler, or None for this machine."""
     global _scheduler
     _scheduler = scheduler
 
@@ -50,8 +50,8 @@ def use(scheduler):
 def each(work, items, what, jobs=None, scheduler=None, done=None):
     """[work(item) for item in items], in the order of the items, with progress. An exception in a job ends the campaign.
 
-    jobs: processes at once (None: one a core); with a scheduler its workers decide. ConnectionError: no scheduler answers.
-    done(item, result): called here, in this process, as soon as each job has ended: to keep what a campaign that is interrupted found.
+    jobs: processes at once (None: one per core); with a scheduler its workers decide. ConnectionError: no scheduler answers.
+    done(item, result): called in this process as soon as a job has ended, so that an interrupted campaign keeps its results.
     """
     items = list(items)
     address = scheduler or _scheduler
@@ -81,7 +81,7 @@ def _on_scheduler(work, items, address):
         from distributed import Client, as_completed
     except ModuleNotFoundError as missing:
         raise ConnectionError(f"a scheduler needs Dask ({missing}); run: tools/dev/setup campaign") from None
-    cloudpickle.register_pickle_by_value(sys.modules[__name__])  # so that _call can say what a worker lacks
+    cloudpickle.register_pickle_by_value(sys.modules[__name__])  # so that _call can report what a worker lacks
     try:
         client = Client(address, timeout=ANSWER_S)
     except OSError as error:
@@ -94,7 +94,7 @@ def _on_scheduler(work, items, address):
 
 
 def _call(pickled):
-    """One job on a worker. Sent by value, so it imports for itself."""
+    """Runs one job on a worker. It is sent by value, so it has its own imports."""
     import pickle
 
     try:

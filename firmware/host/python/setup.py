@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Takes the programs from the build tree (environment M512_BUILD, else build/ at the top). They may be another computer's, with STRIP for it."""
+"""Builds the wheel with the programs from the build tree (environment M512_BUILD, else build/ at the top). Programs for another computer
+need a matching STRIP."""
 import os
 import pathlib
 import re
@@ -29,7 +30,7 @@ class BuildWithPrograms(build_py):
 
 
 class ForTheProgramsComputer(bdist_wheel):
-    """Any Python 3; the processor and the C library that the programs themselves ask for."""
+    """The wheel's tag: any Python 3, with the processor and the C library that the programs need."""
 
     def get_tag(self):
         programs = [(BUILD / image / f"motion512-{image}").read_bytes() for image in ("play", "edit")]

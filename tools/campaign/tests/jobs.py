@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Jobs for test_campaign.py: functions of a module, as each() wants them."""
+"""Jobs for test_campaign.py: module-level functions, as each() requires."""
 
 import os
 import random
@@ -9,13 +9,13 @@ PATIENCE_S = 300
 
 
 def number(seed):
-    """By chance, from the seed alone; later items are quicker, so that they are done first."""
+    """A random number that depends only on the seed. Later items are faster, so that they finish first."""
     time.sleep(0.05 if seed < 3 else 0)
     return seed, random.Random(seed).random()
 
 
 def meet(folder, number):
-    """Waits until so many processes have come here: none of them can have done the others' work. Its own number."""
+    """Waits until `number` processes have arrived here, so that none of them can have done the others' work. Returns its process ID."""
     folder.joinpath(str(os.getpid())).touch()
     end = time.monotonic() + PATIENCE_S
     while len(list(folder.iterdir())) < number:

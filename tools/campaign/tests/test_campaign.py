@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Campaigns on this machine: the results in the order of the items, however many processes; faults are told."""
+"""Campaigns on this machine: results in the order of the items for any number of processes, and errors are reported."""
 
 import functools
 import sys

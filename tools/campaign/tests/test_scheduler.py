@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Campaigns on a Dask scheduler with two workers: the same results as here. Needs Dask: tools/dev/setup campaign."""
+"""Campaigns on a Dask scheduler with two workers: the same results as on this machine. Needs Dask: tools/dev/setup campaign."""
 
 import functools
 import os

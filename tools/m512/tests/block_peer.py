@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Our loader's line shell and block protocol, made from its description, with a line that can be disturbed."""
+"""Our loader's command line and block protocol, written from its specification, on a line that can be disturbed."""
 
 import binascii
 
@@ -21,8 +21,8 @@ class BlockBoard(LoaderBoard):
         self.eeprom = bytearray(b"\xff" * 4096)
         self.board, self.frame = board, None
         self.writes, self.left = [], []
-        self.broken_pages = set()  # the loader sees that they do not take the data
-        self.forgetful_pages = set()  # it does not
+        self.broken_pages = set()  # the loader detects that they do not take the data
+        self.forgetful_pages = set()  # the loader does not detect it
         super().__init__(state, presses_mode)
 
     def press_mode(self):

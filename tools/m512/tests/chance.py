@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Hypothesis for these tests: the same examples in every run, and no clock of a busy PC decides a verdict."""
+"""Hypothesis settings for these tests: the same examples in every run, and no deadline, because a busy PC is slow."""
 
 from hypothesis import HealthCheck, given, settings
 

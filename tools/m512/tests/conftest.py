@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where the tests find things: the repository, its sample files, the build products."""
+"""Fixtures that give tests access to the repository, its sample files and the build products."""
 
 from contextlib import contextmanager
 from pathlib import Path
@@ -10,7 +10,7 @@ REPO = Path(__file__).resolve().parents[3]
 
 
 def separate_runner():
-    """A runner that keeps standard error apart: click 8.2 always does, click before (Python 3.9) has to be asked."""
+    """A runner that keeps standard error separate. click before 8.2 (Python 3.9) needs mix_stderr=False for that."""
     from click.testing import CliRunner
 
     try:
@@ -26,13 +26,13 @@ def repo():
 
 @pytest.fixture
 def sample():
-    """sample("x.bin") -> path of a file of tests/samples."""
+    """sample("x.bin") -> path of a file in tests/samples."""
     return (REPO / "tests" / "samples").joinpath
 
 
 @pytest.fixture
 def m512(monkeypatch):
-    """m512("convert", "a", "b") -> click result: runs a command in this process; peer://... is a board of virtual_peer.py."""
+    """m512("convert", "a", "b") -> click result. Runs a command in this process; peer://... is a board of virtual_peer.py."""
     from virtual_peer import open_port
 
     from m512.board import link, motions
@@ -51,8 +51,8 @@ def m512(monkeypatch):
 
 @contextmanager
 def starting():
-    """start("boot-cm5.hex", "play-cm5.hex", text=...) -> a SimulatedBoard with these images and motions, a second after its power
-    came on; applied: the loader starts the application at once. Needs the build's products."""
+    """start("boot-cm5.hex", "play-cm5.hex", text=...) -> a SimulatedBoard with these images and motions, one second after power-on.
+    applied: the loader starts the application at once. Needs the build products."""
     from virtual_peer import SimulatedBoard
 
     from cm5sim import Board

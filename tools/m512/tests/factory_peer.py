@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The factory boot loader's protocol, made from its description: words, texts, echo, download with all its faults.
+"""The factory boot loader's protocol, written from its description: commands, texts, echo, download with all its faults.
 
-What a careless PC tool would break is broken here too, and noted in `hurt`: its own section overwritten, a line of 80
-characters ended by CR, the type-ahead ring overrun.
+Damage that a careless PC tool would do is done here too, and recorded in `hurt`: the loader's own section overwritten, a line of 80
+characters ended by CR.
 """
 
 from peer import APP, RESET, LoaderBoard
@@ -17,7 +17,7 @@ LEDS, PROMPTED, READY, LOADING, EEPROM_DATA = range(2, 7)
 
 
 class FactoryBoard(LoaderBoard):
-    """says: the banner, which names the board."""
+    """says: the banner, which contains the board's name."""
 
     def __init__(self, flash=None, state=PROMPTED, presses_mode=True, says=BANNER):
         self.says = says

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Intel HEX files for the tests, written by a library that is not ours."""
+"""Intel HEX files for the tests, written by a third-party library."""
 
 from intelhex import IntelHex
 

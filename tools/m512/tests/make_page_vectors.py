@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes page_vectors.json, the pages that the C codec and the Python codec must read alike.
+"""Writes page_vectors.json, the pages that the C codec and the Python codec must read in the same way.
 
-Made from the specification of the page alone: it builds bytes by offset and states by hand what each page means. It
-must not import m512, so that no codec checks itself. Usage: make_page_vectors.py > tests/models/golden/page_vectors.json
+Based only on the specification of the page: it builds bytes by offset and states by hand what each page means. It must not
+import m512, so that no codec checks itself. Usage: make_page_vectors.py > tests/models/golden/page_vectors.json
 """
 
 import json
@@ -31,7 +31,7 @@ vectors = []
 
 
 def vector(name, page, fault, playable, checksum=None, words=(), **fields):
-    """`checksum` None: the right one, worked out here by the rule "all 512 bytes sum to 0xFF modulo 256"."""
+    """`checksum` None: the correct one, computed here by the rule "all 512 bytes sum to 0xFF modulo 256"."""
     assert len(page) == 512
     if checksum is None:
         page[31] = 0
@@ -87,7 +87,7 @@ def with_word(word, step=0, joint=5, steps=1):
 
 
 def build():
-    # The empty page's checksum by hand: 1 + 10 + 32 + 32 + 31 * 0x55 + 217 * 0x40 = 16598 = 0x40D6; 0xFF - 0xD6 = 0x29.
+    # The empty page's checksum, computed by hand: 1 + 10 + 32 + 32 + 31 * 0x55 + 217 * 0x40 = 16598 = 0x40D6; 0xFF - 0xD6 = 0x29.
     vector("empty", empty(), "OK", False, 0x29, [(0, 0, 0x4000, False), (6, 30, 0x4000, False)], **DEFAULTS)
     vector("erased flash", bytearray(b"\xff" * 512), "CHECKSUM", True, 0xFF, steps=255)
     vector("all zero", bytearray(512), "CHECKSUM", False, 0x00, steps=0, speed=0)
@@ -161,7 +161,7 @@ def build():
     vector("joint 30, step 6", with_word(1024, 6, 30, 7), "POSITION", True, None, [(6, 30, 1024, True)])
     vector("bad position in an unused step", with_word(1024, 1), "OK", True, None, [(1, 5, 1024, True)])
 
-    # The first fault in the order of page_status_t counts.
+    # The first fault in the order of page_status_t is reported.
     page = pose(9, b16=3, b22=0, b25=200)
     vector("all faults, checksum first", page, "CHECKSUM", True, 0)
     vector("all faults, then steps", pose(9, b16=3, b22=0, b25=200), "STEPS", True)
@@ -171,7 +171,7 @@ def build():
     page[25] = 200
     vector("a link that counts as none, and a bad position", page, "POSITION", True)
 
-    # The sum does not see exchanged bytes: the fields have to be checked as well.
+    # The sum does not detect exchanged bytes, so the fields must be checked as well.
     page = pose()
     page[15], page[16] = page[16], page[15]
     vector("exchanged bytes pass the sum", page, "SCHEDULE", True, play_count=0x0A, schedule=1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Makes .mtn files as people have them, and the pages that the specification says they mean (FILES.md, not our reader)."""
+"""Makes .mtn files in their real-world forms, and the pages that they mean according to FILES.md (not to our reader)."""
 
 from dataclasses import dataclass, field
 
@@ -25,7 +25,7 @@ def step(position=512, pause=0, time=50):
 
 
 def body(blocks, enable=range(1, 19), version="1.01", full=True):
-    """The bytes before the checksum, as RoboPlus writes them. full: empty pages up to page 255 follow."""
+    """The bytes before the checksum, as RoboPlus writes them. full: adds empty pages up to page 255."""
     lines = ["type=motion", f"version={version}", "enable=" + " ".join(str(int(j in enable)) for j in range(26))]
     if version == "1.01":
         lines.append("motor_type=" + " ".join("0" * 26))
@@ -49,13 +49,13 @@ def checksum(data):
 
 
 def made(blocks, **how):
-    """A whole file, as RoboPlus writes it."""
+    """A complete file, as RoboPlus writes it."""
     text = body(blocks, **how)
     return text + checksum(text)
 
 
 def page_bytes(block, enable=range(1, 19)):
-    """What the table of the specification says a page of the text is, for up to seven steps."""
+    """The page that a block means according to the specification's table, for up to seven steps."""
     page = bytearray(512)
     page[:14] = block.name.encode().ljust(14, b"\0")
     page[15], page[16], page[20], page[22] = block.repeat, 0x0A, len(block.steps), int(32 / float(block.rate))
@@ -75,8 +75,8 @@ def page_bytes(block, enable=range(1, 19)):
     return bytes(page)
 
 
-# What happens to files: (words of the remark that must be told, what is done to the file)
-# Each takes the whole file as bytes; what it makes must be read as if nothing had happened.
+# Accidents that happen to files: (words of the required remark, function from the file's bytes to the changed bytes). The changed file must
+# be read like the original.
 
 
 def _crlf(data):
@@ -109,7 +109,7 @@ ACCIDENTS = {
 
 
 def commas(data):
-    """As written under a comma locale; the checksum is that of the new text."""
+    """The file as written under a locale with decimal commas, with the checksum of the new text."""
     text = data[:-2].replace(b"version=1.", b"version=1,")
     lines = [line.replace(b".", b",") if line.startswith((b"step=", b"play_param=")) else line for line in text.split(b"\n")]
     text = b"\n".join(lines)
@@ -117,7 +117,7 @@ def commas(data):
 
 
 def blocks_by_chance(chance, count=5, most_steps=7):
-    """Pages as they come; the first is named "hand" for the accident that renames it."""
+    """Random pages. The first is named "hand" for the accident that renames it."""
     out = []
     for number in range(count):
         steps = [

@@ -1,21 +1,21 @@
 # SPDX-License-Identifier: MIT
 """A board at the end of a cable: bytes in, bytes out, silence, and a cable that can be pulled.
 
-A board is a class with on_byte() and on_silence() in front of one of the two ends: VirtualPeer (virtual_peer.py, in virtual
+A board is a class with on_byte() and on_silence(), combined with one of two ends: VirtualPeer (virtual_peer.py, in virtual
 time, for nearly every test) or PtyPeer (pty_peer.py, a real port). Its state (flash, EEPROM) outlives the cable.
 """
 
 
 class Peer:
-    """`path` names the port. The ends have pull(), plug(), `plugged`, now() in seconds, and _to_pc(data)."""
+    """`path` names the port. The ends provide pull(), plug(), `plugged`, now() in seconds, and _to_pc(data)."""
 
     def __init__(self):
-        self.cut_after = None  # bytes, both ways together, until the cable is pulled
+        self.cut_after = None  # bytes in both directions together before the cable is pulled
         self.garble = None  # function(direction, index, byte) -> byte or None (lost)
         self.moved = 0
 
     def _count(self, direction, byte):
-        """A byte passes the cable: what comes out at the other end, or None."""
+        """Passes a byte through the cable. Returns what comes out at the other end, or None."""
         index, self.moved = self.moved, self.moved + 1
         if self.cut_after is not None and index >= self.cut_after:
             self.pull()
@@ -23,7 +23,7 @@ class Peer:
         return self.garble(direction, index, byte) if self.garble else byte
 
     def send(self, data):
-        """To the PC."""
+        """Sends to the PC."""
         if self.cut_after is None and self.garble is None:
             self.moved += len(data)
             if self.plugged:
@@ -38,19 +38,19 @@ class Peer:
         raise NotImplementedError
 
     def on_silence(self, seconds):
-        """So long nothing has come; called often."""
+        """Called often, with the time since the last byte arrived."""
 
 
 APP, RESET = range(2)
 
 
 class LoaderBoard:
-    """The start of a board with a boot loader. An application runs (APP) until MODE is pressed (RESET), by a person who sees `##` come
-    unless presses_mode is off. The loader's own states follow."""
+    """The start-up of a board with a boot loader. An application runs (APP) until MODE is pressed (RESET). A simulated person presses it
+    on receiving `##`, unless presses_mode is off. The loader's own states follow."""
 
     def __init__(self, state, presses_mode):
         self.state, self.presses_mode = state, presses_mode
-        self.since, self.last = 0.0, 0  # of the reset; the last byte behind it
+        self.since, self.last = 0.0, 0  # time of the reset; the last byte after it
         self.line, self.app_heard = bytearray(), bytearray()
         super().__init__()
 
@@ -60,7 +60,7 @@ class LoaderBoard:
         self.send(b"\xff")
 
     def before_the_loader(self, byte):
-        """Whether the byte came before the loader takes any."""
+        """Handles a byte that arrives before the loader accepts any. Returns whether it was one."""
         if self.state == APP:
             self.app_heard.append(byte)
             if self.presses_mode and self.app_heard.endswith(b"##"):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""A board on a pty, played by a thread in real time: for what is about the port itself. Limits here are minutes, and the board's own
-clock stands still while this process does: a silence of 0.1 s that ends a download is one in which the PC could have written."""
+"""A board on a pty, run by a thread in real time, for tests of the port itself. Limits here are minutes. The board's clock stops while
+this process does not run, so that the PC could have written during a silence of 0.1 s that ends a download."""
 
 import os
 import select
@@ -14,7 +14,7 @@ QUANTUM = 0.01
 
 
 class PtyPeer(Peer):
-    """Holds `lock` while the board acts."""
+    """`lock` is held while the board acts."""
 
     def __init__(self):
         super().__init__()
@@ -54,12 +54,12 @@ class PtyPeer(Peer):
         return self.master is not None
 
     def pull(self):
-        """The cable comes off: the PC's end sees the device go, the board hears silence."""
+        """Pulls the cable: the PC's end loses the device, the board sees silence."""
         with self.lock:
             self._close()
 
     def plug(self):
-        """Back again, maybe under another name."""
+        """Plugs the cable in again, maybe under another name."""
         with self.lock:
             self._close()
             self.cut_after, self.moved = None, 0
@@ -70,7 +70,7 @@ class PtyPeer(Peer):
             super().send(data)
 
     def _to_pc(self, data):
-        """Waits while the PC's end is full, as long as it takes a busy PC to read it."""
+        """Waits while the buffer to the PC is full, as long as a busy PC needs to read it."""
         while data and self.running:
             try:
                 data = data[os.write(self.master, data) :]
@@ -93,15 +93,16 @@ class PtyPeer(Peer):
                 self.on_silence(self.clock - self.heard_at)
 
     def _wait(self):
-        """Until something may have come. Without the lock, so that the file number may belong to another file by now."""
+        """Waits until data may have arrived. Does not hold the lock, so the file descriptor may belong to another file afterwards."""
         try:
             select.select([self.master], [], [], QUANTUM)
-        except (OSError, TypeError, ValueError):  # the cable is off
+        except (OSError, TypeError, ValueError):  # the cable is unplugged
             time.sleep(QUANTUM)
 
     def _read(self):
-        """What has come; under the lock, so that it comes from this cable and not from a file that has its number now."""
+        """Returns the data that has arrived. Holds the lock, so that it is from this cable and not from another file with the same
+        descriptor."""
         try:
             return os.read(self.master, 4096)
-        except (OSError, TypeError):  # nothing, or the cable is off
+        except (OSError, TypeError):  # no data, or the cable is unplugged
             return b""

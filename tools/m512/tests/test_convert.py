@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`m512 convert` and the file formats behind it: figures with real files, losses, and what happens to bad input."""
+"""`m512 convert` and its file formats: figures with real files, losses, and bad input."""
 
 import json
 import random
@@ -48,7 +48,7 @@ def test_convert_mtn_to_image_and_back_loses_two_rates(m512, sample, tmp_path):
 
 
 def test_convert_12_bit_scaled_is_the_same_angle_within_rounding(sample):
-    """A unit of 12 bits is 360 / 4096 degrees about 2048, one of 10 bits 300 / 1024 about 512; what lies beyond the ends is cut."""
+    """A 12-bit unit is 360 / 4096 degrees about 2048, a 10-bit unit 300 / 1024 about 512. Values out of range are clipped."""
     before = from_bytes(sample("robot_12bit_256p.bin").read_bytes(), 12)
     scale12.keep_joints(before, range(1, 19))
     scaled, report = scale12.scaled(before, 10)
@@ -76,7 +76,7 @@ def test_convert_12_bit_there_and_back_is_within_rounding():
 
 
 def image_of(bits, pages, high=None):
-    """Pages of two steps about the centre of so many bits; `high`: the page that one position beyond 1023 stands in."""
+    """Pages of two steps about the centre for `bits`. `high`: the page with one position beyond 1023."""
     image = Image.empty(256)
     for number in range(1, pages + 1):
         image[number].steps = 2
@@ -119,7 +119,7 @@ def test_the_simulated_board_refuses_what_the_real_one_cannot_play(monkeypatch, 
 
 
 def test_a_12_bit_image_is_known_by_the_joints_that_move(tmp_path):
-    """Joints that the robot has not hold 0 or anything; whole images of the net are so."""
+    """Joints that the robot lacks hold 0 or arbitrary values; complete images found on the internet are like that."""
     image = image_of(12, 30)
     for number in range(1, 31):
         for joint in range(8, 31):
@@ -146,7 +146,7 @@ def test_pages_that_do_not_fit_are_refused_or_named_in_one_line(m512, tmp_path):
     ]
 
 
-# .mtn by hand
+# .mtn by example
 
 
 def mtn_file(pages, version="1.01", enable=range(1, 19), comma=False, trailer=None):
@@ -249,7 +249,7 @@ def test_mtn_losses_of_many_pages_are_one_line_a_kind():
 
 
 def test_mtn_refuses_what_it_cannot_hold(m512, tmp_path):
-    """A damaged page of somebody's is not left out in silence; pages that hold nothing are no loss."""
+    """A damaged page of the user's is not silently left out. Pages that hold nothing are no loss."""
     image = Image.empty()
     image[7].steps = 1
     image[7].seal()
@@ -316,7 +316,7 @@ def test_hex_of_a_few_pages_and_of_other_things():
         from_hex(":00000001FE\n")
 
 
-# Bad input: always a sentence and exit code 4, never a traceback (the fixture fails on other exceptions)
+# Bad input: always one sentence and exit code 4, never a traceback (the fixture fails on other exceptions)
 
 
 def files_of_every_kind(data_of):
@@ -359,7 +359,7 @@ def test_csv_says_each_field_once():
 
 
 def test_csv_with_any_line_ends(tmp_path):
-    """A lone CR was an exception of the csv module (found by tools/prove fuzz)."""
+    """A lone CR raised an exception in the csv module (found by tools/prove fuzz)."""
     image = Image.empty()
     image[3].steps = 1
     image[3].seal()
@@ -395,7 +395,7 @@ def test_convert_refuses_what_is_there_and_says_what_it_did(m512, tmp_path):
 
 @pytest.mark.parametrize("size", [65536, 65024, 131072])
 def test_convert_a_file_of_which_no_page_is_whole_is_no_motion_file(m512, tmp_path, size):
-    """Something else that has the size of an image. Flash that was never written is an image all the same."""
+    """Other content with the size of an image is refused. Erased flash counts as an image."""
     for name, data in {"noise": random.Random(size).randbytes(size), "half": random.Random(1).randbytes(size // 2 // 512 * 512)}.items():
         (tmp_path / f"{name}.bin").write_bytes(data.ljust(size, b"\xff"))
         for how in ("ask", "keep", "drop"):

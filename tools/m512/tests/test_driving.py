@@ -35,7 +35,7 @@ class Board:
 
 
 class Script(driving.Keys):
-    """Keys at their times."""
+    """Presses keys at given times."""
 
     def __init__(self, keys):
         super().__init__()
@@ -65,7 +65,7 @@ def test_drive_sends_twenty_lines_a_second_and_stops_softly():
 def test_drive_steers_while_a_key_repeats_and_goes_straight_when_it_ends():
     asked = dict(play([(0.0, "d"), (0.05, "d"), (0.1, "d"), (0.15, "d"), (0.2, "d"), (0.3, "w"), (3.0, "x")]))
     assert asked[0.2] == "drive 100 100 100"  # 5 x 25, at most 100
-    assert asked[0.4] == "drive 88 110 100"  # back by 60 percent a second, from 0.2 s on
+    assert asked[0.4] == "drive 88 110 100"  # returns by 60 percent per second, from 0.2 s on
     assert asked[2.9] == "drive 0 110 100"
     assert play([(0.1, "x")])[-1][1] == "break"
 
@@ -137,6 +137,6 @@ def test_drive_without_a_terminal_says_so(m512, monkeypatch):
 
 @pytest.mark.parametrize("word", ["aim", "pose"])
 def test_a_position_without_its_joint_is_told_how_it_is_written(m512, word):
-    """Play's own words are `aim 2 600`; who types that here is told."""
+    """Play's own syntax is `aim 2 600`. A user who types that here gets a hint."""
     done = m512(word, "2", "600", "-p", "nowhere")
     assert done.exit_code == 2 and "2: say ID:POSITION, such as 2:600" in done.stderr

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Every example of m512 in a --help or in a README of the project does what it says: with the files that it names, a robot that answers at
-every port, and a person who says yes and presses Space."""
+"""Every example of m512 in a --help text or in a README of the project works as described. The files that it names exist, a robot
+answers at every port, and the user says yes and presses Space."""
 
 import re
 import shlex
@@ -38,17 +38,17 @@ page 20 round
   step 0.5s | 1..18:530
 """
 )
-LAID_OVER = {"layer", "aim", "swing", "free"}  # beside a play
+LAID_OVER = {"layer", "aim", "swing", "free"}  # these need a play that runs
 THROUGH_EDIT = {"put"}
-AT_THE_PROMPT = {"flash", "run", "backup", "restore", "term", "doctor"}  # the loader's
+AT_THE_PROMPT = {"flash", "run", "backup", "restore", "term", "doctor"}  # the loader's prompt
 READERS = {"backup", "diff", "doctor", "get", "pages"}
 READS = {("pose",), ("pose", "--text"), ("shape",), ("stop",), ("stop", "--now")}
-FOUND_SOMETHING = {"diff", "doctor"}  # 3 is a result too
-RUN_ELSEWHERE = "## Without a robot"  # test_readme.py, line by line
+FOUND_SOMETHING = {"diff", "doctor"}  # exit code 3 is also a result
+RUN_ELSEWHERE = "## Without a robot"  # in test_readme.py, line by line
 
 
 def of_help(command, path):
-    """The examples of a command and of those below it."""
+    """The examples of a command and of its subcommands."""
     text = (command.epilog or "") + (command.help if path == "m512" else "")
     for line in text.splitlines():
         if re.match(r"\s*(Example: |With(out)? a robot: +)?m512 \S", line):
@@ -82,7 +82,7 @@ def is_about_files(words):
 
 
 def is_a_name(words):
-    """Whether it only names a command that wants more, as "m512 pages check" does."""
+    """Whether the words only name a command that needs arguments, such as "m512 pages check"."""
     command, wants = main, False
     for word in words:
         command = command.get_command(None, word) if isinstance(command, click.Group) else None
@@ -94,7 +94,7 @@ def is_a_name(words):
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """What the examples name."""
+    """A folder with the files that the examples name."""
     top, text = tmp_path_factory.mktemp("examples"), read_text(LIBRARY)
     for name in ("library.m512", "lib.m512", "walk.m512", "wave.m512", "motions.m512"):
         (top / name).write_text(LIBRARY)
@@ -131,7 +131,7 @@ def powered(start, command):
 
 @pytest.fixture(scope="module")
 def shared():
-    """shared(command) -> the robot of all examples that only read: one in Play, one at the loader's prompt."""
+    """shared(command) -> the robot for all examples that only read: one in Play, one at the loader's prompt."""
     robots, memories = {}, {}
     with starting() as start:
 
@@ -148,7 +148,7 @@ def shared():
 
 @pytest.fixture
 def world(tmp_path, monkeypatch, started, shared, folder):
-    """A copy of that folder; world(words) -> a robot is at every port."""
+    """Copies that folder; world(words) -> a robot, which answers at every port."""
     shutil.copytree(folder, tmp_path, dirs_exist_ok=True)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("m512.ui.confirm", lambda question, yes: None)
@@ -168,7 +168,7 @@ def world(tmp_path, monkeypatch, started, shared, folder):
 
 
 def before(m512, command, words, robot):
-    """What the example takes for granted."""
+    """Sets up what the example presupposes."""
     if command == "restore":
         assert m512("backup", words[1], "--what", "motions").exit_code == 0
     if command == "diff" and "backup-20260101-120000" in words:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`m512 convert --only`: whoever follows links and codes from a page that was asked for meets the same pages as before, wherever they stand."""
+"""`m512 convert --only`: from a requested page, links and codes lead to the same pages as before, whatever their numbers."""
 
 import json
 import random
@@ -17,7 +17,7 @@ SEED = 20261125
 
 
 def by_chance(chance, pages=256, used=230, links=1.0):
-    """Pages with names of their own, at random places, with links to anywhere: to each other, to nothing, beyond the end."""
+    """Pages with unique names at random places, with links to anywhere: to each other, to empty pages, beyond the end."""
     image = Image.empty(pages)
     for number in chance.sample(range(1, pages), used):
         page = Page()
@@ -33,7 +33,7 @@ def by_chance(chance, pages=256, used=230, links=1.0):
 
 
 def walk(image, number, labels):
-    """The names that somebody meets who follows these links; ends where nothing is."""
+    """The pages along these links; ends at a page without steps."""
     out = []
     for label in labels:
         page = image[number] if 0 < number < image.end else Page()
@@ -54,7 +54,7 @@ def test_every_walk_meets_the_same_pages(seed):
     for _ in range(300):
         start, labels = chance.choice(wanted), chance.choices(LABELS, k=12)
         assert walk(part.image, part.moved[start], labels) == walk(image, start, labels), (seed, start, labels)
-    assert all(part.moved[n] == n for n in part.moved if n < 128)  # what had room stays
+    assert all(part.moved[n] == n for n in part.moved if n < 128)  # pages that fit keep their numbers
     assert sorted(part.left) == sorted(set(image.used()) - set(part.moved))
     assert len(part.image.used()) == len(part.moved)
 

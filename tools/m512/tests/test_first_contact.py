@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""What somebody has left open in a board's terminal when m512 comes (a name, a question, a list, a half-typed line, a play): nothing of it
-is changed, done, stopped or even drawn anew by that. Against the simulated board, in simulated time. What Edit has in RAM is told by its own
-`@crc`."""
+"""Input that a user has left open in a board's terminal when m512 connects (a name, a question, a list, a half-typed line, a play) is
+not changed, executed, stopped or redrawn. Tested against the simulated board, in simulated time. Edit's `@crc` gives the content of its
+RAM."""
 
 import random
 import re
@@ -49,7 +49,7 @@ OPEN = [
 
 @pytest.fixture
 def board(started):
-    """board("edit-cm5.hex", ...) -> it runs, and `said` is all that it has said."""
+    """board("edit-cm5.hex", ...) -> a running board."""
 
     def start(image, servos=range(1, 19)):
         end = started(image, text=MOTIONS, servos=servos)
@@ -66,12 +66,12 @@ def type_(end, *lines, rest=0.7):
 
 
 def shown(end, mark=0):
-    """What a terminal shows of what the board has said since then."""
+    """What a terminal shows of the board's output since `mark`."""
     return re.sub(rb"\x1e[^\n]*\n", b"", end.board.console[mark:].translate(None, b"\x11\x13")).decode("latin-1")
 
 
 def crc(end):
-    """Of the page in Edit's RAM."""
+    """The CRC of the page in Edit's RAM."""
     with VirtualLink(end.path) as link:
         return Client(link).ask("crc")
 
@@ -88,7 +88,7 @@ def test_what_is_open_in_edit_is_not_touched(m512, board, tmp_path):
     page, flash = crc(edit), bytes(edit.board.flash[0xE000:0x1E000])
     for keys in chance.sample(OPEN, len(OPEN) // 2):
         where = f"{keys}, seed {SEED}"
-        type_(edit, "\x03\x03x\r", *keys)  # leaves what was open and brings the screen back first
+        type_(edit, "\x03\x03x\r", *keys)  # first leaves what was open and restores the screen
         mark = len(edit.board.console)
         result = m512(*chance.choice(looks), "-p", edit.path)
         assert result.exit_code == 0 and "note:" not in result.stderr, (where, result.stderr)
@@ -181,6 +181,6 @@ def test_what_plays_in_play_goes_on(m512, board):
 
 
 def test_a_program_without_the_channel_is_told_to_be_replaced(m512, board):
-    """The monitor has none, like Play and Edit before it."""
+    """The monitor has no channel, like older versions of Play and Edit."""
     result = m512("pose", "-p", board("monitor-cm5.hex").path)
     assert result.exit_code != 0 and "an older Play or Edit" in result.stderr and "m512 flash play-cm5.hex" in result.stderr, result.stderr

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""`m512 flash`, `run`, `backup`, `restore` against peers that speak the two loaders' protocols, in virtual time.
+"""`m512 flash`, `run`, `backup`, `restore` against peers that speak the protocols of both loaders, in virtual time.
 
-The cable is pulled at many points; afterwards nothing outside the transfer has changed and a repetition ends it.
+The cable is pulled at many points. Afterwards nothing outside the transfer has changed, and a repetition completes it.
 """
 
 import json
@@ -38,7 +38,7 @@ page 100 end
 
 
 def make_app(board=1, kind=1, size=5000, good=True):
-    """An application image with a record, as our images have."""
+    """An application image with a record, like our images."""
     app = bytearray(random.Random(7).randbytes(size))
     app[0:4] = b"\x0c\x94\x46\x00"
     app[0x8C:0x9C] = b"M512" + len(app).to_bytes(4, "little") + b"\xff\xff" + bytes([board, kind, 1, 2, 3, 1])
@@ -63,7 +63,7 @@ def motion_area():
 
 
 def old_flash():
-    """A board that is full of something else."""
+    """A flash full of other content."""
     return random.Random(1).randbytes(0x20000)
 
 
@@ -74,14 +74,14 @@ def changed_outside(peer, before, start, end):
 @pytest.fixture(params=["ours", "factory"])
 def peer(request):
     flash = bytearray(old_flash())
-    # Most of the motion area is right already, so that the slow dumps of the factory loader do not rule the test.
+    # Most of the motion area is already correct, so that the factory loader's slow dumps do not dominate the test's time.
     flash[0xE000:0x1E000] = b"".join(EMPTY for _ in range(128))
     with (BlockPeer if request.param == "ours" else FactoryPeer)(flash) as it:
         it.before = bytes(it.flash)
         yield it
 
 
-# Either loader
+# Both loaders
 
 
 def test_flash_motions_and_leave_everything_else(m512, peer, motions):
@@ -90,7 +90,7 @@ def test_flash_motions_and_leave_everything_else(m512, peer, motions):
     assert peer.flash[0xE200:0x1E000] == motion_area()[512:]
     assert not changed_outside(peer, peer.before, 0xE200, 0x1E000)
     assert "the robot keeps its own" in result.stderr
-    # Three pages of 512 bytes differ; a page that names no joint above 18 may leave its second half as it was.
+    # Three pages of 512 bytes differ. The second half of a page that uses no joint above 18 may stay as it was.
     assert json.loads(result.stdout)["written"] <= 6
     again = json.loads(m512("flash", motions, "-p", peer.path, "--json").stdout)
     assert again["written"] == 0
@@ -166,7 +166,8 @@ def test_restore_asks_first(m512, peer, motions, tmp_path):
 
 
 def pull_cable(peer, when):
-    """After `when` of a thousand parts: of a transfer of ours; of the dumps, or at a byte of a download, of the factory's."""
+    """Pulls the cable after `when` thousandths: of a transfer with our loader; with the factory's, of the dumps or at a byte of a
+    download."""
     if isinstance(peer, BlockPeer):
         peer.cut_after = 20 + when * 2
     elif when % 2:
@@ -189,7 +190,7 @@ def test_cable_pulled_during_flash(m512, peer, motions, when):
     assert not peer.plugged, ("the cable was not pulled", result.exit_code, result.stderr)
     assert result.exit_code in (6, 7) and result.stderr.strip()
     assert not changed_outside(peer, peer.before, 0xE200, 0x1E000)
-    peer.pass_time(0.5)  # the factory loader notices the silence
+    peer.pass_time(0.5)  # the factory loader detects the silence
     peer.garble = None
     peer.plug()
     result = m512("flash", motions, "-p", peer.path, "--wait", "5")
@@ -199,12 +200,12 @@ def test_cable_pulled_during_flash(m512, peer, motions, when):
     assert not getattr(peer, "hurt", [])
 
 
-# Ours
+# Our loader
 
 
 def test_only_a_transfer_that_broke_off_goes_on_where_it_stopped(m512, motions):
     flash = bytearray(old_flash())
-    flash[0xE000:0x1E000] = EMPTY * 128  # nothing is lost that would be read and named before the writing
+    flash[0xE000:0x1E000] = EMPTY * 128  # no motions would be lost, so none are read and named before the write
     with BlockPeer(flash) as peer:
         peer.cut_after = 1600
         broken = m512("flash", motions, "-p", peer.path, "--wait", "5")
@@ -231,7 +232,7 @@ def test_block_line_with_noise_repeats_and_arrives(m512, motions):
 
 @pytest.mark.parametrize("lost", [0x69, 0x64])
 def test_block_loader_is_not_taken_for_the_factorys_when_a_letter_is_lost(m512, motions, lost):
-    """Of the question `id`: the loader answers that it does not know the word, as the factory's does."""
+    """The lost letter is of the command `id`: our loader then answers that it does not know the command, as the factory's does."""
     with BlockPeer(old_flash()) as peer:
         gone = []
 
@@ -248,7 +249,7 @@ def test_block_loader_is_not_taken_for_the_factorys_when_a_letter_is_lost(m512, 
 
 
 def test_block_flash_that_is_said_to_be_written_and_is_not(m512, motions):
-    """The loader's own answer is OK: only the sums of the flash, read back, show it."""
+    """The loader's own answer is OK. Only the sums of the flash, read back, show the fault."""
     with BlockPeer(old_flash()) as peer:
         peer.forgetful_pages.add(0xE600 // 256)
         result = m512("flash", motions, "-p", peer.path)
@@ -269,7 +270,7 @@ def test_block_wrong_board_is_refused_before_anything_is_written(m512, tmp_path)
         assert result.exit_code == 5 and "for cm2, but this board is a cm5" in result.stderr and not peer.writes
 
 
-# The factory's
+# The factory loader
 
 
 def test_factory_downloads_are_single_pages_below_the_reserve_and_the_rest_goes_through_the_mailbox(m512, tmp_path):
@@ -323,7 +324,7 @@ def test_factory_dumps_begin_anywhere_and_are_asked_for_again_when_damaged(lost)
 
 @pytest.mark.parametrize("page", [LAST_START // 256, LAST_START // 256 + 1, 0x1DE, 0x1E0, 0x1FE])
 def test_factory_download_near_the_loader_is_refused_before_a_word_is_typed(page):
-    """However somebody got there: such pages go through the mailbox, and the loader's own not at all."""
+    """Regardless of the caller: such pages go through the mailbox, and the loader's own pages are never written."""
     with FactoryPeer(bytearray(old_flash())) as peer, VirtualLink(peer.path) as link:
         loader, pages = FactoryLoader(link), {page: bytes(256), page + 1: bytes(256)}
         with pytest.raises(RefusedError, match="would hurt"):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Boards that are none of ours, and loaders that do not say which board they are on: nothing is written there, whatever command comes first.
-The banner's shape and the words of the loader: boot/ORIGINAL.md, 1 and 2."""
+"""Unsupported boards, and loaders that do not name their board: nothing is written there, whichever command comes first. The form of the
+banner and the loader's commands are in boot/ORIGINAL.md, 1 and 2."""
 
 import random
 
@@ -68,7 +68,7 @@ def is_as_it_was(peer, eeprom=None):
 def test_a_board_that_is_none_of_ours_is_refused_by_its_name(m512, commands, name, state):
     for command, words in commands.items():
         if state == APP and words[0] in ("put", "get", "play", "doctor") or command == "dry" and state == APP:
-            continue  # these press no button; nobody answers them
+            continue  # these do not ask for the button, so nobody answers them
         with FactoryPeer(full_flash(), state, says=banner_of(name)) as peer:
             eeprom = bytes(peer.eeprom)
             result, told = call(m512, words, peer.path)
@@ -113,7 +113,7 @@ def test_boards_of_ours_are_known_by_their_names(m512, commands, name, board):
 
 
 def test_the_known_loader_at_its_prompt_is_not_restarted(m512, commands):
-    """Its banner stands in its flash (boot/ORIGINAL.md, 7b)."""
+    """Its banner is read from its flash (boot/ORIGINAL.md, 7b)."""
     flash = full_flash()
     flash[0x1F7E9 : 0x1F7E9 + 40] = b" SYSTEM O.K. (CM5 Boot loader V1.31)".ljust(40, b"\0")
     with FactoryPeer(flash, says=b"") as peer:
@@ -181,7 +181,7 @@ def test_a_name_that_nobody_knows_is_left_to_the_user(name):
 @pytest.mark.parametrize("pause", [0.05, 0.2, 0.5, 2.0])
 @pytest.mark.parametrize("state", [PROMPTED, APP])
 def test_a_banner_in_lumps(m512, commands, state, pause):
-    """Each lump may end anywhere: the board is known by its name, or asked for; never taken for another."""
+    """The first part may end anywhere. The board is recognised by its name or the user must name it; it is never taken for another."""
     for whole in (banner_of(b"CM5"), banner_of(b"CM510")):
         for at in range(12, len(whole), 8):
             with FactoryPeer(full_flash(), state, says=whole) as peer:

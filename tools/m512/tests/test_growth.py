@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Readers take time in proportion to what they read, whatever it is, and there is a most: eight times as much of it takes about eight times
-the time of this process (a quadratic reader: 64 times). No clock of the wall is asked."""
+"""Readers take time in proportion to their input, of any kind, and the input is limited. Eight times the input takes about eight times
+the process time (a quadratic reader: 64 times). Wall-clock time is not used."""
 
 import time
 from pathlib import Path
@@ -13,7 +13,7 @@ from m512.errors import FileError, M512Error
 from m512.files import formats, storage
 
 TIMES, MOST = 8, 24
-LEAST_SECONDS = 0.02  # of the larger one: less is too little to compare
+LEAST_SECONDS = 0.02  # of the larger input: a shorter time is too short to compare
 PAGES = body([Block(name="x")], full=False)
 HEAD, PAGE = PAGES[: PAGES.index(b"page_begin")], PAGES[PAGES.index(b"page_begin") :]
 STEP = body([Block(steps=[step()])], full=False).split(b"\n")[-3] + b"\n"
@@ -27,7 +27,7 @@ def hex_lines(count):
     for k in range(count):
         if k % 4096 == 0:
             lines.append(_record(0, (k // 4096).to_bytes(2, "big"), 4))
-        lines.append(_record(16 * k & 0xFFFF, b"12345678"))  # with holes between them
+        lines.append(_record(16 * k & 0xFFFF, b"12345678"))  # with gaps between them
     return out.join(lines) + b":00000001FF\n"
 
 
@@ -36,7 +36,7 @@ def _record(address, data, kind=0):
     return b":" + line.hex().encode() + b"%02X\n" % (-sum(line) & 255)
 
 
-FILES = {  # what is read, by how much of it; and how much to begin with
+FILES = {  # name -> (function that makes the input of a given size, initial size)
     "steps of one page.mtn": (lambda n: HEAD + PAGE.replace(b"page_end", STEP * n + b"page_end"), 800),
     "pages.mtn": (lambda n: HEAD + PAGE.replace(b"name=x", b"name=") * n, 600),
     "blank lines.mtn": (lambda n: PAGES + b"\n" * n, 100_000),
@@ -58,7 +58,7 @@ FILES = {  # what is read, by how much of it; and how much to begin with
 
 
 def seconds(read, data):
-    """Of this process, the best of three; an error of ours is a result too."""
+    """Process time, the best of three. One of our errors is also a result."""
     best = float("inf")
     for _ in range(3):
         begun = time.process_time()
@@ -71,7 +71,7 @@ def seconds(read, data):
 
 
 def grows(read, make, count):
-    """How much longer eight times as much takes; the least of three tries, if one is not enough: other programs disturb this one."""
+    """How much longer eight times the input takes. The minimum of up to three tries, because other programs disturb the measurement."""
     ratio = float("inf")
     for _ in range(3):
         ratio = min(ratio, _growth(read, make, count))
@@ -91,13 +91,13 @@ def _growth(read, make, count):
 @pytest.mark.parametrize("name", FILES)
 def test_a_reader_is_linear(name):
     def read(data):
-        formats._decoded(data, Path(name), None, None)  # without the bound on its size
+        formats._decoded(data, Path(name), None, None)  # without the limit on its size
 
     assert grows(read, *FILES[name]) < MOST
 
 
 class TricklingLink(Link):
-    """A board that sends a byte at a time, for ever the same."""
+    """A board that sends the same byte one at a time."""
 
     def __init__(self, count):
         self.left, self.held, self.trace, self.url = count, b"", None, "trickle"
@@ -117,7 +117,7 @@ def test_a_line_is_read_linearly(read):
     assert grows(lambda count: read(TricklingLink(count)), lambda count: count, 20_000) < MOST
 
 
-# The most
+# Limits
 
 
 def test_a_file_that_is_too_large_is_refused_before_it_is_read_as_anything(m512, tmp_path):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Imports point down, those for types alone as well: no folder imports a higher one, and no modules import each other, around corners
-neither. README.md names the folders."""
+"""Imports point downwards, also those only for types: no folder imports a higher one, and no modules import each other, not even
+indirectly. README.md names the folders."""
 
 import ast
 import pathlib
@@ -16,7 +16,7 @@ def module_name(path):
 
 
 def imported(path, names):
-    """The modules that a file imports, of those that have these names."""
+    """The modules in `names` that a file imports."""
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
             wanted = [alias.name for alias in node.names]
@@ -34,7 +34,7 @@ def imports():
 
 
 def layer(name):
-    """Of a folder, of __main__ above them all, of the modules that lie beside the folders below them all."""
+    """The layer of a module: its folder's; above all folders for __main__; below all folders for the modules next to them."""
     part = name.split(".")[1] if name.count(".") else ""
     return len(LAYERS) if part == "__main__" else LAYERS.index(part) if part in LAYERS else -1
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Nothing is left behind by a command with --sim, however it ends: no file in the folder for temporary ones, no simulator that runs on."""
+"""A command with --sim leaves nothing behind, however it ends: no temporary file and no running simulator."""
 
 import signal
 import subprocess
@@ -71,7 +71,7 @@ def test_no_file_is_left(world, words, environment, says):
 
 
 def wait_for_the_end(pid):
-    """Of a process that may be an orphan by now: it is gone, or a zombie that nobody has fetched yet."""
+    """Waits until a process, possibly an orphan, is gone or a zombie."""
     state = Path(f"/proc/{pid}/stat")
     deadline = time.monotonic() + 60
     while True:
@@ -100,7 +100,7 @@ def test_the_simulator_ends_with_a_command_that_was_killed(world):
 @pytest.mark.parametrize("when", ["starting", "playing"])
 def test_a_signal_ends_the_simulator_too(world, number, when):
     mute = world.folder / "mute"
-    mute.write_text("#!/bin/sh\nexec sleep 600\n")  # a simulator that names no port
+    mute.write_text("#!/bin/sh\nexec sleep 600\n")  # a simulator that reports no port
     mute.chmod(0o755)
     environment = {"M512_CM5SIM": str(mute), "M512_BUILD": str(REPO / "build")} if when == "starting" else {}
     process = world.start("play", "wave", "--sim", "--motions", "wave.m512", "--wait", **environment)
@@ -113,7 +113,7 @@ def test_a_signal_ends_the_simulator_too(world, number, when):
             time.sleep(0.05)
     simulators = children(process.pid)
     assert len(simulators) == 1
-    for _ in range(3):  # Ctrl-C stops softly, then at once, then ends
+    for _ in range(3):  # the first Ctrl-C stops softly, the second at once, the third ends the command
         process.send_signal(number)
         try:
             process.wait(3 if number == signal.SIGINT else 600)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Flashing through a factory loader over bad lines, in simulated time: the reported cases, and whether the model of the
-loader does what the description of it measured. Thousands of schedules: `tools/prove links`."""
+"""Flashing through a factory loader over bad lines, in simulated time: the reported cases, and whether the model of the loader agrees
+with the measurements in its description. `tools/prove links` runs thousands of schedules."""
 
 import random
 
@@ -21,7 +21,7 @@ GOOD = Conditions()
 
 
 class Bench:
-    """A board with a factory kind of loader at its prompt, and a line to it."""
+    """A board with a model of the factory loader at its prompt, and a line to it."""
 
     def __init__(self, conditions=GOOD, ends=None):
         self.loader = Loader(random.Random(1).randbytes(0x20000))
@@ -43,7 +43,7 @@ class Bench:
         return sorted({at // 256 for at in range(0x20000) if self.loader.flash[at] != self.before[at]})
 
 
-# The model, by the table of the description (section 3): address 2000, n data bytes and a checksum byte
+# The model against the table in the description (section 3): address 2000, n data bytes and a checksum byte
 
 
 @pytest.mark.parametrize("n, pages", [(1, 1), (254, 1), (255, 1), (256, 2), (257, 2), (512, 3), (1000, 4)])
@@ -56,7 +56,7 @@ def test_model_writes_as_many_pages_as_were_measured(n, pages):
     assert bench.changed() == list(range(0x20, 0x20 + pages))
     assert bench.loader.flash[0x2000 : 0x2000 + len(data)] == data
     rest = len(data) % 256
-    if rest:  # left-overs of the page before, 00 when there was none
+    if rest:  # left over from the page before; 00 if there was none
         last = 0x2000 + len(data) - rest
         expected = bench.loader.flash[last - 256 + rest : last] if n > 255 else bytes(256 - rest)
         assert bench.loader.flash[last + rest : last + 256] == expected
@@ -97,7 +97,7 @@ def test_model_crashes_at_80_characters_and_empties_a_full_ring():
     bench.say(b"x" * 80 + b"\r")
     assert bench.loader.crashes
     bench = Bench()
-    bench.say(b"f 0\r" + b"a" * 256, 0.5)  # typed ahead while it is busy
+    bench.say(b"f 0\r" + b"a" * 256, 0.5)  # typed ahead while the loader is busy
     assert len(bench.loader.line) < 256 - 80
 
 
@@ -138,7 +138,7 @@ def test_slow_line_as_reported(speed):
 
 
 def test_nothing_but_announced_bytes_while_a_download_may_be_open():
-    """The report never comes: what has been sent behind `load` is the page, and nothing else."""
+    """The report never comes. After `load` only the page has been sent."""
     bench, pages = Bench(), motion_pages(3)
     loader, sent = FactoryLoader(bench.line), []
     write = bench.line.write
@@ -158,7 +158,7 @@ def test_nothing_but_announced_bytes_while_a_download_may_be_open():
 
 
 def test_page_below_the_reserve_takes_255_bytes_too_many():
-    """Its last download is one byte: whatever follows up to a page's worth stays in that page."""
+    """Its last download is one byte, so up to a page of surplus bytes stays in that page."""
     pages = motion_pages(115)
     last = max(pages)
     assert (last + 1) * 256 == LAST_START
@@ -194,7 +194,8 @@ def test_typed_text_is_cut_before_the_line_end_that_would_do_harm(text, expected
 
 
 def test_what_is_sent_blindly_cannot_reach_the_loader():
-    """Nobody answers for a minute, neither as an application nor as a loader. Each byte doubled, behind a page of a download that somebody left open."""
+    """Nobody answers for a minute, neither an application nor a loader. Each byte may be doubled, after a page of a download that
+    somebody else left open."""
     bench = Bench()
     bench.loader.eeprom[0xFFF] = 0x11
     bench.say(b"reset\r")
@@ -217,7 +218,7 @@ def test_open_download_below_the_reserve_survives_a_minute_of_knocking():
 
 @pytest.mark.parametrize("seed", range(8))
 def test_pause_anywhere_in_a_page_that_reads_like_commands(seed):
-    """Behind the pause the rest of the data is typed text for the loader."""
+    """After the pause the loader takes the rest of the data as typed text."""
     chance = random.Random(seed)
     pages = {0x30 + k: runs.contents(chance, 256) for k in range(6)}
     bench = Bench()

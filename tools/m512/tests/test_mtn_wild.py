@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""RoboPlus files as they are found on the net: what editors, version control and newer tools make of them. All files are made here."""
+"""RoboPlus files as found on the internet, changed by editors, version control and newer tools. All files are made here."""
 
 import random
 from fractions import Fraction
@@ -22,7 +22,7 @@ def pages_of(image):
     return [bytes(page) for _, page in image.items()]
 
 
-# The outside
+# Envelope
 
 
 @pytest.mark.parametrize("accident", ACCIDENTS)
@@ -44,7 +44,7 @@ def test_every_accident_is_read_and_told(accident, with_commas, version):
 
 
 def test_a_checksum_that_looks_like_something_else_is_found():
-    """The two bytes may be blanks, line ends or letters themselves."""
+    """The two bytes may themselves be blanks, line ends or letters."""
     special, seen = b"\n\r \0\x1apg", {}
     for name in (chr(first) * 3 + chr(second) * 10 for first in range(0x21, 0x7F) for second in range(0x21, 0x7F)):
         data = made([Block(name=name, steps=[step()])], full=False)
@@ -85,7 +85,7 @@ def test_a_version_that_nobody_knows_is_read_like_the_newest():
     assert bytes(image[1]) == page_bytes(Block(steps=[step()])) and any("version 1.05 is not known" in note for note in image.notes)
 
 
-# Times: a unit is 8 ms, and what stands between two is the nearer one
+# Times: a unit is 8 ms, and other values are rounded to the nearest unit
 
 
 @pytest.mark.parametrize("seconds", ["0.012", "0.0119", "0.0121", "0.30", "0.3", "1.999", "2.04", "0.0039", "0.0041", "0.5", "1.0005"])
@@ -136,7 +136,7 @@ def test_one_position_beyond_the_range_names_its_line():
 
 
 class LongPage(classic_law.Page):
-    """A page with as many steps as it likes, for the model of the law: what RoboPlus would play."""
+    """A page with any number of steps for the model of the law: what RoboPlus would play."""
 
     def __init__(self, block, number):
         header = bytearray(page_bytes(Block(block.name, block.next, block.exit, block.repeat, block.rate, block.inertia, block.level)))
@@ -161,7 +161,7 @@ def play(monkeypatch, start, make_page, stop):
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("repeat", [1, 3])
 def test_a_long_page_plays_as_one_page_would(monkeypatch, seed, repeat):
-    """Sample by sample, also with a stop at any time, over links from and to it."""
+    """Tick by tick, also with a stop at any time, and with links from and to the page."""
     chance, real = random.Random(seed), classic_law.Page
     blocks = blocks_by_chance(chance, 4, 7)
     for number, block in enumerate(blocks):
@@ -193,7 +193,7 @@ def test_a_long_page_is_told_in_words_and_keeps_all_steps():
 def test_a_long_page_takes_no_page_that_is_used_or_linked_to():
     full = [Block("long", 200, 0, steps=[step()] * 8)] + [Block(f"p{n}", n + 1, n + 2, steps=[step()]) for n in range(2, 126)]
     image = mtn.read(made(full))
-    assert image[1].next == 128 and image[128].next == 200  # 126 and 127 are led to; nothing is there
+    assert image[1].next == 128 and image[128].next == 200  # 126 and 127 are link targets without content
     assert image[128].word(0, 1) == 512 and not image[126].steps
 
 
@@ -229,7 +229,7 @@ def test_pages_beyond_the_board_are_named_with_the_option_that_keeps_them(m512, 
     assert "all good" in m512("pages", tmp_path / "z.bin", "check").stdout
 
 
-# Everything at once
+# Combinations
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -257,7 +257,7 @@ def test_combinations_by_chance(seed):
     assert not remark or happens(data) == data or any(remark in note for note in image.notes)
 
 
-# Files as they lie there
+# Sample files
 
 
 @pytest.mark.parametrize("path", sorted((REPO / "tests" / "samples" / "wild").iterdir()), ids=lambda path: path.stem)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Whatever comes over the line, the PC's side of each protocol ends with a result or one of our errors, in bounded time."""
+"""Whatever arrives on the line, the PC's side of each protocol ends with a result or one of our errors, in bounded time."""
 
 import random
 
@@ -15,7 +15,7 @@ from tests.campaigns.noise import NoisyLink, survives
 
 @pytest.mark.parametrize("times, gets_through", [(1, True), (2, True), (3, False)])
 def test_noise_in_a_page_of_the_robot_is_found_by_its_crc(started, times, gets_through):
-    """A digit that the line has made another digit: the answer still reads as a whole page."""
+    """The line changes one digit into another, so the answer still looks like a complete page."""
     text = "motion512 1\npage 3 wave\n  step 50 | 1..18:500\n"
     play = started("play-cm5.hex", text=text)
     play.pass_time(1)
@@ -46,7 +46,7 @@ SEED = random.SystemRandom().randrange(1 << 30)
 
 
 class Changes:
-    """Changes the byte `at` of the board's next answer to `word`, or loses it."""
+    """Replaces the byte at position `at`, counted from `word`, in the board's next answer, or loses it."""
 
     def __init__(self, peer, word):
         self.word, self.line, self.at, self.done = word, bytearray(), -1, True
@@ -67,7 +67,7 @@ class Changes:
 
 
 def test_noise_in_the_list_of_pages_and_in_the_name_of_the_image_is_found(started):
-    """Neither has a checksum. A page that is lost in the list would be overwritten, or left out of a copy."""
+    """Neither has a checksum. A page missing in the list would be overwritten, or left out of a copy."""
     text = "motion512 1\n" + "".join(f"page {page} name{page}\n  step 50 | 1:500\n" for page in (3, 4, 30, 127))
     play, chance = started("play-cm5.hex", text=text), random.Random(SEED)
     play.pass_time(1)
@@ -87,7 +87,7 @@ def test_noise_in_the_list_of_pages_and_in_the_name_of_the_image_is_found(starte
 
 
 class PausingLink(NoisyLink):
-    """Each of these pieces, and silence behind it for as long as anybody waits."""
+    """Delivers the pieces one by one, with a silence after each."""
 
     def __init__(self, *pieces):
         super().__init__(pieces[0])
@@ -109,7 +109,7 @@ def test_noise_answer_of_a_block_that_falls_silent_and_goes_on():
 
 
 def test_a_request_that_the_board_refuses_because_bytes_were_lost_is_sent_again():
-    """firmware/common/PROTOCOL.md, ERR 15: the board has not run it."""
+    """firmware/common/PROTOCOL.md, ERR 15: the board has not executed the request."""
     link = NoisyLink(b"\x1e@tor ERR 15 Bytes of this line were lost: nothing was done\r\n\x1e@torque OK\r\n")
     link_client = Client.__new__(Client)
     link_client.link, link_client.version, link_client.slack = link, {}, 0.0
@@ -124,7 +124,7 @@ GOOD = b"\x1e@where state=playing page=2 step=1 repetition=2 code=0 dv=96 missed
     [(b"page=", b"paoe="), (b" repetition=", b" repetitiof="), (b"=playing", b"=pla\x10ing"), (b"dv=96", b"dv=9\x10"), (b"faulty=0", b"faulty=P")],
 )
 def test_where_the_robot_is_is_asked_again_when_its_answer_is_damaged(was, becomes):
-    """Seen: a traceback of m512 play --wait while the robot went on."""
+    """This once caused a traceback of m512 play --wait while the robot continued."""
     client = Client.__new__(Client)
     client.version, client.slack, client.heard = {}, 0.0, b""
     bad = GOOD.replace(was, becomes)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The page codec against page_vectors.json (which the C codec passes too) and against facts of the specification."""
+"""Tests the page codec with page_vectors.json (as for the C codec) and with facts of the specification."""
 
 import json
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`m512 pages` and `m512 diff`: what actions do to bytes, what they refuse, what they say."""
+"""`m512 pages` and `m512 diff`: the effect of actions on bytes, refusals and messages."""
 
 import json
 
@@ -149,7 +149,7 @@ def test_pages_no_motion_takes_the_place_of_the_trim(m512, lib, words, replace):
     "words",
     [
         ("convert", "mine.m512", "mine.m512", "--force"),
-        ("convert", "lib.bin", "mine.m512"),  # refused without --force, as ever
+        ("convert", "lib.bin", "mine.m512"),  # refused without --force, as always
         ("convert", "link.m512", "mine.m512", "--force"),
         ("convert", "mine.m512", "link.m512", "--force"),
         ("pages", "mine.m512", "rename", "walk", "march", "--in-place"),
@@ -157,7 +157,7 @@ def test_pages_no_motion_takes_the_place_of_the_trim(m512, lib, words, replace):
     ],
 )
 def test_a_text_is_not_rewritten_in_its_own_place(m512, lib, monkeypatch, words):
-    """Comments, poses and names were lost, and --force was no more than the answer to "is there already"."""
+    """Comments, poses and names were once lost: --force only answered "is there already"."""
     monkeypatch.chdir(lib.parent)
     mine = lib.parent / "mine.m512"
     mine.write_text(TEXT + "# a comment\n")
@@ -167,7 +167,7 @@ def test_a_text_is_not_rewritten_in_its_own_place(m512, lib, monkeypatch, words)
 
 
 def test_a_text_of_ours_is_written_in_its_own_place(m512, lib, tmp_path):
-    """It has nothing that would be lost."""
+    """It contains nothing that would be lost."""
     ours = tmp_path / "ours.m512"
     assert m512("convert", lib, ours).exit_code == 0
     assert m512("convert", ours, ours, "--force").exit_code == 0
@@ -282,7 +282,7 @@ def test_diff_of_trims_names_the_joints(m512, trimmed, tmp_path):
 
 
 def test_pages_delete_of_page_0_is_no_loss_of_links(m512, lib):
-    """0 as a link means none."""
+    """A link of 0 means no link."""
     assert m512("pages", lib, "delete", "0", "--in-place").stderr == ""
 
 
@@ -359,7 +359,7 @@ def test_pages_retime_and_time(m512, lib):
 
 
 def test_pages_time_ends_where_no_page_follows(m512, tmp_path):
-    """In a whole image, too, which has a page 0."""
+    """Also in a complete image, which has a page 0."""
     path = tmp_path / "fast.bin"
     (tmp_path / "fast.m512").write_text(FAST)
     assert m512("convert", tmp_path / "fast.m512", path).exit_code == 0
@@ -378,7 +378,7 @@ page 1 fast
 
 
 def test_pages_time_says_where_a_servo_cannot_follow(m512, tmp_path):
-    """96 units in 12 ticks are 300 degrees/s. An AX-12 does 59 rpm = 354 degrees/s at 12 V: 327 at 11.1, 283 at 9.6."""
+    """96 units in 12 ticks are 300 degrees/s. An AX-12 reaches 59 rpm = 354 degrees/s at 12 V: 327 at 11.1, 283 at 9.6."""
     path = tmp_path / "fast.bin"
     path.write_bytes(read_text(FAST).to_bytes())
     said = m512("pages", path, "time", "fast").stdout.splitlines()
@@ -454,7 +454,7 @@ def test_diff_finds_every_single_byte():
 
 
 def test_diff_says_once_what_empty_pages_have_that_has_no_effect(m512, tmp_path):
-    """A .mtn fills unused steps and joints in its own way; of 124 empty pages a person wants to hear nothing but that."""
+    """A .mtn fills unused steps and joints in its own way. For 124 empty pages one line is enough."""
     (tmp_path / "a.m512").write_text("motion512 1\npage 1 a\n  step 1s | 1:500 2:500\npage 3 c\n  step 1s | 1:400\n")
     assert m512("convert", tmp_path / "a.m512", tmp_path / "a.mtn").exit_code == 0
     found = m512("diff", tmp_path / "a.m512", tmp_path / "a.mtn")
@@ -482,7 +482,7 @@ def test_check_says_once_what_holds_for_many_pages(m512, tmp_path):
 
 
 def test_a_link_above_127_is_a_note_and_no_damage(m512, tmp_path):
-    """LAWS.md: it counts as 0. So Edit and the player take such a page, and so do we: it is listed, kept, converted and flashed."""
+    """LAWS.md: it counts as 0. Edit and the player accept such a page, and so does m512: it is listed, kept, converted and flashed."""
     (tmp_path / "a.m512").write_text("motion512 1\npage 10 hop\n  next 0xC8\n  step 1s | 1:512\n")
     assert m512("convert", tmp_path / "a.m512", tmp_path / "a.bin").exit_code == 0
     checked = m512("pages", tmp_path / "a.bin", "check")

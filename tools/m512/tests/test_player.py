@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The exact law against the properties that define it."""
+"""Tests the exact law against its defining properties."""
 
 import pytest
 from chance import given, settings

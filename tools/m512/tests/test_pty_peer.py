@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The peer on a pty itself: a cable that is pulled and plugged while its thread is between two of its own steps."""
+"""Tests the peer on a pty: a cable that is pulled and plugged in between two steps of its thread."""
 
 import os
 import time
@@ -8,7 +8,7 @@ from pty_peer import PtyPeer
 
 
 class Replugged(PtyPeer):
-    """Plugs once between the moment at which something is there to read and the reading."""
+    """Replugs the cable once, between the moment when data may be there and the read."""
 
     spare, heard = None, b""
 
@@ -18,9 +18,9 @@ class Replugged(PtyPeer):
     def _wait(self):
         super()._wait()
         if self.spare is not None:
-            os.close(self.spare)  # a lower number becomes free, so that the new files have other numbers
+            os.close(self.spare)  # frees a lower number, so that the new files get other numbers
             self.plug()
-            self.spare = None  # whoever waits for this finds the new path
+            self.spare = None  # the waiting test now finds the new path
 
 
 def test_peer_hears_the_cable_that_was_plugged_while_it_read():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""README.md is executed: the motion in it, each command of "Without a robot", and the examples' command lines."""
+"""Executes README.md: the motion in it, each command of "Without a robot", and the examples' command lines."""
 
 import re
 import shlex

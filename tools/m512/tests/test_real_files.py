@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Motion sets of others, where they are (../shared/data, or M512_SHARED): they may not be copied into the project. tests/samples stands in
-for them elsewhere."""
+"""Tests with motion sets of others, if present (../shared/data, or M512_SHARED). They may not be copied into the project; elsewhere
+tests/samples takes their place."""
 
 import os
 import pathlib
@@ -45,7 +45,7 @@ def test_12_bit_scaled_equals_the_derived_file():
     dropped = scale12.keep_joints(image, range(1, 21))
     scaled, report = scale12.scaled(image, 10)
     assert "joints left out (IDs 0 21" in dropped[0]
-    assert any(line.startswith("40 positions cut at the end") for line in report)  # as whoever made the derived file counted
+    assert any(line.startswith("40 positions cut at the end") for line in report)  # the same count as by the author of the derived file
     derived = from_bytes((DATA / "op3_derived_10bit_256p.bin").read_bytes())
     compared = 0
     for number, page in derived.items():

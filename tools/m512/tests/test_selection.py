@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Which pages an argument means: one parser for every command, of files and of boards, and one error."""
+"""The pages that an argument means: one parser and one error for every command, for files and boards."""
 
 import re
 
@@ -115,7 +115,7 @@ def test_every_command_refuses_it_with_the_same_sentence(m512, started, lib, wor
 
 
 def test_ranges_of_a_board_and_of_a_file(m512, started, lib):
-    edit = started("boot-cm5.hex", "edit-cm5.hex", text=TEXT)  # the loader is what saves
+    edit = started("boot-cm5.hex", "edit-cm5.hex", text=TEXT)  # saving needs the loader
     assert m512("run", "-p", edit.path).exit_code == 0
     edit.pass_time(2)
     got = lib.with_name("got.bin")
@@ -124,12 +124,12 @@ def test_ranges_of_a_board_and_of_a_file(m512, started, lib):
     assert m512("get", "all", "--force", "-o", got, "-p", edit.path).exit_code == 0
     result = m512("get", "0", "3", "-o", got.with_suffix(".csv"), "-p", edit.path)
     assert result.exit_code == 2 and "a .csv holds one page, and not pages 0 and 3" in result.stderr
-    assert selection_image(got)[21] == IMAGE[21] and selection_image(got).used() == [3, 4, 5, 7, 20, 21]  # a damaged page byte for byte
+    assert selection_image(got)[21] == IMAGE[21] and selection_image(got).used() == [3, 4, 5, 7, 20, 21]  # a damaged page is kept byte for byte
     put = m512("put", lib, "3..5:60", "-p", edit.path)
     assert put.exit_code == 0, put.stderr
     area = bytes(edit.board.flash[0xE000:0x1E000])
     assert [area[512 * n + 66] + 256 * area[512 * n + 67] for n in (60, 61, 62)] == [500, 510, 520]
-    assert area[512 * 62 + 25] == 60  # its link followed
+    assert area[512 * 62 + 25] == 60  # its link was updated
     shown = m512("pages", lib, "show", "3..5").stdout
     assert [shown.count(f"page {n}") for n in (3, 4, 5, 7)] == [1, 1, 1, 0]
     assert m512("pages", lib, "delete", "3..21", "-o", lib.with_name("less.bin")).exit_code == 0
@@ -169,7 +169,7 @@ def test_an_empty_page_of_a_board_is_refused_by_its_number(m512, started, lib):
     edit = started("edit-cm5.hex", text=TEXT)
     result = m512("get", "3", "50", "-o", lib.with_name("got.bin"), "-p", edit.path)
     assert result.exit_code == 2 and "50: this page holds nothing" in result.stderr and not lib.with_name("got.bin").exists()
-    assert m512("get", "0", "-o", lib.with_name("got.bin"), "-p", edit.path).exit_code == 0  # the trim may be none
+    assert m512("get", "0", "-o", lib.with_name("got.bin"), "-p", edit.path).exit_code == 0  # the trim may be absent
 
 
 @pytest.mark.parametrize("action", ["copy", "renumber", "mirror"])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""m512 against the simulated board with our real loader, Play and Edit, in simulated time. Needs the build's products."""
+"""m512 against the simulated board with our real loader, Play and Edit, in simulated time. Needs the build products."""
 
 import json
 import re
@@ -32,7 +32,7 @@ OLD = MOTIONS.replace("nod", "old").replace("1:560", "1:490")
 
 @pytest.fixture
 def robot(started):
-    """A board that has older motions, so that flashing ours does not take the whole 12 s of 64 KiB."""
+    """A board with older motions, so that flashing ours does not take the full 12 s for 64 KiB."""
     return started("boot-cm5.hex", "play-cm5.hex", text=OLD)
 
 
@@ -49,7 +49,7 @@ def test_board_flash_run_play_stop_get(m512, robot, motions, tmp_path):
         assert result.exit_code == code, result.stderr
         return result
 
-    # Play restarts by itself and the loader is caught: no button.
+    # Play restarts by itself and the loader is caught: no button is needed.
     assert "MODE" not in run("flash", motions, "--wait", "5").stderr
     assert json.loads(run("flash", motions, "--json").stdout)["written"] == 0
     run("run")
@@ -109,12 +109,12 @@ def test_board_cable_pulled(m512, robot, motions, cut):
     robot.plug()
     result = m512("flash", motions, "-p", robot.path, "--wait", "10")
     assert result.exit_code == 0, result.stderr
-    # Everything is as it should be by the loader's own sums, which also means: nothing else was touched.
+    # By the loader's own sums everything is correct, which also means that nothing else was touched.
     assert json.loads(m512("flash", motions, "-p", robot.path, "--json").stdout)["written"] == 0
 
 
 def test_board_put_through_edit(m512, started, motions, tmp_path):
-    edit = started("boot-cm5.hex", "edit-cm5.hex")  # without a loader nobody can save
+    edit = started("boot-cm5.hex", "edit-cm5.hex")  # saving needs the loader
     assert "waits in its boot loader" in m512("pose", "-p", edit.path).stderr
     start(m512, edit)
     result = m512("put", motions, "walk:30", "stand", "-p", edit.path, "--json")
@@ -133,10 +133,10 @@ def test_board_put_through_edit(m512, started, motions, tmp_path):
     assert (tmp_path / "after.bin").read_bytes() == (tmp_path / "got.bin").read_bytes()
     assert m512("put", motions, "walk:30", "--yes", "-p", edit.path).stderr.endswith("\nsaved: page 30\n")
     motions.write_text(MOTIONS.replace("440", "450"))
-    assert m512("put", motions, "walk:30", "-p", edit.path).exit_code == 0  # the same name: nothing is asked
+    assert m512("put", motions, "walk:30", "-p", edit.path).exit_code == 0  # the same name: no question
     trim = tmp_path / "trim.m512"
     trim.write_text("motion512 1\npage 0\n  offset | 3:-12\n")
-    assert m512("put", trim, "0", "-p", edit.path).exit_code == 0  # the board had none
+    assert m512("put", trim, "0", "-p", edit.path).exit_code == 0  # the board had no trim
     trim.write_text("motion512 1\npage 0\n  offset | 3:-10\n")
     refused = m512("put", trim, "0", "-p", edit.path)
     assert refused.exit_code != 0 and "This replaces the trim (page 0) on the robot." in refused.stderr
@@ -192,7 +192,7 @@ def test_doctor_takes_edits_drawing_for_no_missed_motion(m512, started):
     for _ in range(3):
         with VirtualLink(edit.path) as link:
             missed = int(Client(link).where()["missed"])
-        for keys in (b"help\r", b"q"):  # and the screen is drawn anew
+        for keys in (b"help\r", b"q"):  # and the screen is redrawn
             edit.put(keys)
             edit.pass_time(0.7)
     assert missed > 100
@@ -222,7 +222,7 @@ def test_a_play_whose_cable_is_pulled_goes_on_and_m512_says_so(m512, robot):
 
 @pytest.mark.parametrize("presses", [1, 2])
 def test_a_play_that_ctrl_c_has_stopped_is_no_success(m512, robot, monkeypatch, presses):
-    """`m512 play a --wait && m512 play b` went on with b."""
+    """`m512 play a --wait && m512 play b` once continued with b."""
     start(m512, robot)
     sleep, left = VirtualLink.sleep, [presses]
 
@@ -239,7 +239,7 @@ def test_a_play_that_ctrl_c_has_stopped_is_no_success(m512, robot, monkeypatch, 
 
 
 def test_a_play_whose_follower_is_ended_is_stopped(m512, robot, monkeypatch):
-    """A terminal's window that is closed (SIGHUP) and `kill` are as Ctrl-C: the robot walked on, and nobody was there to stop it."""
+    """A closed terminal window (SIGHUP) and `kill` act like Ctrl-C. The robot once walked on with nobody to stop it."""
     start(m512, robot)
     sleep, left = VirtualLink.sleep, [1]
 
@@ -374,7 +374,7 @@ def test_drive_ends_through_the_exit_page_when_the_line_falls_silent(m512, robot
             if state["state"] == "idle":
                 break
             robot.pass_time(0.05)
-        assert state["state"] == "idle" and {"3", "1"} <= pages  # walk, and stand, its exit
+        assert state["state"] == "idle" and {"3", "1"} <= pages  # walk, and its exit page stand
 
 
 @pytest.mark.parametrize(
@@ -404,7 +404,7 @@ def test_a_page_is_timed_at_volts_that_are_a_number(m512, motions):
 
 @pytest.mark.parametrize("board", ["cm5", "cm2"])
 def test_the_simulated_board_is_the_one_that_the_image_is_for(monkeypatch, board):
-    """Else the image starts on the wrong pins, and m512 waits five minutes for it."""
+    """Otherwise the image starts on the wrong pins, and m512 waits five minutes for it."""
     monkeypatch.setenv("M512_CM5SIM", "/bin/echo")
     with pytest.raises(MissingError, match=f"--board={board} "):
         Simulator([f"play-{board}.hex"])

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Commands with --sim on a PC that is so busy that the simulated board takes a hundred times as long as a real one, from its power-on. It is
-Play's image; m512's clock and the board's are both simulated."""
+"""Commands with --sim on a PC so busy that the simulated board runs a hundred times slower than a real one from power-on. The image is
+Play; the clocks of m512 and of the board are both simulated."""
 
 import json
 
@@ -17,7 +17,7 @@ page 100 nod
 
 
 class SlowBoard(SimulatedBoard):
-    """On m512's clock SLOW seconds pass in each second of the board's."""
+    """On m512's clock SLOW seconds pass per second of the board's clock."""
 
     SLICE_MS = 0.05
     silent = False

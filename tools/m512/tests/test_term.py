@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`m512 term` on a terminal of its own: bytes both ways, its keys, log, files, the boot loader, a pulled cable."""
+"""`m512 term` on a terminal of its own: bytes in both directions, its keys, log, files, the boot loader, a pulled cable."""
 
 import os
 import sys
@@ -11,7 +11,7 @@ from pty_peer import PtyPeer
 
 
 class Echo(PtyPeer):
-    """Answers a line with "<line>" and, like a board, ends lines by CR LF."""
+    """Answers a line with "<line>". Like a board, it ends lines with CR LF."""
 
     def __init__(self):
         self.line, self.lines = bytearray(), []
@@ -138,7 +138,7 @@ def test_a_log_that_a_key_begins_does_not_touch_a_file_that_is_there(term, tmp_p
 
 
 def test_what_is_sent_first_is_read_once(m512):
-    """A pipe gives its bytes once."""
+    """A pipe supplies its bytes only once."""
     read, write = os.pipe()
     os.write(write, b"list\nplay 1\n")
     os.close(write)

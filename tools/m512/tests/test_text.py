@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The text format: its words by example, its errors by line, and its byte-exact round trip by property."""
+"""The text format: its words by examples, its errors by line, and its byte-exact round trip by property tests."""
 
 import re
 
@@ -287,7 +287,7 @@ def test_text_round_trip_of_names_that_look_like_words():
 
 
 def mutations():
-    """An ordinary page with a few bytes changed: what damage and other programs leave behind."""
+    """An ordinary page with a few bytes changed, as after damage or by other programs."""
     change = st.tuples(st.integers(0, 511), st.integers(0, 255))
     return st.tuples(st.integers(0, 8), st.lists(change, max_size=12), st.booleans(), st.booleans())
 
@@ -329,7 +329,7 @@ def test_text_round_trip_of_any_bytes(data):
     round_trip(image)
 
 
-# FORMAT.md tells the truth
+# FORMAT.md is correct
 
 
 def format_md_blocks():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Nothing of a user's is lost in silence: files that are there, hand-written texts, boards, motions in HEX files, terminals."""
+"""Nothing of a user's is lost silently: existing files, hand-written texts, boards, motions in HEX files, terminals."""
 
 import json
 import os
@@ -47,7 +47,7 @@ def run(*args, **options):
     return subprocess.run([sys.executable, "-m", "m512", *map(str, args)], capture_output=True, timeout=300, **options)
 
 
-# Motions in Intel HEX: the rules of every motion file
+# Motions in Intel HEX: the same rules as for every motion file
 
 
 def test_hex_of_motions_leaves_the_trim_alone(tmp_path):
@@ -123,7 +123,7 @@ def test_motions_at_an_address_are_judged_as_a_motion_file(tmp_path):
 
 @pytest.mark.parametrize("name", ["x.m512", "x.mtn", "x.csv", "x.hex", "text.bin"])
 def test_an_address_is_for_raw_binaries(m512, tmp_path, name):
-    """Others would go to the robot letter by letter, over its program."""
+    """Other files would be written to the robot as raw text, over its program."""
     source = tmp_path / name
     source.write_bytes(formats.encode(source.with_suffix(".m512" if name == "text.bin" else source.suffix), read_text(TEXT), 3)[0])
     result = m512("flash", source, "--address", "0", "--dry-run", "-p", "none")
@@ -137,12 +137,12 @@ def test_an_address_below_the_flash_is_refused(tmp_path):
         plan(tmp_path / "x.bin", -5)
 
 
-# Files that are there
+# Existing files
 
 
 @pytest.mark.parametrize("name", ["x.bin holding hex", "x.mtn holding image", "x.txt holding mtn"])
 def test_in_place_keeps_the_kind_of_file_whatever_its_name_says(m512, files, name):
-    """Raw areas of the CM-2 were called .mtn, too."""
+    """Raw areas of the CM-2 were also called .mtn."""
     name, _, suffix = name.split()
     kind = {"hex": formats.HEX, "image": formats.BINARY, "mtn": formats.MTN}[suffix]
     (files / name).unlink(missing_ok=True)
@@ -164,7 +164,7 @@ def test_in_place_does_not_make_numbers_of_a_hand_written_text(m512, files):
 @pytest.mark.skipif(sys.platform != "linux", reason="takes root's privilege away by a tool of Linux")
 @pytest.mark.parametrize("words", [["pages", "x.bin", "rename", "3", "new", "--in-place"], ["convert", "own.m512", "x.bin", "--force"]])
 def test_a_write_protected_file_stays(files, words):
-    """A file is replaced by another of its name, for which its folder's permission would be enough."""
+    """A file is replaced by a new one of the same name, for which the folder's permission would be enough."""
     before = (files / "x.bin").read_bytes()
     (files / "x.bin").chmod(0o444)
     plain = ["setpriv", "--bounding-set=-dac_override"] if os.geteuid() == 0 else []
@@ -213,7 +213,7 @@ def board():
 
 @pytest.fixture
 def real_board():
-    """At a real port."""
+    """A board at a real port."""
     with BlockPtyPeer(full_flash()) as peer:
         yield peer
 
@@ -252,7 +252,7 @@ def test_a_backup_of_nothing_is_none(m512, board, tmp_path, what):
 
 
 def test_restore_that_is_refused_leaves_the_board_as_it_was_found(m512, tmp_path):
-    """An application of a CM-2 for a CM-5, of which Play was running."""
+    """An application of a CM-2 for a CM-5 on which Play was running."""
     flash = bytearray(make_app(board=2)).ljust(0x20000, b"\xff")
     with BlockPeer(flash, board=2) as other:
         assert m512("backup", tmp_path / "b", "-p", other.path, "--what", "app").exit_code == 0
@@ -394,7 +394,7 @@ def test_get_knows_its_file_before_it_asks_a_robot(m512, files):
 
 @pytest.mark.parametrize("target", ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"])
 def test_standard_output_may_be_a_file_that_is_there(files, target):
-    """`>> log`: what stands in it stays."""
+    """`>> log`: its existing content stays."""
     log = files / "log"
     log.write_text("before\n")
     with open(log, "ab") as out:
@@ -421,7 +421,7 @@ def test_process_substitution(files):
 
 @pytest.mark.parametrize("source, code", [("x.bin", 0), ("missing.bin", 4)])
 def test_remarks_that_find_no_room_change_no_outcome(files, source, code):
-    """`2> log` on a full disk ended a transfer in its middle, with 1."""
+    """`2> log` on a full disk once ended a transfer in the middle, with exit code 1."""
     image = Image.empty(256)
     image[200] = read_text("motion512 1\nbits 12\npage 1 a\n  step 1s | 1:2048\n")[1]
     (files / "x.bin").write_bytes(image.to_bytes())
@@ -470,7 +470,7 @@ def test_package_says_that_it_is_typed_and_its_licence():
     assert (REPO / "tools" / "m512" / "src" / "m512" / "py.typed").exists()
 
 
-# What a new user meets
+# First steps of a new user
 
 
 def test_dry_run_looks_at_the_board_and_changes_nothing(m512, files, board):
@@ -553,7 +553,7 @@ def test_doctor_does_not_repeat_itself(m512, monkeypatch, tmp_path):
     assert said.count("not installed") <= 2
 
 
-# What the system refuses, and what one would not have meant
+# Errors of the operating system, and unintended input
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="a device that is always full is Linux's")
@@ -575,7 +575,7 @@ def test_a_closed_output_is_a_sentence(files):
 
 
 def test_a_reader_that_goes_away_ends_results_and_no_work(files):
-    """Results that nobody reads end the command, which is no success; remarks that nobody reads end nothing."""
+    """Results without a reader end the command as a failure. Remarks without a reader end nothing."""
     for words, streams, code in (("pages x.bin list", "", 141), ("pages x.bin rename 3 stand -o y.bin", "2>&1", 0), ("pages no.bin list", "2>&1", 4)):
         subprocess.run(f"({sys.executable} -m m512 {words}; echo $? > rc) {streams} | true", shell=True, cwd=files, timeout=300, check=True)
         assert int((files / "rc").read_text()) == code, words
@@ -636,7 +636,7 @@ def test_a_backup_that_cannot_be_written_is_refused_before_the_board_is_called(m
         assert result.exit_code == 4 and says in result.stderr
 
 
-# Words of the command line are refused before anything is asked or started
+# The command line is checked before anything is asked or started
 
 
 @pytest.mark.parametrize("servos, told", [("1-99", "1-99"), ("", "none"), ("5,40:dx117", "40:dx117"), ("1-x", "1-x"), ("9-3", "9-3")])
@@ -660,7 +660,7 @@ def test_a_program_for_an_adapter_is_play_or_edit(m512, image):
 
 @pytest.fixture
 def says(tmp_path, monkeypatch):
-    """says(text) puts a Play for an adapter in place that says this at its end."""
+    """says(text) installs a Play for an adapter that prints this text when it ends."""
     monkeypatch.setenv("M512_PROGRAMS", str(tmp_path))
 
     def put(text):
@@ -702,7 +702,7 @@ def test_an_image_is_not_ignored_by_a_port(m512):
 
 @pytest.mark.parametrize("words", [("--dry-run",), ("--with-trim",), ("--fast",), ("--address", "0"), ("--damaged", "keep")])
 def test_run_without_a_file_takes_no_words_about_one(m512, words):
-    """`run --dry-run` started the application."""
+    """`run --dry-run` once started the application."""
     result = m512("run", *words, "-p", "/dev/no_port")
     assert result.exit_code == 2 and f"{words[0]} is for a file that is flashed" in result.stderr
 

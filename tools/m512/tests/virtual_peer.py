@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Boards at the end of a line in virtual time, for m512 in this process.
 
-Time passes only while m512 sends, waits or reads, so that a test takes the same course on a busy machine as on an idle one, and a
-wait of a minute costs nothing. A byte takes as long as on the real line.
+Time passes only while m512 sends, waits or reads. So a test runs the same on a busy machine as on an idle one, and a wait of a
+minute costs nothing. A byte takes as long as on the real line.
 
     with BlockPeer() as board:                    # a VirtualPeer
         m512("flash", image, "-p", board.path)    # the fixture m512 opens peer://... by open_port()
@@ -19,11 +19,11 @@ from m512.errors import PortError
 BYTE_SECONDS = 10 / 57600
 QUANTUM = 0.005
 _names = itertools.count(1)
-_there = {}  # path -> the End that is plugged in there
+_there = {}  # path -> the End that is plugged in
 
 
 class End(Peer):
-    """The cable's end at the board, and its clock. A subclass has now(), pass_time(seconds), put(data) and get(limit, seconds)."""
+    """The board's end of the cable, and its clock. A subclass has now(), pass_time(seconds), put(data) and get(limit, seconds)."""
 
     plugged = False
 
@@ -39,12 +39,12 @@ class End(Peer):
         self.pull()
 
     def pull(self):
-        """The cable comes off: the PC's end sees the device go, the board hears silence."""
+        """Pulls the cable: the PC's end loses the device, the board sees silence."""
         _there.pop(self.path, None)
         self.plugged = False
 
     def plug(self):
-        """Back again under another name."""
+        """Plugs the cable in again under another name."""
         self.pull()
         self.cut_after, self.moved, self.path = None, 0, f"peer://{next(_names)}"
         _there[self.path], self.plugged = self, True
@@ -54,18 +54,18 @@ class End(Peer):
             raise OSError("device disconnected")
 
     def opened(self):
-        """A program opens the port: what came before is not kept for it."""
+        """Called when a program opens the port. Must drop earlier output."""
 
     def set_rate(self, rate):
-        """The PC's end changes its rate."""
+        """Called when the PC's end changes its rate."""
 
 
 class VirtualPeer(End):
-    """The end of a board that is a class of the tests."""
+    """The end of a board that is a test class."""
 
     def __init__(self):
         self.clock = self.heard_at = self.sent_until = 0.0
-        self.sent = bytearray()  # to the PC; the last of it arrives at sent_until
+        self.sent = bytearray()  # on its way to the PC; the last byte arrives at sent_until
         super().__init__()
 
     def now(self):
@@ -95,7 +95,7 @@ class VirtualPeer(End):
         return min(len(self.sent), max(0, math.ceil((self.sent_until - self.clock) / BYTE_SECONDS - 1e-6)))
 
     def get(self, limit, seconds):
-        """What has come, after a look each QUANTUM: so long an adapter collects bytes."""
+        """What has arrived. It looks every QUANTUM, the time for which an adapter collects bytes."""
         deadline = self.clock + seconds
         while len(self.sent) == self._under_way():
             self.still_plugged()
@@ -111,7 +111,7 @@ class VirtualPeer(End):
 
 
 class SimulatedBoard(End):
-    """A cm5sim.Board, with our images in it."""
+    """A cm5sim.Board with our images."""
 
     SLICE_MS = 1
 
@@ -209,5 +209,5 @@ _RealLink = real.Link
 
 
 def open_port(url, trace=None, image="play"):
-    """What m512 gets for Link(url): a line in virtual time to a board of this process, else the real thing."""
+    """Replaces Link(url): a line in virtual time to a board of this process, or a real port."""
     return (VirtualLink if url.startswith("peer://") else _RealLink)(url, trace)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The commands motion512-play and motion512-edit: the programs that lie beside this file."""
+"""The commands motion512-play and motion512-edit: each runs the program of that name next to this file."""
 import os
 import pathlib
 import sys
