@@ -137,7 +137,7 @@ bool exact_is_over(const player_t *player)
 
 static void move_joints(player_t *player)
 {
-    FOR_ALL_JOINTS(player, joint) {
+    FOR_JOINTS(player, player->present, i, joint) { /* one that was dropped keeps an acceleration, which would add up */
         joint->exact.pos_q16_16 += joint->exact.speed_q16_16;
         joint->exact.speed_q16_16 += joint->exact.accel_q16_16;
     }

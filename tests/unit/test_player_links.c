@@ -91,6 +91,20 @@ static void test_player_dropped_joint_keeps_its_goal(void)
     dropped_joint_stays(PLAYER_LAW_CLASSIC);
 }
 
+/* Its speed would add up in every tick, and its position would run out of the 32 bits after some steps. */
+static void test_player_dropped_joint_does_not_move_on(void)
+{
+    sparse_step(1, 30, 0, 700);
+    start_law(1, PLAYER_LAW_EXACT);
+    for (uint8_t tick = 0; tick < 12; tick++) {
+        (void)player_tick(&player, &l);
+    }
+    player_drop_joints(&player, 1ul << 1);
+    const int32_t at_q16_16 = player.joint[1].exact.pos_q16_16;
+    (void)player_tick(&player, &l);
+    TEST_ASSERT_EQUAL_INT32(at_q16_16, player.joint[1].exact.pos_q16_16);
+}
+
 static void test_player_first_pose_tells_the_joints_of_step_1(void)
 {
     sparse_step(1, 30, 0, 700);
@@ -273,6 +287,7 @@ int main(void)
     RUN_TEST(test_player_absent_joint_is_never_touched_nor_timed);
     RUN_TEST(test_player_does_not_move_an_absent_joint);
     RUN_TEST(test_player_dropped_joint_keeps_its_goal);
+    RUN_TEST(test_player_dropped_joint_does_not_move_on);
     RUN_TEST(test_player_first_pose_tells_the_joints_of_step_1);
     RUN_TEST(test_player_refuses_what_cannot_be_played);
     RUN_TEST(test_player_plays_a_page_play_count_times_before_its_link);
