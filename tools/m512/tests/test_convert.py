@@ -233,10 +233,35 @@ def test_mtn_losses_are_named():
     ):
         assert any(loss.startswith('page 5 "a\\x0ab": ') and text in loss for loss in losses), text
     assert any(
-        loss.startswith("pages 5 ") and "and 6: joints that some steps leave alone would be driven there" in loss and "6: IDs 1" in loss
+        loss.startswith("pages 5 ") and "and 6: joints that some steps leave alone would be driven there to 512" in loss and "6: IDs 1" in loss
         for loss in losses
     )
     assert "no effect on playing" in losses[-1]
+
+
+def test_a_mtn_holds_the_joints_that_a_step_leaves_alone(m512, tmp_path):
+    """`enable=` is for the whole file. What is not used in a step keeps its last target (PAGE_FORMAT.md), so that is what the file says."""
+    (tmp_path / "a.m512").write_text(
+        "motion512 1\n"
+        "page 4 far\n next mid\n step 1s | 1:300 2:700 3:444\n step 1s | 1:310 3:-\n"
+        "page 7 mid\n next off\n step 1s | 1:320 3:?512\n"
+        "page 2 off\n repeat 0\n next end\n step 1s | 2:999\n"
+        "page 9 end\n next end\n step 1s | 1:330\n step 1s | 2:650\n step 1s | 1:340\n"
+        "page 5 alone\n step 1s | 1:350\n"
+    )
+    wrote = m512("convert", tmp_path / "a.m512", tmp_path / "a.mtn")
+    assert wrote.exit_code == 0
+    image = mtn.read((tmp_path / "a.mtn").read_bytes())
+    assert {n: [[image[n].word(k, j) for j in (1, 2, 3)] for k in range(image[n].steps)] for n in (4, 7, 9, 5)} == {
+        4: [[300, 700, 444], [310, 700, 444]],
+        7: [[320, 700, 444]],
+        9: [[330, 700, 444], [330, 650, 444], [340, 650, 444]],
+        5: [[350, 512, 512]],
+    }
+    held = next(line for line in wrote.stderr.splitlines() if "held there at their last position" in line)
+    assert "4: IDs 2 at 700, IDs 3 at 444" in held and '"alone"' not in held
+    guessed = next(line for line in wrote.stderr.splitlines() if "driven there to 512" in line)
+    assert guessed.startswith('loss: page 5 "alone": ') and guessed.endswith("(IDs 2 3)")
 
 
 def test_mtn_losses_of_many_pages_are_one_line_a_kind():

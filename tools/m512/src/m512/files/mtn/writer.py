@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from fractions import Fraction
 from functools import partial
 from typing import Callable
@@ -12,7 +13,9 @@ from m512.files.image import Image, is_erased
 from m512.files.mtn.envelope import BOM, file_checksum
 from m512.files.mtn.reader import IDS, PAGES, UNITS_PER_SECOND, UNUSED_WORD
 from m512.files.page import JOINTS, POS_UNUSED, SCHEDULE_TIME, STEPS, Fault, Kind, Page, is_used
-from m512.files.wording import Findings, counted, named_pages_text
+from m512.files.wording import Findings, counted, named_pages_text, ranges
+
+MIDDLE = 512  # of a joint whose position is not known
 
 
 def rate_of(speed: int) -> Fraction | None:
@@ -35,11 +38,13 @@ def write(image: Image, version: str = "1.01") -> tuple[bytes, list[str]]:
         losses.add(0, "", "the robot's trim is not in a .mtn")
     used = set(image.used())
     blank = 0
-    for number in range(1, PAGES + 1):
-        page = image[number] if number < image.end and not _is_blank(image[number]) else Page()
-        _page_losses(page, enabled, partial(losses.add, number, page.title))
+    pages = {number: image[number] if number < image.end and not _is_blank(image[number]) else Page() for number in range(1, PAGES + 1)}
+    leading = _leading(pages)
+    for number, page in pages.items():
+        lose = partial(losses.add, number, page.title)
+        _page_losses(page, lose)
         blank += number in used and _changes_without_effect(page)
-        lines += _page_lines(page)
+        lines += _page_lines(page, _positions(pages, leading, number, enabled, lose))
     told = losses.lines()
     if blank:
         told.append(
@@ -88,7 +93,59 @@ def _rate(page: Page) -> Fraction:
     return rate_of(page.speed) or max(near, Fraction(2, 10))
 
 
-def _page_lines(page: Page) -> list[str]:
+def _leading(pages: dict[int, Page]) -> dict[int, list[int]]:
+    """The pages that lead to each page by their next or exit link."""
+    leading: dict[int, list[int]] = {number: [] for number in pages}
+    for number, page in pages.items():
+        for target in sorted({page.next, page.exit} - {0}):
+            leading[target].append(number)
+    return leading
+
+
+def _last_position(pages: dict[int, Page], leading: dict[int, list[int]], number: int, step: int, joint: int) -> int | None:
+    """The position that a joint has before a step: from the last step of the page that uses the joint, else from the nearest page that leads
+    to it. None: no such step."""
+    seen, todo = {number}, deque([(number, step)])
+    while todo:
+        here, steps = todo.popleft()
+        for before in reversed(range(steps)):
+            if is_used(word := pages[here].word(before, joint)):
+                return word
+        for earlier in leading[here]:
+            if earlier not in seen:
+                seen.add(earlier)
+                todo.append((earlier, pages[earlier].steps if pages[earlier].repeat else 0))
+    return None
+
+
+def _positions(pages: dict[int, Page], leading: dict[int, list[int]], number: int, enabled: list[bool], lose: Callable[..., None]) -> list[list[int]]:
+    """The positions of all steps of a page. `enable=` holds for the whole file, so a joint that any page uses needs a position in every step:
+    where a step leaves it alone, it gets the one that it has there. Reports these joints: lose(sentence, value)."""
+    page = pages[number]
+    out = [[min(page.word(step, joint) & 0x1FFF, 1023) for joint in range(IDS)] for step in range(page.steps)]
+    held: dict[int, set[int]] = {}
+    unknown = set()
+    for step, positions in enumerate(out):
+        for joint in range(IDS):
+            if enabled[joint] and not is_used(page.word(step, joint)):
+                last = _last_position(pages, leading, number, step, joint)
+                positions[joint] = MIDDLE if last is None else last
+                if last is None:
+                    unknown.add(joint)
+                else:
+                    held.setdefault(last, set()).add(joint)
+    if held:
+        texts = [f"IDs {' '.join(ranges(joints))} at {position}" for position, joints in held.items()]
+        lose("joints that some steps leave alone would be held there at their last position", ", ".join(texts))
+    if unknown:
+        lose(
+            f"joints that some steps leave alone would be driven there to {MIDDLE}, because no step before gives their position",
+            "IDs " + " ".join(ranges(unknown)),
+        )
+    return out
+
+
+def _page_lines(page: Page, positions: list[list[int]]) -> list[str]:
     levels = " ".join(str(min(max(page.compliance(joint) >> 4, 0), 15)) for joint in range(IDS))
     rate_text = f"{float(_rate(page)):.1f}"
     out = [
@@ -98,13 +155,12 @@ def _page_lines(page: Page) -> list[str]:
         f"play_param={page.next} {page.exit} {page.repeat} {rate_text} {page.accel}",
     ]
     for step in range(page.steps):
-        positions = " ".join(str(min(page.word(step, joint) & 0x1FFF, 1023)) for joint in range(IDS))
         pause, time = page.pause(step) / UNITS_PER_SECOND, page.time(step) / UNITS_PER_SECOND
-        out.append(f"step={positions} {pause:.3f} {time:.3f}")
+        out.append(f"step={' '.join(map(str, positions[step]))} {pause:.3f} {time:.3f}")
     return out + ["page_end"]
 
 
-def _page_losses(page: Page, enabled: list[bool], lose: Callable[..., None]) -> None:
+def _page_losses(page: Page, lose: Callable[..., None]) -> None:
     """Reports the losses that matter: lose(sentence, value)."""
     if _name_text(page).encode("utf-8") != page.name:
         lose("the name changes", repr(_name_text(page)))
@@ -125,7 +181,9 @@ def _page_losses(page: Page, enabled: list[bool], lose: Callable[..., None]) -> 
     uneven = [j for j in range(IDS) if page.compliance(j) >> 4 != page.compliance(j) & 15]
     if uneven and page.steps:
         lose("softness differs clockwise and counter-clockwise; the clockwise one is taken", "IDs " + " ".join(map(str, uneven)))
-    _joint_losses(page, enabled, lose)
+    high = {joint for step in range(page.steps) for joint in range(IDS, JOINTS) if page.word(step, joint) and is_used(page.word(step, joint))}
+    if high:
+        lose("positions of joints above ID 25 are left out", "IDs " + " ".join(map(str, sorted(high))))
 
 
 def _changes_without_effect(page: Page) -> bool:
@@ -140,13 +198,3 @@ def _changes_without_effect(page: Page) -> bool:
         )
         or any(page.word(s, j) & POS_UNUSED for s in range(page.steps) for j in range(IDS, JOINTS))
     )
-
-
-def _joint_losses(page: Page, enabled: list[bool], lose: Callable[..., None]) -> None:
-    words = [(joint, page.word(step, joint)) for step in range(page.steps) for joint in range(JOINTS)]
-    high = sorted({joint for joint, word in words if joint >= IDS and word and is_used(word)})
-    driven = sorted({joint for joint, word in words if joint < IDS and enabled[joint] and not is_used(word)})
-    if high:
-        lose("positions of joints above ID 25 are left out", "IDs " + " ".join(map(str, high)))
-    if driven:
-        lose("joints that some steps leave alone would be driven there", "IDs " + " ".join(map(str, driven)))
