@@ -264,6 +264,20 @@ def test_a_mtn_holds_the_joints_that_a_step_leaves_alone(m512, tmp_path):
     assert guessed.startswith('loss: page 5 "alone": ') and guessed.endswith("(IDs 2 3)")
 
 
+def test_the_joints_that_a_mtn_does_not_know_are_told_when_they_would_move(m512, tmp_path):
+    """FILES.md: IDs 26..30 read as 0 in all steps, as in RoboPlus' own images. PAGE_FORMAT.md: that is a position, not "unused"."""
+    (tmp_path / "a.m512").write_text("motion512 1\npage 1 x\n step 1s | 0..25:300\n")
+    (tmp_path / "b.m512").write_text("motion512 1\npage 1 x\n byte63 0x55\n spare 3 9 | 1:5\n step 1s | 0..25:300 26..30:0\n")
+    telling = "servos 26..30: m512 reads a .mtn as position 0 for them, which --joints 0..25 avoids"
+    assert telling in m512("convert", tmp_path / "a.m512", tmp_path / "a.mtn").stderr
+    kept = m512("convert", tmp_path / "b.m512", tmp_path / "b.mtn").stderr
+    assert "(no effect on playing)" in kept and telling not in kept
+    for options, word in (((), 0), (("--joints", "0..25"), 0x4000)):
+        assert m512("convert", tmp_path / "a.mtn", tmp_path / "a.bin", "--force", *options).exit_code == 0
+        page = from_bytes((tmp_path / "a.bin").read_bytes())[1]
+        assert {page.word(0, joint) for joint in range(26, 31)} == {word} and page.word(0, 25) == 300
+
+
 def test_mtn_losses_of_many_pages_are_one_line_a_kind():
     image = Image.empty()
     for number in range(1, 121):

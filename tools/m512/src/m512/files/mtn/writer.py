@@ -47,8 +47,11 @@ def write(image: Image, version: str = "1.01") -> tuple[bytes, list[str]]:
         lines += _page_lines(page, _positions(pages, leading, number, enabled, lose))
     told = losses.lines()
     if blank:
+        moved = f", except for servos {IDS}..{JOINTS - 1}: m512 reads a .mtn as position 0 for them, which --joints 0..{IDS - 1} avoids"
         told.append(
-            f"{counted(blank, 'page')}: what lies in unused steps, unused joints and byte 63 takes RoboPlus' usual values (no effect on playing)"
+            f"{counted(blank, 'page')}: what lies in unused steps, unused joints and byte 63 takes RoboPlus' usual values (no effect on playing"
+            + (moved if any(map(_leaves_high_joints, pages.values())) else "")
+            + ")"
         )
     body = BOM + "\n".join(lines + [""]).encode("utf-8")
     return body + file_checksum(body), told
@@ -196,5 +199,10 @@ def _changes_without_effect(page: Page) -> bool:
             for s in range(page.steps, STEPS)
             for j in range(JOINTS)
         )
-        or any(page.word(s, j) & POS_UNUSED for s in range(page.steps) for j in range(IDS, JOINTS))
+        or _leaves_high_joints(page)
     )
+
+
+def _leaves_high_joints(page: Page) -> bool:
+    """Whether a step leaves a joint alone that has no place in the text, and so is read back as position 0."""
+    return any(not is_used(page.word(step, joint)) for step in range(page.steps) for joint in range(IDS, JOINTS))
