@@ -130,6 +130,7 @@ export class RobotSession implements Session {
             editor: this.editor,
             events: this.events(),
             mayAsk: () => this.status.mayAsk(),
+            left: () => this.leaveRobot(),
             fail: this.messages.fail,
         });
         const { simulated } = this.sources;
@@ -325,6 +326,12 @@ export class RobotSession implements Session {
         this.plays.cancel();
         this.driving.forget();
         this.stops.tell();
+    }
+
+    /** What was asked of one robot must not move or change the next one. */
+    private leaveRobot(): void {
+        this.dropWaiting();
+        this.transfer.leave();
     }
 
     private get isSimulated(): boolean {

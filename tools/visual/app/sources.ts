@@ -22,6 +22,8 @@ export interface SourcesParts {
     readonly events: Omit<SourceEvents, 'motions'>;
     /** Whether the page may ask a robot something by itself. */
     mayAsk(): boolean;
+    /** Another robot is used from now on. */
+    left(): void;
     fail(error: unknown): void;
 }
 
@@ -39,6 +41,8 @@ export class RobotSources {
     /** State of the robot in the page, restored when it is used again. */
     private ofPage: Pick<SessionState, 'image' | 'stopped'> = { image: 'play', stopped: null };
     private wasHidden = false;
+    /** Counts choices of a robot. The last one counts, even if an earlier one takes longer. */
+    private chosen = 0;
 
     constructor(body: Body, parts: SourcesParts) {
         this.parts = parts;
@@ -64,7 +68,9 @@ export class RobotSources {
     }
 
     useSimulated(): void {
+        this.chosen++;
         if (this.isSimulated) return;
+        this.parts.left();
         this.parts.state.set({ source: 'simulated', adapter: null, ...this.ofPage });
         void this.yours.close();
         void this.servos.close();
@@ -78,25 +84,27 @@ export class RobotSources {
         } catch (error) {
             return this.parts.fail(error);
         }
-        await this.servos.close();
+        const mine = ++this.chosen;
+        await this.closeLines();
+        if (mine !== this.chosen) return;
         this.leave('yours');
         this.yours.connect();
     }
 
     /** Never rejects. Errors are reported, and then the robot in the page is used. */
     async connectServos(): Promise<void> {
-        let mayBeClosed = false; // the previous one
+        let mine = 0;
         try {
             if (!(await this.servos.choose())) return; // the chooser was closed: no error
-            mayBeClosed = true;
-            if (!this.isSimulated) this.parts.state.set({ connection: 'closed', version: null, where: null });
-            await this.servos.close();
-            await this.yours.close();
+            mine = ++this.chosen;
+            await this.closeLines();
+            if (mine !== this.chosen) return;
             await this.servos.start('play');
         } catch (error) {
-            if (mayBeClosed && !this.isSimulated) this.useSimulated();
+            if (mine === this.chosen) this.useSimulated();
             return this.parts.fail(error);
         }
+        if (mine !== this.chosen) return this.servos.close();
         this.leave('servos');
         this.parts.state.set({ image: 'play' });
         this.servos.connect();
@@ -111,9 +119,17 @@ export class RobotSources {
         return this.parts.state.get().source === 'yours' ? this.yours : this.withImages;
     }
 
+    /** A port can only be opened again when it is closed. */
+    private async closeLines(): Promise<void> {
+        if (!this.isSimulated) this.parts.state.set({ connection: 'closed', version: null, where: null });
+        await this.servos.close();
+        await this.yours.close();
+    }
+
     private leave(source: 'yours' | 'servos'): void {
         const { image, stopped } = this.parts.state.get();
         if (this.isSimulated) this.ofPage = { image, stopped };
+        this.parts.left();
         this.simulated.pause();
         this.parts.state.set({ source, version: null, where: null, pages: [], stopped: null, adapter: null });
         this.parts.editor.setRobot([]);

@@ -38,6 +38,8 @@ export class RobotTransfer implements Transfer {
     readonly state = new Store<TransferState>(IDLE);
     private readonly parts: TransferParts;
     private stop = new AbortController();
+    /** Aborted when another robot is used. Each transfer holds the signal of the robot that it began with. */
+    private robot = new AbortController();
     private under: PageWrite | null = null;
     private goesOn: () => Promise<TransferEnd> = () => this.read();
 
@@ -62,9 +64,9 @@ export class RobotTransfer implements Transfer {
     read(): Promise<TransferEnd> {
         if (this.isBusy) return Promise.resolve(BUSY);
         this.goesOn = () => this.read();
-        return this.during('reading', async () => {
-            await this.readRobot();
-            this.state.set({ phase: 'idle' });
+        return this.during('reading', async left => {
+            await this.readRobot(left);
+            this.tell(left, { phase: 'idle' });
         });
     }
 
@@ -73,11 +75,13 @@ export class RobotTransfer implements Transfer {
         const document = this.parts.document();
         this.under = null;
         this.goesOn = () =>
-            this.during('writing', async () => {
+            this.during('writing', async left => {
                 await this.orStopped(this.parts.becomeEdit());
-                this.under ??= await this.begin(document, pages);
-                await this.run(this.under);
-                this.state.set({ phase: 'written' });
+                const write = this.under ?? (await this.begin(document, pages, left));
+                stay(left);
+                this.under = write;
+                await this.run(write, left);
+                this.tell(left, { phase: 'written' });
             });
         return this.goesOn();
     }
@@ -90,17 +94,28 @@ export class RobotTransfer implements Transfer {
         this.stop.abort();
     }
 
-    /** Edit takes time to start. Cancelling does not wait for it. */
-    private orStopped(action: Promise<void>): Promise<void> {
-        const { signal } = this.stop;
-        const stopped = new Promise<never>((_, reject) =>
-            signal.addEventListener('abort', () => reject(new RobotError('cancelled')), { once: true }),
-        );
-        return Promise.race([action, stopped]);
+    /** Another robot is used from now on. A transfer with the one before ends and cannot be continued, or its pages would be written into
+     *  the next robot. */
+    leave(): void {
+        this.robot.abort();
+        this.robot = new AbortController();
+        this.stop.abort();
+        this.under = null;
+        this.goesOn = () => this.read();
+        this.state.set(IDLE);
     }
 
-    private async begin(document: MotionDocument, pages: readonly number[]): Promise<PageWrite> {
-        const robot = await this.readRobot();
+    /** Edit takes time to start. Cancelling does not wait for it. */
+    private orStopped(action: Promise<void>): Promise<void> {
+        return Promise.race([action, aborted(this.stop.signal)]);
+    }
+
+    private tell(left: AbortSignal, change: Partial<TransferState>): void {
+        if (!left.aborted) this.state.set(change);
+    }
+
+    private async begin(document: MotionDocument, pages: readonly number[], left: AbortSignal): Promise<PageWrite> {
+        const robot = await this.readRobot(left);
         await this.parts.backUp(robot);
         const wanted = pages.flatMap(page => {
             const [before, after] = [robot[page], pageOf(document, page)];
@@ -112,21 +127,22 @@ export class RobotTransfer implements Transfer {
     }
 
     /** Records the written pages as the robot's, even if the rest failed. */
-    private async run(write: PageWrite): Promise<void> {
+    private async run(write: PageWrite, left: AbortSignal): Promise<void> {
         const changed = (): void => {
             const done = [...write.account.values()].filter(account => account === 'written' || account === 'verified').length;
-            this.state.set({ account: new Map(write.account), done, total: write.account.size });
+            this.tell(left, { account: new Map(write.account), done, total: write.account.size });
         };
         try {
             changed();
             await write.run(this.parts.requests(), { signal: this.stop.signal, changed });
         } finally {
             const written = new Map(write.written.map(({ page, after }) => [page, after]));
-            this.parts.setRobot(this.parts.robot().map((bytes, page) => written.get(page) ?? bytes) as Uint8Array[]);
+            if (!left.aborted) this.parts.setRobot(this.parts.robot().map((bytes, page) => written.get(page) ?? bytes) as Uint8Array[]);
         }
     }
 
-    private async readRobot(): Promise<Uint8Array[]> {
+    private async readRobot(left: AbortSignal): Promise<Uint8Array[]> {
+        stay(left);
         const { format } = this.parts;
         const document = this.parts.document();
         const known = this.parts.robot();
@@ -139,23 +155,35 @@ export class RobotTransfer implements Transfer {
         const pages = await readPages(this.parts.requests(), bytes => format.crc(bytes), {
             known: candidates,
             signal: this.stop.signal,
-            progress: (done, total) => this.state.set({ done, total }),
+            progress: (done, total) => this.tell(left, { done, total }),
         });
+        stay(left);
         this.parts.setRobot(pages);
         return pages;
     }
 
-    private async during(phase: 'reading' | 'writing', action: () => Promise<void>): Promise<TransferEnd> {
+    private async during(phase: 'reading' | 'writing', action: (left: AbortSignal) => Promise<void>): Promise<TransferEnd> {
+        const left = this.robot.signal;
         this.stop = new AbortController();
         this.state.set({ phase, trouble: null, done: 0, total: 0, account: phase === 'reading' ? new Map() : this.state.get().account });
         try {
-            await action();
+            await Promise.race([action(left), aborted(left)]); // a robot in the page that is paused does not answer
             return { isDone: true };
         } catch (error) {
-            if (!(error instanceof RobotError)) this.state.set({ phase: 'stopped', trouble: String(error) });
+            if (!(error instanceof RobotError)) this.tell(left, { phase: 'stopped', trouble: String(error) });
             if (!(error instanceof RobotError)) throw error;
-            this.state.set({ phase: 'stopped', trouble: errorText(error) });
+            this.tell(left, { phase: 'stopped', trouble: errorText(error) });
             return { isDone: false, error };
         }
     }
+}
+
+/** Rejects with RobotError cancelled when the signal is aborted. */
+function aborted(signal: AbortSignal): Promise<never> {
+    return new Promise((_, reject) => signal.addEventListener('abort', () => reject(new RobotError('cancelled')), { once: true }));
+}
+
+/** Throws if another robot is used by now. */
+function stay(left: AbortSignal): void {
+    if (left.aborted) throw new RobotError('cancelled');
 }

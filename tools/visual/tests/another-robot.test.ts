@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// Another robot is chosen while something for the one before is under way: nothing of it reaches the next robot. The session is real; both
+// robots answer from a script.
+import { readFile } from 'node:fs/promises';
+import { afterEach, beforeEach, expect, test, vi } from 'vitest';
+import { RobotSession } from '../app/robot-session.ts';
+import { SimulatedSource } from '../app/simulated-source.ts';
+import type { Body } from '../model/body.ts';
+import type { FormatsWorker } from '../model/file-formats.ts';
+import { wallClock } from '../robot/clock.ts';
+import { Connection } from '../robot/connection.ts';
+import { BytePort } from '../sim/byte-port.ts';
+import { PassingStorage } from '../view/document-storage.ts';
+import { libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
+
+vi.mock('../app/assets.ts', () => ({}));
+
+const BODY = JSON.parse(await readFile(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
+const { format } = await makeFormat();
+const library = await libraryDocument();
+const open: Connection[] = [];
+
+/** A robot whose flash has no motions. sent: the words of all requests, and `remote` for a packet of the remote. */
+function scripted(image: 'play' | 'edit') {
+    const sent: string[] = [];
+    const crc = format.crc(format.empty).toString(16).padStart(4, '0');
+    const answers: Record<string, string> = {
+        '@ver': `image=${image} version=1.0.0 board=cm5 protocol=1 can=list,page${image === 'edit' ? ',save' : ''}`,
+        '@where': 'state=idle page=0 step=0 repetition=0 code=0 dv=96 faulty=0',
+        '@crc': crc,
+    };
+    const port = new BytePort('a robot', bytes => {
+        const text = String.fromCharCode(...bytes);
+        const word = /@\w+/.exec(text)?.[0] ?? 'remote';
+        const [, first, last] = /@crcs (\d+) (\d+)/.exec(text) ?? [];
+        const words = word === '@crcs' ? crc.repeat(Number(last) - Number(first) + 1) : (answers[word] ?? '');
+        sent.push(word);
+        const answer = new TextEncoder().encode(`\x1e${word} ${words}${words && ' '}OK\r\n`);
+        if (word !== 'remote') setTimeout(() => port.push(answer), 5);
+    });
+    return { port, sent };
+}
+
+beforeEach(() => {
+    vi.stubGlobal('document', { hidden: false, addEventListener: () => undefined });
+    vi.stubGlobal('requestAnimationFrame', () => 0);
+});
+afterEach(async () => {
+    for (const connection of open.splice(0)) await connection.close();
+    vi.restoreAllMocks();
+    vi.unstubAllGlobals();
+});
+
+/** The page with its own robot, which runs Play and answers. Yours runs `image`. */
+async function page(image: 'play' | 'edit') {
+    const inPage = scripted('play');
+    const yours = scripted(image);
+    const port = Object.assign(yours.port, { getInfo: () => ({}) });
+    vi.stubGlobal('navigator', { serial: { getPorts: () => Promise.resolve([port]), addEventListener: () => undefined } });
+    vi.spyOn(SimulatedSource.prototype, 'start').mockImplementation(async function (this: SimulatedSource) {
+        const connection = new Connection(inPage.port, wallClock, {
+            state: state =>
+                session.state.get().source === 'simulated' && session.state.set({ connection: state, version: connection.version }),
+            text: () => undefined,
+        });
+        open.push(connection);
+        this.connection = connection;
+        connection.connect();
+    });
+    let stand = (): void => undefined;
+    vi.spyOn(SimulatedSource.prototype, 'prepare').mockReturnValue(new Promise(resolve => (stand = resolve)));
+    vi.spyOn(SimulatedSource.prototype, 'restart').mockReturnValue(Promise.resolve());
+    const parts = { format, player: await makeMotion(), document: library };
+    const formats = { cancel: () => undefined } as unknown as FormatsWorker;
+    const session = new RobotSession(BODY, parts, formats, { storage: new PassingStorage(), isKept: true });
+    await session.documents.start(library);
+    await session.start();
+    session.state.set({ physics: 'on' });
+    await vi.waitFor(() => expect(session.state.get().connection).toBe('ready'));
+    const connect = async (): Promise<void> => {
+        await session.connectYours();
+        await vi.waitFor(() => expect(session.state.get()).toMatchObject({ source: 'yours', connection: 'ready' }));
+    };
+    return { session, yours, inPage, connect, stand: () => stand() };
+}
+
+/** Enough for all answers of a script. */
+const soon = (): Promise<void> => new Promise(resolve => setTimeout(resolve, 400));
+
+test('a motion that waited for the robot in the page to stand up does not play on yours', async () => {
+    const { session, yours, connect, stand } = await page('play');
+    void session.play(2);
+    await connect();
+    stand();
+    await soon();
+    expect(yours.sent).not.toContain('@play');
+});
+
+test('a key that waited for the robot in the page does not move yours', async () => {
+    const { session, yours, connect, stand } = await page('play');
+    session.state.set({ connection: 'asking' });
+    session.remote(new Set(['up']));
+    session.remote(new Set());
+    await connect();
+    stand();
+    await soon();
+    expect(yours.sent).not.toContain('remote');
+});
+
+test('pages on their way into the robot in the page are not written into yours, which is read and backed up', async () => {
+    const { session, yours, connect, stand } = await page('edit');
+    void session.playEdited(2);
+    await vi.waitFor(() => expect(session.transfer.state.get().phase).toBe('writing')); // Edit starts
+    await connect();
+    stand();
+    await soon();
+    for (const word of ['@open', '@data', '@save', '@play']) expect(yours.sent).not.toContain(word);
+    expect(session.documents.state.get().backups.map(({ robot }) => robot)).toHaveLength(1);
+    await session.transfer.tryAgain();
+    expect(yours.sent).not.toContain('@open');
+});
+
+test('who follows live is told to stop', async () => {
+    const { session, connect } = await page('edit');
+    const stopped = vi.fn();
+    session.onStop(stopped);
+    await connect();
+    expect(stopped).toHaveBeenCalledTimes(1);
+    session.useSimulated();
+    expect(stopped).toHaveBeenCalledTimes(2);
+});
+
+test('yours chosen again, and twice at once: its port is opened anew', async () => {
+    const { session, connect } = await page('play');
+    await connect();
+    await connect();
+    await Promise.all([connect(), connect()]);
+    await soon();
+    expect(session.state.get().connection).toBe('ready');
+});
