@@ -51,6 +51,7 @@ export const PROTOCOL = 1;
 const STATES: readonly string[] = ['idle', 'ready', 'approach', 'paused', 'playing'];
 const LIST_MS = 4000;
 const PAGE_MS = 2000;
+const MOVES: RequestOptions = { moves: true };
 
 function fields(answer: string): Map<string, string> {
     return new Map(
@@ -166,24 +167,24 @@ function fromDense(text: string): Uint8Array {
 }
 
 export async function play(requests: Requests, page: number, code = 0): Promise<void> {
-    await requests.ask(code ? `@play ${page} ${code}` : `@play ${page}`);
+    await requests.ask(code ? `@play ${page} ${code}` : `@play ${page}`, MOVES);
 }
 
 /** Shapes the play from the next step on: blend -100..100 (left..right), rate 10..400 %, amplitude 0..150 %. Repeat it within a second, or
  *  the robot ends the play by itself. */
 export async function drive(requests: Requests, blend: number, rate: number, amplitude: number): Promise<void> {
-    await requests.ask(`@drive ${blend} ${rate} ${amplitude}`);
+    await requests.ask(`@drive ${blend} ${rate} ${amplitude}`, MOVES);
 }
 
 export type Command = 'stop' | 'break' | 'pause' | 'resume' | 'reset';
 
 export async function command(requests: Requests, what: Command): Promise<void> {
-    await requests.ask(`@${what}`, { isUrgent: what === 'stop' || what === 'break' });
+    await requests.ask(`@${what}`, { stops: what === 'stop' || what === 'break', moves: what === 'resume' });
 }
 
 /** No IDs: all servos. */
 export async function setTorque(requests: Requests, on: boolean, ids: readonly number[] = []): Promise<void> {
-    await requests.ask(['@torque', on ? 'on' : 'off', ...ids].join(' '), { timeoutMs: PAGE_MS });
+    await requests.ask(['@torque', on ? 'on' : 'off', ...ids].join(' '), { timeoutMs: PAGE_MS, moves: on });
 }
 
 /** Moves slowly to a pose, ramped, at most `degreesPerSecond` (1..360). positions: servo units by ID; null: the joint stays as it is.
@@ -195,7 +196,7 @@ export async function movePose(requests: Requests, degreesPerSecond: number, pos
     const digits = positions
         .slice(first, last + 1)
         .map(position => (position === null ? '---' : position.toString(16).padStart(3, '0').toUpperCase()));
-    await requests.ask(`@move ${degreesPerSecond} ${first} ${digits.join('')}`);
+    await requests.ask(`@move ${degreesPerSecond} ${first} ${digits.join('')}`, MOVES);
 }
 
 /** ERR numbers of PROTOCOL.md that the code reacts to. */
@@ -218,17 +219,17 @@ export async function setBlend(requests: Requests, percent: number): Promise<voi
 
 /** Plays a second page over the play, on these joints or those of its first step; null ends it. Only Play has layers. */
 export async function setLayer(requests: Requests, page: number | null, ids: readonly number[] = []): Promise<void> {
-    await requests.ask(page === null ? '@layer off' : ['@layer', page, ...ids].join(' '));
+    await requests.ask(page === null ? '@layer off' : ['@layer', page, ...ids].join(' '), { moves: page !== null });
 }
 
 /** Moves a joint to a position (servo units) at a limited speed (1..360) and holds it there. */
 export async function aim(requests: Requests, id: number, position: number, degreesPerSecond: number): Promise<void> {
-    await requests.ask(`@aim ${id} ${position} ${degreesPerSecond}`);
+    await requests.ask(`@aim ${id} ${position} ${degreesPerSecond}`, MOVES);
 }
 
 /** Swings a joint about a centre: servo units, a period of 125..30000 ms. */
 export async function swing(requests: Requests, id: number, centre: number, amplitude: number, periodMs: number): Promise<void> {
-    await requests.ask(`@swing ${id} ${centre} ${amplitude} ${periodMs}`);
+    await requests.ask(`@swing ${id} ${centre} ${amplitude} ${periodMs}`, MOVES);
 }
 
 /** Returns these joints, or all, to the play. Without a play they stay where they are. */

@@ -18,13 +18,16 @@ const SETTLE_MS = 500;
 export interface RequestOptions {
     readonly timeoutMs?: number;
     readonly signal?: AbortSignal;
-    /** Goes to the head of the queue. */
-    readonly isUrgent?: boolean;
+    /** Stops the robot. Goes to the head of the queue and cancels the requests there that would move it afterwards. */
+    readonly stops?: boolean;
+    /** Moves the robot. */
+    readonly moves?: boolean;
 }
 
 interface Request {
     readonly text: string;
     readonly timeoutMs: number;
+    readonly moves: boolean;
     readonly resolve: (answer: string) => void;
     readonly reject: (error: RobotError) => void;
 }
@@ -48,10 +51,11 @@ export class Requests {
     ask(text: string, options: RequestOptions = {}): Promise<string> {
         return new Promise((resolve, reject) => {
             if (this.isEnded) return reject(new RobotError('not-connected'));
-            const request = { text, timeoutMs: options.timeoutMs ?? ANSWER_MS, resolve, reject };
+            const request = { text, timeoutMs: options.timeoutMs ?? ANSWER_MS, moves: options.moves ?? false, resolve, reject };
             options.signal?.addEventListener('abort', () => this.cancel(request), { once: true });
             if (options.signal?.aborted) return reject(new RobotError('cancelled'));
-            if (options.isUrgent) this.queue.unshift(request);
+            if (options.stops) for (const one of this.queue.filter(({ moves }) => moves)) this.cancel(one);
+            if (options.stops) this.queue.unshift(request);
             else this.queue.push(request);
             this.next();
         });

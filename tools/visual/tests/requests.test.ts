@@ -138,6 +138,25 @@ test('a walk by remote is heard of by @where, and ends by @stop', async () => {
     expect((await bench.until(askWhere(connection.requests))).state).toBe('idle');
 });
 
+test('what would move the robot and waits behind a long answer is dropped by Stop and Break; the rest is asked', async () => {
+    const { bench, connection } = await ready('play', 29);
+    const { requests } = connection;
+    await bench.until(setTorque(requests, true));
+    const codes = async (waiting: readonly Promise<unknown>[]): Promise<string[]> =>
+        (await bench.until(Promise.allSettled(waiting))).map(end =>
+            end.status === 'fulfilled' ? 'done' : (end.reason as RobotError).code,
+        );
+    const pose = Array.from({ length: 31 }, (_, id) => (id === 3 ? 600 : null));
+    const list = askList(requests);
+    const moves = [play(requests, 2), movePose(requests, 60, pose), aim(requests, 3, 600, 60), swing(requests, 3, 512, 40, 2000)];
+    const others = [askPose(requests), setRate(requests, 100)];
+    const all = [list, ...moves, ...others, command(requests, 'stop')];
+    expect(await codes(all)).toEqual(['done', ...moves.map(() => 'cancelled'), 'done', 'done', 'done']);
+    expect((await bench.until(askWhere(requests))).state).toBe('idle');
+    const late = [askList(requests), play(requests, 2), command(requests, 'break')];
+    expect(await codes(late)).toEqual(['done', 'cancelled', 'done']);
+});
+
 test('a board that says nothing: time-out, and the late answer does not answer the next question', async () => {
     const { bench, connection } = await ready('play', 17);
     const hurried = bench.until(connection.requests.ask('@list', { timeoutMs: 5 }));
