@@ -44,9 +44,16 @@ export class Driving {
         this.keys.hold(held);
     }
 
-    /** Drops a key press that still waits for the robot. */
+    /** Drops a key press that still waits for the robot, and stops a walk by the stick. */
     forget(): void {
         this.wish = null;
+        this.stick.stop();
+    }
+
+    /** As if the person had let go of all keys and of the stick. */
+    letGo(): void {
+        this.forget();
+        if (this.keys.isHeld) this.keys.hold(new Set());
     }
 
     drive(stick: Stick | null): void {

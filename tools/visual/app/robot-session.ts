@@ -164,6 +164,8 @@ export class RobotSession implements Session {
             connection: () => this.connection,
             becomeDriven: () => this.images.becomeDriven(),
         });
+        // A hidden page hears of no key and no gamepad, not even that they were let go.
+        document.addEventListener('visibilitychange', () => document.hidden && this.driving.letGo());
         watchCauses({ messages: this.messages, robot: this.state, editor: this.editor.state, documents: this.documents.state });
     }
 
@@ -331,6 +333,7 @@ export class RobotSession implements Session {
     /** What was asked of one robot must not move or change the next one. */
     private leaveRobot(): void {
         this.dropWaiting();
+        this.driving.letGo();
         this.transfer.leave();
     }
 

@@ -29,6 +29,8 @@ export class StickDrive {
     private readonly fail: (error: unknown) => void;
     private stick: Stick | null = null;
     private isRunning = false;
+    /** Set until the stick is let go: a gamepad is read at every picture, and would start the walk again at once. */
+    private mustRest = false;
 
     constructor(connection: () => Connection, walkPage: () => number | null, fail: (error: unknown) => void) {
         this.connection = connection;
@@ -37,8 +39,15 @@ export class StickDrive {
     }
 
     set(stick: Stick | null): void {
-        this.stick = stick;
-        if (stick && !this.isRunning) void this.run();
+        if (!stick) this.mustRest = false;
+        this.stick = this.mustRest ? null : stick;
+        if (this.stick && !this.isRunning) void this.run();
+    }
+
+    /** Stops the walk. A stick that is pushed drives again only when it was let go. */
+    stop(): void {
+        this.mustRest ||= this.stick !== null;
+        this.stick = null;
     }
 
     private async run(): Promise<void> {
@@ -55,7 +64,7 @@ export class StickDrive {
             }
             await command(requests, 'stop');
         } catch (error) {
-            this.stick = null;
+            this.stop();
             this.fail(error);
         } finally {
             this.isRunning = false;

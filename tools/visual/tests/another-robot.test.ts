@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Another robot is chosen while something for the one before is under way: nothing of it reaches the next robot. The session is real; both
-// robots answer from a script.
+// Another robot is chosen, or the page is hidden, while something for the robot is under way: nothing of it reaches the next robot, and
+// nobody holds a key of a hidden page. The session is real; both robots answer from a script.
 import { readFile } from 'node:fs/promises';
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { RobotSession } from '../app/robot-session.ts';
@@ -19,6 +19,11 @@ const BODY = JSON.parse(await readFile(new URL('../../../build/wasm/body.json', 
 const { format } = await makeFormat();
 const library = await libraryDocument();
 const open: Connection[] = [];
+const tab = {
+    hidden: false,
+    looks: [] as (() => void)[],
+    addEventListener: (_: string, look: () => void) => void tab.looks.push(look),
+};
 
 /** A robot whose flash has no motions. sent: the words of all requests, and `remote` for a packet of the remote. */
 function scripted(image: 'play' | 'edit') {
@@ -28,6 +33,7 @@ function scripted(image: 'play' | 'edit') {
         '@ver': `image=${image} version=1.0.0 board=cm5 protocol=1 can=list,page${image === 'edit' ? ',save' : ''}`,
         '@where': 'state=idle page=0 step=0 repetition=0 code=0 dv=96 faulty=0',
         '@crc': crc,
+        '@list': '20:4:"walk"',
     };
     const port = new BytePort('a robot', bytes => {
         const text = String.fromCharCode(...bytes);
@@ -42,7 +48,8 @@ function scripted(image: 'play' | 'edit') {
 }
 
 beforeEach(() => {
-    vi.stubGlobal('document', { hidden: false, addEventListener: () => undefined });
+    Object.assign(tab, { hidden: false, looks: [] });
+    vi.stubGlobal('document', tab);
     vi.stubGlobal('requestAnimationFrame', () => 0);
 });
 afterEach(async () => {
@@ -137,4 +144,20 @@ test('yours chosen again, and twice at once: its port is opened anew', async () 
     await Promise.all([connect(), connect()]);
     await soon();
     expect(session.state.get().connection).toBe('ready');
+});
+
+test('a page that is hidden lets go of the stick and of the keys', async () => {
+    const { session, yours, connect } = await page('play');
+    await connect();
+    await vi.waitFor(() => expect(session.state.get().pages).toHaveLength(1));
+    session.drive({ x: 0, y: 1 });
+    session.remote(new Set(['up']));
+    await vi.waitFor(() => expect(yours.sent).toContain('@drive'));
+    tab.hidden = true;
+    for (const look of tab.looks) look();
+    await vi.waitFor(() => expect(yours.sent).toContain('@stop'));
+    const before = yours.sent.length;
+    await soon();
+    expect(yours.sent.slice(before)).not.toContain('@drive');
+    expect(yours.sent.slice(before)).not.toContain('remote');
 });

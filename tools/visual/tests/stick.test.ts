@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// The stick of a gamepad: a stick that is pushed all the time must not start a walk again.
+import { afterEach, expect, test, vi } from 'vitest';
+import { StickDrive } from '../app/stick.ts';
+import type { Connection } from '../robot/connection.ts';
+import { RobotError } from '../robot/robot-error.ts';
+
+const PUSHED = { x: 0, y: 1 };
+const WALK = 20;
+
+afterEach(() => void vi.useRealTimers());
+
+/** A robot that answers at once. plays: it accepts a play and a drive. */
+function driven() {
+    vi.useFakeTimers();
+    const sent: string[] = [];
+    const robot = { plays: true };
+    const ask = async (text: string): Promise<string> => {
+        sent.push(text.split(' ', 1)[0] ?? '');
+        if (/^@(play|drive)/.test(text) && !robot.plays) throw new RobotError('refused', 'nothing plays', { number: 4 });
+        return '';
+    };
+    const fail = vi.fn();
+    const stick = new StickDrive(
+        () => ({ requests: { ask } }) as unknown as Connection,
+        () => WALK,
+        fail,
+    );
+    /** The page reads a gamepad at every picture. */
+    const hold = async (pictures: number): Promise<void> => {
+        for (let i = 0; i < pictures; i++) {
+            stick.set(PUSHED);
+            await vi.advanceTimersByTimeAsync(16);
+        }
+    };
+    const plays = (): number => sent.filter(word => word === '@play').length;
+    return { stick, robot, sent, fail, hold, plays };
+}
+
+test('a stick that is still pushed after Stop walks again only when it was let go', async () => {
+    const { stick, robot, hold, plays, sent } = driven();
+    await hold(60);
+    expect(plays()).toBe(1);
+    stick.stop();
+    const before = sent.length;
+    await hold(60);
+    robot.plays = false; // the walk has ended
+    await hold(60);
+    robot.plays = true;
+    await hold(60);
+    expect(plays()).toBe(1);
+    expect(sent.slice(before)).not.toContain('@drive');
+    stick.set(null);
+    await hold(10);
+    expect(plays()).toBe(2);
+});
+
+test('a robot that refuses is asked once for each push, not at every picture', async () => {
+    const { stick, robot, fail, hold } = driven();
+    robot.plays = false;
+    await hold(60);
+    expect(fail).toHaveBeenCalledTimes(1);
+    stick.set(null);
+    await hold(60);
+    expect(fail).toHaveBeenCalledTimes(2);
+});
