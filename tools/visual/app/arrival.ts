@@ -60,7 +60,11 @@ export class Arrival {
         const { state, messages, editor, transfer } = this.parts;
         if (!(await transfer.read()).isDone) return;
         const pages = editor.state.get().robot.filter(bytes => bytes !== null);
-        await transfer.keep(pages).catch(messages.fail);
+        try {
+            await transfer.keep(pages);
+        } catch (error) {
+            return messages.fail(error);
+        }
         if (state.get().source === 'servos') return this.tellServos().catch(messages.fail);
         messages.say({ text: TEXTS.robot.isBackedUp, tone: 'calm' });
     }

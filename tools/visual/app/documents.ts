@@ -47,6 +47,8 @@ export class KeptDocuments implements Documents {
     private readonly shown: Shown;
     private underWay = 0;
     private log: HistoryLog = EMPTY_LOG;
+    /** The last version of each document that this tab has stored, by id. */
+    private readonly newest = new Map<string, KeptDocument>();
     /** The open document is an unedited copy. It is dropped when the tab closes or another document opens. */
     private isUntouched = false;
 
@@ -99,6 +101,7 @@ export class KeptDocuments implements Documents {
         const [next] = [...left].sort(NEWEST_FIRST);
         if (next) await this.open(next.id);
         else await this.create(TEXTS.document.mine);
+        this.newest.delete(openId);
         await this.parts.storage.removeDocument(openId).catch((error: unknown) => this.parts.failed(error));
     }
 
@@ -120,10 +123,17 @@ export class KeptDocuments implements Documents {
         this.follow(this.put({ ...entry, image: imageOf(document), position: positionOf(log, history) }, change));
     }
 
-    /** The document matters more than its history: if both do not fit, the history is dropped. */
-    private put(document: KeptDocument, change: StepsChange): Promise<void> {
+    /** The document matters more than its history: if both do not fit, the history is dropped. By then the document may have been edited
+     *  again or removed. */
+    private async put(document: KeptDocument, change: StepsChange): Promise<void> {
         const { storage } = this.parts;
-        return storage.putDocument(document, change).catch(() => storage.putDocument(document, DROP_ALL));
+        this.newest.set(document.id, document);
+        try {
+            await storage.putDocument(document, change);
+        } catch {
+            const newest = this.newest.get(document.id);
+            if (newest) await storage.putDocument(newest, DROP_ALL);
+        }
     }
 
     /** Stores a robot's pages unless its newest backup has the same content. */
@@ -133,8 +143,8 @@ export class KeptDocuments implements Documents {
         const last = backups.find(backup => backup.robot === robot);
         if (last?.image.every((byte, i) => byte === image[i])) return;
         const backup: Backup = { id: this.parts.newId(), robot, image, takenMs: this.parts.nowMs() };
-        this.state.set({ backups: [backup, ...backups] });
         await this.parts.storage.putBackup(backup);
+        this.state.set({ backups: [backup, ...this.state.get().backups] });
     }
 
     /** Opens a stored document with its history, or a copy if another tab has it open. */

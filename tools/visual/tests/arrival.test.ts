@@ -29,3 +29,23 @@ test.each([
     await new Promise(resolve => setTimeout(resolve));
     expect(fail).toHaveBeenCalledTimes(times);
 });
+
+test('a robot whose backup could not be stored is not said to be backed up', async () => {
+    const [fail, say] = [vi.fn(), vi.fn()];
+    const nothing = (): void => undefined;
+    const arrival = new Arrival({
+        state: new Store({ source: 'yours' } as SessionState),
+        messages: { fail, say },
+        status: { tell: nothing, look: nothing, ask: nothing },
+        sources: { isSimulated: false, connection: { version: { image: 'edit' }, requests: { ask: () => Promise.resolve('') } } },
+        editor: { state: new Store({ robot: [] }) },
+        transfer: {
+            read: () => Promise.resolve({ isDone: true }),
+            keep: () => Promise.reject(new RobotError('no-backup')),
+        },
+    } as unknown as ConstructorParameters<typeof Arrival>[0]);
+    arrival.connectionChanged('ready');
+    await vi.waitFor(() => expect(fail).toHaveBeenCalledTimes(1));
+    await new Promise(resolve => setTimeout(resolve));
+    expect(say).not.toHaveBeenCalled();
+});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The autosave: a tab closed at any moment has kept every finished edit and nothing of an unfinished one.
 import { readFileSync } from 'node:fs';
-import { expect, test } from 'vitest';
+import { expect, test, vi } from 'vitest';
 import { KeptDocuments } from '../app/documents.ts';
 import { DocumentEditor } from '../app/editor.ts';
 import type { Body } from '../model/body.ts';
@@ -355,4 +355,29 @@ test('a backup is kept once for each state of a robot', async () => {
     await documents.backUp('other', library.pages);
     expect(documents.state.get().backups.map(one => one.robot)).toEqual(['other', 'usb', 'usb']);
     expect((await disk.load()).backups).toHaveLength(3);
+});
+
+test('a backup that could not be stored is not taken for one at the next try', async () => {
+    const disk = new PassingStorage();
+    const { documents } = await openTab(disk);
+    const put = vi.spyOn(disk, 'putBackup').mockRejectedValue(new Error('QuotaExceededError'));
+    await expect(documents.backUp('usb', library.pages)).rejects.toThrow('QuotaExceededError');
+    await expect(documents.backUp('usb', library.pages)).rejects.toThrow('QuotaExceededError');
+    expect(documents.state.get().backups).toEqual([]);
+    put.mockRestore();
+    await documents.backUp('usb', library.pages);
+    expect((await disk.load()).backups).toHaveLength(1);
+});
+
+test('of two edits the first could not be stored, and is not stored over the second when it is tried again', async () => {
+    const disk = new PassingStorage();
+    const { editor } = await openTab(disk);
+    let fail = (_: Error): void => undefined;
+    vi.spyOn(disk, 'putDocument').mockReturnValueOnce(new Promise((_, reject) => (fail = reject)));
+    editor.dispatch(editor.edits.rename(now(editor), 2, 'curtsy'));
+    editor.dispatch(editor.edits.rename(now(editor), 3, 'salute'));
+    fail(new Error('QuotaExceededError'));
+    await settle();
+    const [kept] = (await disk.load()).documents;
+    expect(kept?.image).toEqual(imageOf(now(editor)));
 });
