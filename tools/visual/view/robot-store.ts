@@ -26,10 +26,21 @@ async function open(): Promise<IDBDatabase> {
     return request(asked);
 }
 
-async function withStore<T>(mode: IDBTransactionMode, action: (store: IDBObjectStore) => IDBRequest<T>): Promise<T> {
+/** Resolves when the transaction is complete: a disk that is full takes the request and refuses afterwards. */
+async function withStore<T>(
+    mode: IDBTransactionMode,
+    action: (store: IDBObjectStore) => IDBRequest<T>,
+    options: IDBTransactionOptions = {},
+): Promise<T> {
     const database = await open();
     try {
-        return await request(action(database.transaction(STORE, mode).objectStore(STORE)));
+        const transaction = database.transaction(STORE, mode, options);
+        const asked = action(transaction.objectStore(STORE));
+        await new Promise<void>((resolve, reject) => {
+            transaction.oncomplete = () => resolve();
+            transaction.onabort = () => reject(transaction.error);
+        });
+        return asked.result;
     } finally {
         database.close();
     }
@@ -62,17 +73,7 @@ export async function loadServos(): Promise<readonly Uint8Array[] | null> {
 
 /** Resolves when the data is on disk and would survive a power failure. */
 export async function saveServos(memories: readonly Uint8Array[]): Promise<void> {
-    const database = await open();
-    try {
-        const transaction = database.transaction(STORE, 'readwrite', { durability: 'strict' });
-        transaction.objectStore(STORE).put(memories, SERVOS);
-        await new Promise<void>((resolve, reject) => {
-            transaction.oncomplete = () => resolve();
-            transaction.onabort = () => reject(transaction.error);
-        });
-    } finally {
-        database.close();
-    }
+    await withStore('readwrite', store => store.put(memories, SERVOS), { durability: 'strict' });
 }
 
 export function forgetServos(): Promise<void> {
