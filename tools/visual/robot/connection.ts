@@ -133,7 +133,7 @@ export class Connection {
             this.on('open-failed');
             return;
         }
-        if (this.current !== 'opening') return void this.shut(); // stopped meanwhile
+        if (this.current !== 'opening') return void this.port.close().catch(() => undefined); // stopped meanwhile; it may be lost already
         const banner = new LoaderBanner();
         const line = new Line(this.port, this.clock, {
             text: bytes => {

@@ -233,6 +233,32 @@ test('closing while something waits rejects it', async () => {
     expect(() => connection.requests).toThrow(RobotError);
 });
 
+test('closed while its port is still being opened: the port is free again', async () => {
+    const bench = await RobotBench.make('play', 30);
+    let opened = (): void => undefined;
+    const slow = new Promise<void>(resolve => (opened = resolve));
+    const port = {
+        name: 'slow',
+        get readable() {
+            return bench.port.readable;
+        },
+        get writable() {
+            return bench.port.writable;
+        },
+        open: () => slow.then(() => bench.port.open()),
+        close: () => bench.port.close(),
+    };
+    const connection = new Connection(port, bench.clock, { state: () => undefined, text: () => undefined });
+    connection.connect();
+    await settle();
+    const closed = connection.close();
+    opened();
+    await closed;
+    await settle();
+    expect(connection.state).toBe('closed');
+    await bench.port.open(); // rejects if it is still open
+});
+
 test('driven by a stick: @drive is in force, and ends with the play when the stick falls silent', async () => {
     const { bench, connection } = await ready('play', 23);
     await bench.until(play(connection.requests, 20));
