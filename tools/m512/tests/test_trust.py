@@ -161,6 +161,42 @@ def test_in_place_does_not_make_numbers_of_a_hand_written_text(m512, files):
     assert "new" in (files / "own.m512").read_text()
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["pages", "x.bin", "merge", "hand.m512", "all", "--replace", "-o", "hand.m512", "--force"],
+        ["convert", "x.mtn", "hand.m512", "--onto", "hand.m512", "--force"],
+    ],
+)
+def test_a_hand_written_text_that_gave_some_of_the_motions_stays(m512, files, monkeypatch, words):
+    monkeypatch.chdir(files)
+    (files / "x.mtn").write_bytes(formats.encode(files / "x.mtn", read_text(TEXT))[0])
+    result = m512(*words)
+    assert result.exit_code == 5 and "hand.m512 is somebody's text" in result.stderr
+    assert (files / "hand.m512").read_text() == BY_HAND
+    assert m512(*[word.replace("hand", "own") for word in words]).exit_code == 0
+
+
+@pytest.mark.parametrize("size", [65_024, 65_536, 131_072])
+@pytest.mark.parametrize("suffix", ["m512", "hex", "mtn", "csv"])
+def test_a_text_of_the_size_of_an_image_is_a_text(m512, files, size, suffix):
+    """An image is known by its size, and a text can have any size."""
+    path = files / f"size.{suffix}"
+    data = formats.encode(path, read_text(TEXT), 3)[0][: size - 10]
+    path.write_bytes(data[:-2] + b" " * (size - len(data)) + data[-2:])
+    wanted = {"m512": formats.TEXT, "hex": formats.HEX, "mtn": formats.MTN, "csv": formats.CSV}[suffix]
+    assert formats.recognise(path.read_bytes(), path) == wanted
+
+
+@pytest.mark.parametrize("name", [b":hand", b"type=motion", b"page,", b"motion512 1", b" \n:"])
+def test_an_image_is_an_image_whatever_its_first_page_is_called(files, name):
+    image = read_text(TEXT)
+    image[1].name = name
+    image[1].seal()
+    for data in (image.to_bytes()[512:], bytes(image[1]) * 128, bytes(image[1]) * 256):
+        assert formats.recognise(data, files / "x.m512") == formats.BINARY
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="takes root's privilege away by a tool of Linux")
 @pytest.mark.parametrize("words", [["pages", "x.bin", "rename", "3", "new", "--in-place"], ["convert", "own.m512", "x.bin", "--force"]])
 def test_a_write_protected_file_stays(files, words):

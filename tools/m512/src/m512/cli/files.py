@@ -135,7 +135,8 @@ def convert(
     image = formats.load(source, int(bits) if bits else None, formats.load(onto) if onto else None)
     if onto and image.form != formats.MTN:
         raise click.UsageError(f"--onto is for a .mtn as SOURCE; {source} has a page 0 of its own")
-    formats.keep_text(source, target)
+    for text in filter(None, (source, onto)):
+        formats.keep_text(text, target)
     notes, losses = list(image.notes), []
     moved, left = {}, []
     if only:

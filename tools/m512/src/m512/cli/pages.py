@@ -46,12 +46,15 @@ class Source:
             ui.say(f"note: {note}")
         return image
 
-    def store(self, remarks: Iterable[str], output: Any, in_place: bool, yes: bool, number: int | None = None) -> None:
-        """Writes the changed image to `output`, or else back to its file or board. `number`: the page of a .csv."""
+    def store(self, remarks: Iterable[str], output: Any, in_place: bool, yes: bool, number: int | None = None, other: Path | None = None) -> None:
+        """Writes the changed image to `output`, or else back to its file or board. `number`: the page of a .csv. `other`: a second file
+        that the motions come from."""
         for remark in remarks:
             ui.say(f"note: {remark}")
-        if not self.board:
-            formats.keep_text(Path(self.word), Path(output or self.word))
+        target = output or ("" if self.board else self.word)
+        for source in (self.word, other or ""):
+            if source and target:
+                formats.keep_text(Path(source), Path(target))
         if output:
             losses = formats.save(Path(output), self.image, number)
             for loss in losses:
@@ -269,7 +272,7 @@ def merge(source: Source, other: Path, page: Sequence[str], replace: bool, **whe
     from m512.pages import operations
 
     image = formats.load(other, source.bits)
-    source.store(operations.place(source.image, image, page_moves(page, image), replace), **where)
+    source.store(operations.place(source.image, image, page_moves(page, image), replace), **where, other=other)
 
 
 @pages.command(epilog="Example: m512 pages lib.bin mirror kick_left 41 --in-place")

@@ -30,9 +30,9 @@ def recognise(data: bytes, path: Path) -> str:
     """The kind of a file, from its contents. The suffix decides only if the contents do not. FileError: no known kind."""
     if not data:
         raise FileError(f"{path}: empty, so it holds no motions")
-    if len(data) in raw.SIZES:
-        return BINARY
     start = data[:400].lstrip(b"\xef\xbb\xbf \t\r\n")
+    if len(data) in raw.SIZES and b"\0" in start:  # a page has zeros behind its name
+        return BINARY
     if start.startswith(b":"):
         return HEX
     if start.startswith(b"type="):
@@ -42,6 +42,8 @@ def recognise(data: bytes, path: Path) -> str:
     lines = [line.strip() for line in start.split(b"\n")]
     if any(line.startswith(b"motion512") for line in lines):
         return TEXT
+    if len(data) in raw.SIZES:
+        return BINARY
     kind = BY_SUFFIX.get(path.suffix.lower())
     if kind in (None, BINARY):
         raise FileError(
