@@ -1,6 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Keys and a stick become `@drive` lines; the shape of a play from the command line."""
 
+import os
+import sys
+import time
+import tty
+
 import pytest
 
 from m512.board import driving
@@ -95,6 +100,93 @@ def test_drive_that_fails_stops_the_robot():
     with pytest.raises(NoAnswerError):
         driving.drive(board, Script([]), link, lambda stick: None)
     assert board.asked[-1][1] == "stop"
+
+
+@pytest.fixture
+def keyboard(monkeypatch):
+    """The writing end of a terminal that is this process's standard input."""
+    master, slave = os.openpty()
+    tty.setraw(slave)
+    monkeypatch.setattr(sys, "stdin", open(slave, encoding="utf-8"))
+    monkeypatch.setattr("atexit.register", lambda function: function)  # the console's own, for this descriptor
+    yield master
+    os.close(master)
+
+
+def driven_by(keys_of, master, typed):
+    """What `drive` asks of the board while these bytes are typed. It fails after ten seconds without an end."""
+    link, deadline = Line(), time.monotonic() + 10
+    board = Board(link)
+
+    def told(stick):
+        assert time.monotonic() < deadline, "the robot walks on"
+        time.sleep(0.002)
+
+    with keys_of() as keys:
+        os.write(master, typed)
+        driving.drive(board, keys, link, told)
+    return [request for _, request in board.asked]
+
+
+@pytest.mark.parametrize("byte", [b"\xf6", b"\xe1", b"\xff"])
+def test_a_key_that_is_no_utf8_does_not_end_the_keyboard(keyboard, byte):
+    """Terminals that are set to Latin-1 send such bytes, and some send them for Alt with a key."""
+    from m512.cli.shape import _keys
+
+    assert driven_by(_keys, keyboard, b"w" + byte + b"x")[-1] == "break"
+
+
+def test_a_drive_whose_keyboard_ends_is_stopped(keyboard, monkeypatch, capsys):
+    from serial.tools.miniterm import Console
+
+    from m512.cli.shape import _keys
+
+    for end in ("", OSError(5, "Input/output error"), ValueError("I/O operation on closed file")):
+
+        def getkey(_, end=end):
+            if isinstance(end, Exception):
+                raise end
+            return end
+
+        monkeypatch.setattr(Console, "getkey", getkey)
+        assert driven_by(_keys, keyboard, b"")[-1] == "stop"
+        assert "the keyboard has ended" in capsys.readouterr().err
+
+
+# What xterm, the Linux console and rxvt send for these keys.
+STEERING = {"d": ["\x1b[C", "\x1bOC", "\x1b[1;5C"], "a": ["\x1b[D", "\x1bOD"], "w": ["\x1b[A", "\x1bOA"], "s": ["\x1b[B", "\x1bOB"]}
+OTHER = ["\x1b[F", "\x1bOF", "\x1b[4~", "\x1bOS", "\x1b[14~", "\x1bOQ", "\x1b[[B", "\x1b[[D", "\x1b[H", "\x1b[3~", "\x1b[24;2~", "\x1b[7^", "\x1b"]
+
+
+def after(*presses):
+    keys, stick = driving.Keys(), driving.Stick()
+    for pressed in presses:
+        for char in pressed:
+            keys.press(char)
+        keys.update(stick, 0.0)
+    return stick
+
+
+@pytest.mark.parametrize("letter", STEERING)
+def test_arrows_steer_as_their_letters_do(letter):
+    for sequence in STEERING[letter]:
+        assert after(sequence) == after(letter), sequence
+        assert after(sequence * 2) == after(letter * 2), sequence
+        for cut in range(1, len(sequence)):  # a slow line delivers a key in pieces
+            assert after(sequence[:cut], sequence[cut:]) == after(letter), sequence
+
+
+@pytest.mark.parametrize("sequence", OTHER)
+def test_other_keys_with_a_sequence_change_nothing(sequence):
+    assert after(sequence) == driving.Stick()
+    for cut in range(1, len(sequence)):
+        assert after(sequence[:cut], sequence[cut:]) == driving.Stick()
+
+
+@pytest.mark.parametrize("key, done", [(" ", "stop"), ("x", "break"), ("\x03", "break")])
+def test_a_stop_counts_behind_any_key(key, done):
+    for before in ("\x1b", *OTHER, *sum(STEERING.values(), [])):
+        assert after(before + key).done == done and after(before, key).done == done, before
 
 
 def test_pad_steers_and_speeds_by_its_left_stick():

@@ -29,11 +29,10 @@ class Echo(PtyPeer):
 @pytest.fixture
 def term():
     running = []
+    environment = {"PATH": "/usr/bin:/bin", "TERM": "xterm", "PYTHONIOENCODING": "utf-8:strict"}  # strict: as in all languages but C
 
     def start(*args):
-        child = pexpect.spawn(
-            sys.executable, ["-m", "m512", "term", *map(str, args)], timeout=300, encoding="utf-8", env={"PATH": "/usr/bin:/bin", "TERM": "xterm"}
-        )
+        child = pexpect.spawn(sys.executable, ["-m", "m512", "term", *map(str, args)], timeout=300, encoding="utf-8", env=environment)
         running.append(child)
         return child
 
@@ -60,6 +59,23 @@ def test_term_passes_bytes_both_ways_and_quits(term, tmp_path):
         child.close()
         assert child.exitstatus == 0
     assert b"<list>" in (tmp_path / "log").read_bytes()
+
+
+def test_a_key_that_is_no_utf8_does_not_end_the_terminal(term):
+    """Terminals that are set to Latin-1 send such bytes, and some send them for Alt with a key."""
+    with Echo() as board:
+        child = term("-p", board.path)
+        child.expect("to quit")
+        child.send("list\r")
+        child.expect("<list>")
+        os.write(child.child_fd, b"a\xf6b\r")
+        child.expect("b>")
+        child.send("where\r")
+        child.expect("<where>")
+        child.send("\x1dq")
+        child.expect(pexpect.EOF)
+        child.close()
+        assert child.exitstatus == 0
 
 
 def test_term_sends_a_file_line_by_line(term, tmp_path):

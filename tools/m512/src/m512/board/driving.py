@@ -7,6 +7,8 @@ that hangs does not leave a robot walking.
 
 from __future__ import annotations
 
+import re
+from collections import deque
 from dataclasses import dataclass
 from typing import Any, Callable, Protocol
 
@@ -17,6 +19,10 @@ from m512.errors import BoardError
 PERIOD = 0.05  # seconds between two lines
 ASK_EVERY = 20  # lines between two checks that the play still runs
 RATES, AMPLITUDES, BLENDS = (10, 400), (0, 150), (-100, 100)
+# What a terminal sends for an arrow, End, F4 and so on. The last letter of some is a letter that drives.
+SEQUENCE = re.compile(r"\x1b(?:O|\[\[?[0-9;]*)([A-Za-z~^$@])")
+BEGUN = re.compile(r"\x1b(O|\[\[?[0-9;]*)?\Z")  # the rest of it has not arrived
+ARROWS = {"A": "w", "B": "s", "C": "d", "D": "a"}
 
 
 @dataclass
@@ -45,17 +51,23 @@ class Source(Protocol):
 class Keys:
     """Keys of a terminal, which reports key presses but no releases. So the steering returns to straight by itself."""
 
-    HELP = "a d steer, w s speed, e q size, space stops, x at once"
+    HELP = "a d or arrows left right steer, w s or up down speed, e q size, space stops, x at once"
     STEER, BACK, FASTER, LARGER = 25.0, 60.0, 10.0, 10.0  # percent a key; percent a second; percent a key
 
     def __init__(self) -> None:
-        self.pressed = ""
+        self.typed: deque[str] = deque()  # since the last update; another thread presses
+        self.begun = ""  # the first part of a key's sequence
 
     def press(self, key: str) -> None:
-        self.pressed += key.lower()
+        self.typed.append(key)
 
     def update(self, stick: Stick, seconds: float) -> None:
-        keys, self.pressed = self.pressed, ""
+        pressed = self.begun
+        while self.typed:
+            pressed += self.typed.popleft()
+        begun = BEGUN.search(pressed)
+        self.begun = begun[0] if begun else ""
+        keys = SEQUENCE.sub(_arrow, pressed.removesuffix(self.begun)).lower()
         if not any(key in "ad" for key in keys):
             stick.blend -= max(-self.BACK * seconds, min(self.BACK * seconds, stick.blend))
         for key in keys:
@@ -65,6 +77,11 @@ class Keys:
             stick.layer ^= key == "f"
             if key in " x\x03":
                 stick.done = "stop" if key == " " else "break"
+
+
+def _arrow(sequence: re.Match[str]) -> str:
+    """The letter that does what this arrow does. Empty for any other key, and for F2 of the Linux console (ESC [ [ B)."""
+    return "" if sequence[0].startswith("\x1b[[") else ARROWS.get(sequence[1], "")
 
 
 class Pad:

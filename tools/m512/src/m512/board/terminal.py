@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import io
 import sys
 import threading
 import time
@@ -55,6 +56,8 @@ class Terminal:
         from serial.tools.miniterm import Console
 
         console = Console()
+        if isinstance(sys.stdin, io.TextIOWrapper):
+            sys.stdin.reconfigure(errors="replace")  # a terminal set to Latin-1 sends bytes that are no UTF-8
         self._say(f"{self.link.url}, 57600 8N1. Ctrl-] h for help, Ctrl-] q to quit.")
         reader = threading.Thread(target=self._read, args=(console,), daemon=True)
         console.setup()

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -62,7 +62,7 @@ def shape(rate: int | None, amplitude: int | None, blend: int | None, reset: boo
 @click.command(
     epilog="""\b
 Examples:
-  m512 drive walk                keys of the terminal; keep a or d pressed to steer
+  m512 drive walk                keys of the terminal; keep a or d (or an arrow) pressed to steer
   m512 drive walk --layer wave_over       f lays a second page over it: it waves while it walks
   m512 drive walk --pad          the first game pad (needs pygame)"""
 )
@@ -96,6 +96,7 @@ def _tell(stick: Stick) -> None:
 @contextmanager
 def _keys() -> Iterator[Keys]:
     """Keys as they are pressed, without Enter."""
+    import io
     import sys
     import threading
 
@@ -107,21 +108,29 @@ def _keys() -> Iterator[Keys]:
     if not sys.stdin.isatty():
         raise RefusedError("driving by keys needs a terminal; --pad takes a game pad")
     console, keys = Console(), Keys()
+    if isinstance(sys.stdin, io.TextIOWrapper):
+        sys.stdin.reconfigure(errors="replace")  # a terminal set to Latin-1 sends bytes that are no UTF-8
     console.setup()
 
     def read() -> None:
-        while True:
-            key = console.getkey()
-            keys.press(key)
-            if key in ("", "\x03"):
-                return
+        why = ""
+        try:
+            for key in iter(console.getkey, ""):
+                keys.press(key)
+                if key == "\x03":
+                    return
+        except Exception as error:  # whatever it is, no key can stop the robot any more
+            why = f" ({error})"
+        keys.press(" ")
+        ui.say(f"\nthe keyboard has ended{why}")
 
     thread = threading.Thread(target=read, daemon=True)
     thread.start()
     try:
         yield keys
     finally:
-        console.cleanup()
+        with suppress(Exception):  # a terminal that is gone cannot be set back
+            console.cleanup()
 
 
 @contextmanager
