@@ -11,6 +11,7 @@ import pytest
 from block_peer import PROMPTED, BlockPeer, BlockPtyPeer
 from conftest import REPO
 from hex_files import hex_file
+from intelhex import IntelHex
 from test_flash import make_app
 
 from m512 import __version__
@@ -105,6 +106,31 @@ def test_hex_with_some_motion_pages_changes_only_those(tmp_path):
     assert sorted(found.pages) == [0xE6, 0xE7, 0xF2, 0xF3]
     with pytest.raises(FileError, match="whole 512-byte motion pages"):
         plan(hex_file(tmp_path / "half.hex", (0xE000 + 3 * 512, page[:256])))
+
+
+@pytest.mark.parametrize(
+    "words, pages",
+    [
+        (["pages", "part.hex", "rename", "3", "new", "--in-place"], {3, 9}),
+        (["pages", "part.hex", "delete", "3", "-o", "new.hex"], {3, 9}),
+        (["pages", "part.hex", "copy", "3", "20", "-o", "new.hex"], {3, 9, 20}),
+        (["pages", "part.hex", "renumber", "3", "127", "-o", "new.hex"], {3, 9, 127}),
+        (["pages", "part.hex", "extract", "3", "-o", "new.hex"], {3}),
+        (["pages", "part.hex", "merge", "x.bin", "1", "-o", "new.hex"], {1, 3, 9}),
+        (["convert", "part.hex", "new.hex"], {3, 9}),
+        (["convert", "part.hex", "new.hex", "--only", "walk"], {3}),
+        (["convert", "part.hex", "new.hex", "--bits", "12", "--scale", "10", "--joints", "1..18"], {3, 9}),
+    ],
+)
+def test_hex_with_some_motion_pages_stays_one_when_it_is_changed(m512, files, monkeypatch, words, pages):
+    """README: an Intel HEX file replaces only the pages that it contains. Page 9 is empty, and it is in the file."""
+    monkeypatch.chdir(files)
+    hex_file("part.hex", (0xE000 + 3 * 512, bytes(read_text(TEXT)[3])), (0xE000 + 9 * 512, EMPTY))
+    done = m512(*words)
+    assert done.exit_code == 0, done.stderr
+    made = IntelHex("part.hex" if "--in-place" in words else "new.hex")
+    assert {(at - 0xE000) // 512 for at in made.addresses()} == pages
+    assert len(made.addresses()) == 512 * len(pages)
 
 
 def test_motions_at_an_address_are_judged_as_a_motion_file(tmp_path):

@@ -242,6 +242,8 @@ def extract(source: Source, page: Sequence[str], **where: Any) -> None:
     remarks = []
     if 0 not in numbers and source.image.first == 0 and any(source.image[0].trims()):
         remarks.append("page 0, the robot's trim, is left behind: extract 0 as well keeps it")
+    if source.image.given is not None:
+        source.image.given &= numbers
     for number, here in source.image.items():
         if number not in numbers:
             source.image[number] = Page()

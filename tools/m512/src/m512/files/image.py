@@ -36,6 +36,7 @@ class Image:
     notes: list[str] = field(default_factory=list)
     joints: dict[int, str] = field(default_factory=dict)  # names, if the file has some
     form: str = ""  # the kind of file it was read from (formats.TEXT, BINARY, ...)
+    given: set[int] | None = None  # the pages that an Intel HEX file contains, if not all
 
     @classmethod
     def empty(cls, count: int = 128) -> Image:
@@ -97,7 +98,7 @@ class Image:
     def resized(self, count: int) -> tuple[Image, list[str]]:
         """A copy with pages 0..count-1, and a list of losses. Links to missing pages become empty."""
         losses = []
-        out = Image([Page() for _ in range(count)], 0, self.bits, list(self.notes), dict(self.joints), self.form)
+        out = Image([Page() for _ in range(count)], 0, self.bits, list(self.notes), dict(self.joints), self.form, self.given)
         lost = self.beyond(count)
         if lost:
             losses.append(f"{named_pages_text(lost)}: no room among {count} pages, left out")
@@ -159,17 +160,22 @@ def from_hex(text: str, bits: int = 10) -> Image:
             raise FileError(f"0x{start:05X}..0x{start + len(data) - 1:05X} is not made of whole 512-byte pages")
         for at in range(0, len(data), PAGE_BYTES):
             image[(start - base + at) // PAGE_BYTES] = Page(data[at : at + PAGE_BYTES])
-    given = sum(len(data) for _, data in segments) // PAGE_BYTES
-    if given < count:
-        image.notes.append(f"the file holds {given} of {count} pages; the others are taken as empty")
+    given = {(start - base + at) // PAGE_BYTES for start, data in segments for at in range(0, len(data), PAGE_BYTES)}
+    if len(given) < count:
+        image.given = given
+        image.notes.append(f"the file holds {len(given)} of {count} pages; the others are taken as empty")
     return image
 
 
 def to_hex(image: Image) -> str:
+    """The Intel HEX text of an image. What came from a HEX file of some pages has these pages and those that were filled since: flashing
+    it replaces no others."""
     from intelhex import IntelHex
 
     hexfile = IntelHex()
-    hexfile.frombytes(image.to_bytes(), offset=HEX_BASE[image.end] + PAGE_BYTES * image.first)
+    for number, page in image.items():
+        if image.given is None or number in image.given or bytes(page) != EMPTY:
+            hexfile.frombytes(bytes(page), offset=HEX_BASE[image.end] + PAGE_BYTES * number)
     out = StringIO()
     hexfile.write_hex_file(out)
     return out.getvalue()

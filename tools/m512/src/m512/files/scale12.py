@@ -43,7 +43,7 @@ def judged(image: Image, bits: int | None) -> Image:
 
 def scaled(image: Image, bits: int) -> tuple[Image, list[str]]:
     """A copy of `image` with `bits` (10 or 12), and a report. Pages with a wrong checksum stay as they are."""
-    out = Image([page.copy() for page in image.pages], image.first, bits, list(image.notes), form=image.form)
+    out = Image([page.copy() for page in image.pages], image.first, bits, list(image.notes), form=image.form, given=image.given)
     work = _Work(bits)
     for number, page in out.items():
         if page.fault() is Fault.CHECKSUM:

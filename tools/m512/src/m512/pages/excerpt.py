@@ -48,6 +48,7 @@ def excerpt(image: Image, wanted: Iterable[int], count: int) -> Excerpt:
     free = iter(sorted(set(room) - set(kept)))
     moved = {**kept, **{number: next(free) for number in sorted(taken - set(kept))}}
     out = Image([Page() for _ in range(count)], 0, image.bits, list(image.notes), dict(image.joints), image.form)
+    out.given = None if image.given is None else set(moved.values())
     if image.first == 0:
         out[0] = image[0]
     for old, new in moved.items():
