@@ -90,8 +90,18 @@ static bool may_take_byte(void)
     return channel_is_open() || !keys_wait() || (console_peek(&next) && next == CHANNEL_BEGIN);
 }
 
+/* Takes the end of a motion before the next key or request: it restores the rate and reads the pose, which the key may need.
+ * In most modes nobody else takes events, and an old end must not count for the next play. */
+static void take_end(void)
+{
+    while (performer_is_idle(&the_performer) && the_performer.events.count != 0) {
+        cmd_play_events(false);
+    }
+}
+
 static void take_byte(uint8_t byte)
 {
+    take_end();
     const bool is_stale = the_dialog.stale_bytes != 0;
     const channel_event_t event = channel_byte(byte);
     the_dialog.stale_bytes = (uint8_t)(the_dialog.stale_bytes - is_stale);

@@ -4,8 +4,10 @@
 #include "editor_stage.h"
 #include "unity.h"
 
+#include <stdio.h>
 #include <string.h>
 #include "bus.h"
+#include "crc16.h"
 
 #define UP "\033[A"
 #define DOWN "\033[B"
@@ -400,6 +402,58 @@ static void test_page_0_is_not_played(void)
     TEST_ASSERT_TRUE(performer_is_idle(&the_performer));
 }
 
+/* ---- a program's motion while a person types ---- */
+
+/* A program sends a request through the channel. */
+static void request(const char *words)
+{
+    char line[100];
+    (void)snprintf(line, sizeof line, "\x1E%s%04X\r", words,
+                   (unsigned)crc16_bytes(CRC16_START, (const uint8_t *)words, (uint16_t)strlen(words)));
+    type(line);
+}
+
+/* A program plays page 1, which ends with joint 1 at 421, while the person has typed `typed`. */
+static void type_during_a_programs_play(const char *typed)
+{
+    request("@play 1 ");
+    TEST_ASSERT_FALSE(performer_is_idle(&the_performer));
+    type(typed);
+    for (uint8_t s = 0; s < 20 && !performer_is_idle(&the_performer); s++) {
+        run_ms(1000);
+    }
+    TEST_ASSERT_TRUE(performer_is_idle(&the_performer));
+    TEST_ASSERT_EQUAL_UINT16(421, goal());
+}
+
+/* The rate is for this play: the end of an earlier one does not take it away. */
+static void test_end_of_a_programs_play_does_not_end_the_next_one(void)
+{
+    type_during_a_programs_play("play");
+    type(" 5 50\r");
+    run_ms(1000);
+    TEST_ASSERT_EQUAL_UINT8(DIALOG_PLAY, the_dialog.mode);
+    TEST_ASSERT_EQUAL_UINT16(50, the_performer.shape.rate_percent);
+    TEST_ASSERT_NULL(strstr(message(), "OK"));
+}
+
+static void test_write_stores_the_pose_in_which_a_programs_play_ended(void)
+{
+    type_during_a_programs_play("write");
+    type(" 5\r");
+    TEST_ASSERT_EQUAL_STRING("0421", cell(0, 1));
+    TEST_ASSERT_EQUAL_UINT16(421, word_at(PAGE_AT_STEP0 + 5 * PAGE_STEP_BYTES + 2));
+}
+
+static void test_key_behind_a_list_changes_the_pose_in_which_a_programs_play_ended(void)
+{
+    type("goto 0 1\r");
+    type("list 1 2\r");
+    type_during_a_programs_play("");
+    type("]");
+    TEST_ASSERT_EQUAL_UINT16(422, goal());
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -432,5 +486,8 @@ int main(void)
     RUN_TEST(test_what_is_typed_behind_a_break_waits_for_the_end);
     RUN_TEST(test_space_just_behind_the_end_was_meant_for_the_play);
     RUN_TEST(test_page_0_is_not_played);
+    RUN_TEST(test_end_of_a_programs_play_does_not_end_the_next_one);
+    RUN_TEST(test_write_stores_the_pose_in_which_a_programs_play_ended);
+    RUN_TEST(test_key_behind_a_list_changes_the_pose_in_which_a_programs_play_ended);
     return UNITY_END();
 }
