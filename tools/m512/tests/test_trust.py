@@ -13,9 +13,11 @@ from conftest import REPO
 from hex_files import hex_file
 from intelhex import IntelHex
 from test_flash import make_app
+from virtual_peer import VirtualLink
 
-from m512 import __version__
+from m512 import __version__, ui
 from m512.board import block, bus, ports
+from m512.board.client import Client
 from m512.board.download import Report
 from m512.board.link import Link
 from m512.board.memory import plan
@@ -286,6 +288,89 @@ def test_changing_a_board_shows_the_change_and_asks(m512, board):
     assert result.exit_code == 5 and "walk" in result.stderr and "--yes" in result.stderr and bytes(board.flash) == before
     assert m512("pages", board.path, "delete", "3", "--yes").exit_code == 0
     assert board.flash[0xE000 + 3 * 512 :][:512] == EMPTY
+
+
+def with_page(number, name):
+    """A page that somebody makes while m512 waits for an answer."""
+    return read_text(f"motion512 1\npage {number} {name}\n  step 1s | 1..18:300\n")[number]
+
+
+def meanwhile(monkeypatch, happens):
+    """The user says yes to m512's question, and before that something happens."""
+    monkeypatch.setattr(ui, "confirm", lambda question, yes: happens())
+
+
+def test_what_a_person_saves_in_edit_during_the_question_stays(m512, monkeypatch, started):
+    """Pages 7 and 9 are saved while m512 waits. Page 0 was never written, and saving wears the flash."""
+    edit = started("boot-cm5.hex", "edit-cm5.hex", text=TEXT + "page 7 bow\n  step 1s | 1:600\n", applied=True)
+    edit.board.flash[0xE000:0xE200] = b"\xff" * 512
+    edit.board.reset()
+    edit.pass_time(1)
+    new = {7: with_page(7, "deep_bow"), 9: with_page(9, "kick")}
+
+    def saves():
+        with VirtualLink(edit.path) as link:
+            client = Client(link)
+            for number, page in new.items():
+                client.save_page(number, page)
+
+    meanwhile(monkeypatch, saves)
+    result = m512("pages", edit.path, "rename", "3", "march")
+    assert result.exit_code == 0, result.stderr
+    flash = bytes(edit.board.flash)
+    assert [flash[0xE000 + 512 * n :][:512] for n in new] == [bytes(page) for page in new.values()]
+    assert flash[0xE000 + 512 * 3 :][:5] == b"march" and flash[0xE000:0xE200] == b"\xff" * 512
+
+
+def test_a_page_that_a_person_saves_in_edit_during_the_question_is_not_replaced(m512, monkeypatch, started):
+    edit = started("boot-cm5.hex", "edit-cm5.hex", text=TEXT, applied=True)
+
+    def saves():
+        with VirtualLink(edit.path) as link:
+            Client(link).save_page(3, with_page(3, "run"))
+
+    meanwhile(monkeypatch, saves)
+    result = m512("pages", edit.path, "renumber", "3", "20")
+    assert result.exit_code == 5 and 'page 3 "run": changed on the board' in result.stderr and "Nothing was written" in result.stderr, result.stderr
+    assert bytes(edit.board.flash[0xE000 + 512 * 3 :][:512]) == bytes(with_page(3, "run"))
+    assert bytes(edit.board.flash[0xE000 + 512 * 20 :][:512]) in (EMPTY, b"\xff" * 512)
+
+
+@pytest.mark.parametrize("number, code", [(7, 0), (3, 5)])
+def test_what_another_program_writes_during_the_question_stays(m512, monkeypatch, board, number, code):
+    """A board at its loader's prompt. Page 50 is erased and stays so."""
+    board.flash[0xE000 + 512 * 50 : 0xE000 + 512 * 51] = b"\xff" * 512
+    new = bytes(with_page(number, "new"))
+
+    def writes():
+        board.flash[0xE000 + 512 * number : 0xE000 + 512 * (number + 1)] = new
+
+    meanwhile(monkeypatch, writes)
+    result = m512("pages", board.path, "rename", "3", "march")
+    assert result.exit_code == code and ('page 3 "new": changed on the board' in result.stderr) == (code == 5), result.stderr
+    assert board.flash[0xE000 + 512 * number :][:512] == new
+    assert board.flash[0xE000 + 512 * 50 :][:512] == b"\xff" * 512
+    assert board.flash[0xE000 + 512 * 3 :][:5] == (b"march" if code == 0 else b"new\0\0")
+    assert code == 0 or board.left[-1] == 0
+
+
+def test_play_keeps_its_erased_pages_erased(m512, started):
+    """A write of a page takes 10 ms of the board's time and some of its flash's life, and changes nothing that a robot does."""
+    play = started("boot-cm5.hex", "play-cm5.hex", text=TEXT, applied=True)
+    play.board.flash[0xE000 + 512 * 50 : 0xE000 + 512 * 51] = b"\xff" * 512
+    play.board.reset()
+    play.pass_time(1)
+    result = m512("pages", play.path, "rename", "3", "march", "--yes")
+    assert result.exit_code == 0, result.stderr
+    assert bytes(play.board.flash[0xE000 + 512 * 50 :][:512]) == b"\xff" * 512 and bytes(play.board.flash[0xE000 + 512 * 3 :][:5]) == b"march"
+
+
+def test_a_link_beyond_the_last_page_is_no_change(m512, board):
+    image = read_text(TEXT)
+    image[3].next = 200
+    board.flash[0xE000 + 512 * 3 : 0xE000 + 512 * 4] = bytes(image[3].seal())
+    result = m512("pages", board.path, "rename", "1", "stood", "--yes")
+    assert result.exit_code == 0 and "page 3" not in result.stderr and board.flash[0xE000 + 512 * 3 + 25] == 200, result.stderr
 
 
 @pytest.mark.parametrize("at_prompt, left", [(True, 0), (False, 2)])

@@ -12,14 +12,18 @@ ask for the MODE button, '#' every 15 ms until the banner comes
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Callable, Union
+
+from click import Abort
 
 from m512.board import banner
 from m512.board.block import IDENTITY, BlockLoader
 from m512.board.factory import FactoryLoader
 from m512.board.factory_line import KNOCK, PROMPT
 from m512.board.link import Link
-from m512.errors import NoAnswerError, RefusedError
+from m512.errors import M512Error, NoAnswerError, PortError, RefusedError
 
 May = Callable[[str], None]
 Loader = Union[BlockLoader, FactoryLoader]
@@ -155,6 +159,18 @@ def enter(link: Link, say: Callable[[str], None], seconds: float = WAIT_SECONDS,
 def give_back(loader: Loader) -> None:
     """Leaves the board as enter() found it: at the loader's prompt, or restarted. For use when nothing was written."""
     loader.leave(STAY if loader.was_at_prompt else RESET)
+
+
+@contextmanager
+def as_found(loader: Loader) -> Iterator[None]:
+    """Leaves the board as it was found when something ends the block early: an error, a no, Ctrl-C. Not after a PortError."""
+    try:
+        yield
+    except PortError:
+        raise
+    except (M512Error, KeyboardInterrupt, Abort):
+        give_back(loader)
+        raise
 
 
 def reset_by_application(link: Link, say: Callable[[str], None], may: May = refuse) -> bool:

@@ -3,16 +3,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from m512 import ui
 from m512.board.client import Client
 from m512.board.link import Link
-from m512.board.memory import MOTIONS, Plan
+from m512.board.memory import FLASH_PAGE, MOTIONS, Plan
 from m512.errors import BoardError, NoAnswerError, RefusedError
-from m512.files.image import Image, from_bytes
+from m512.files.image import Image, from_bytes, is_erased
 from m512.files.page import EMPTY, PAGE_BYTES, Page
-from m512.files.wording import named_pages_text
+from m512.files.wording import named_pages_text, pages_text
 
 ERASED = b"\xff" * PAGE_BYTES
 
@@ -47,24 +47,69 @@ def _read_pages(client: Client) -> Image:
     return image
 
 
-def write_motions(url: str, image: Image, board: str = "") -> None:
-    """Makes the board's motions equal to `image`: through Edit if it runs there, else through the boot loader. board: as for
-    read_motions."""
+def write_motions(url: str, found: Image, image: Image, board: str = "") -> None:
+    """Writes the pages of `image` that differ from `found`, the result of read_motions: through Edit if it runs there, else through the boot
+    loader. board: as for read_motions. RefusedError: one of these pages has changed on the board since then."""
+    numbers = [number for number, page in image.items() if page != found[number]]
     with Link(url, image="edit") as link:
         try:
             client = Client(link)
         except NoAnswerError:
             client = None
         if client is not None and client.can_save:
-            save_pages(client, image, list(range(image.end)))
+            _must_be_as_found(numbers, found, client.page)
+            for done, number in enumerate(numbers):
+                _must_be_as_found([number], found, client.page, numbers[:done])
+                client.save_page(number, image[number])
             return
         from m512.board import download, loaders
 
         loader = loaders.enter(link, ui.say, board=board)
-        data = image.to_bytes()
-        plan = Plan({(MOTIONS[0] + at) // 256: data[at : at + 256] for at in range(0, len(data), 256)}, has_motions=True)
-        ui.say(str(download.download(loader, plan, ui.phase)))
+        with loaders.as_found(loader):
+            with ui.phase("Comparing") as progress:
+                other = loader.different(_flash_pages(numbers, found), progress)
+            _must_be_as_found(sorted({_motion_page(page) for page in other}), found, lambda number: Page(loader.read(*_area(number))))
+        ui.say(str(download.download(loader, Plan(_flash_pages(numbers, image), has_motions=True), ui.phase)))
         download.start(loader)
+
+
+def _must_be_as_found(numbers: list[int], found: Image, read: Callable[[int], Page], written: Sequence[int] = ()) -> None:
+    """RefusedError if the board no longer holds what was found on these pages, for example because a person saved one meanwhile.
+    `read` reads a page of the board. `written`: pages that were written before."""
+    changed = {}
+    for number in numbers:
+        there = read(number)
+        if there != found[number] and not all(_is_nothing(number, page) for page in (there, found[number])):
+            changed[number] = there.title
+    if changed:
+        done = f"Only {pages_text(written)} had been written before that" if written else "Nothing was written"
+        raise RefusedError(
+            f"{named_pages_text(changed)}: changed on the board after m512 had read it, and stays as it is there. {done}. "
+            "Repeat the command: it reads the board again"
+        )
+
+
+def _is_nothing(number: int, page: Page) -> bool:
+    """Whether a page of a board is erased or empty. An empty page 0 may hold the trim."""
+    return is_erased(page) or (bytes(page) == EMPTY if number == 0 else page.is_empty and not page.fault())
+
+
+def _area(number: int) -> tuple[int, int]:
+    """Start and end address of a motion page."""
+    return MOTIONS[0] + number * PAGE_BYTES, MOTIONS[0] + (number + 1) * PAGE_BYTES
+
+
+def _motion_page(flash_page: int) -> int:
+    return (flash_page * FLASH_PAGE - MOTIONS[0]) // PAGE_BYTES
+
+
+def _flash_pages(numbers: list[int], image: Image) -> dict[int, bytes]:
+    """These motion pages as flash pages: index -> bytes."""
+    return {
+        (_area(number)[0] + at) // FLASH_PAGE: bytes(image[number])[at : at + FLASH_PAGE]
+        for number in numbers
+        for at in range(0, PAGE_BYTES, FLASH_PAGE)
+    }
 
 
 def save_pages(client: Client, image: Image, numbers: list[int], confirm: Callable[[str], None] = lambda question: None) -> list[int]:

@@ -4,8 +4,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
-from contextlib import contextmanager
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -14,7 +12,7 @@ import click
 from click.core import ParameterSource
 
 from m512 import ui
-from m512.errors import FileError, M512Error, NoAnswerError, PortError, RefusedError
+from m512.errors import FileError, NoAnswerError, RefusedError
 
 
 class Finite(click.FloatRange):
@@ -138,7 +136,7 @@ def _flash(
     as_json: bool,
     start: bool,
 ) -> None:
-    from m512.board import download, memory
+    from m512.board import download, loaders, memory
     from m512.board.block import BlockLoader
     from m512.files.wording import counted
 
@@ -158,7 +156,7 @@ def _flash(
     with link:
         if fast and isinstance(loader, BlockLoader) and not loader.go_faster():
             ui.say("note: the fast rate does not work here; going on at 57,600")
-        with as_found(loader):
+        with loaders.as_found(loader):
             todo = _agreed(loader, plan, yes)
         report = download.download(loader, plan, ui.phase, todo)
         ui.say(str(report))
@@ -285,7 +283,7 @@ def backup(folder: Path, what: str, port: str, board: str, wait: float, as_json:
     backups.must_be_possible(folder)
     link, loader = connect(port, wait, board=board)
     with link:
-        with as_found(loader):
+        with loaders.as_found(loader):
             made = backups.take(loader, folder, areas, ui.phase)
         loaders.give_back(loader)
     if as_json:
@@ -327,7 +325,7 @@ def restore(folder: Path, what: str | None, yes: bool, port: str, board: str, wa
     link, loader = connect(port, wait, yes, board)
     with link:
         pages = backups.flash_pages(saved, areas)
-        with as_found(loader):
+        with loaders.as_found(loader):
             todo, cells, changes = _compare(loader, saved, areas, pages)
             if todo or cells:
                 ui.confirm("Write this to the board?", yes)
@@ -344,20 +342,6 @@ def restore(folder: Path, what: str | None, yes: bool, port: str, board: str, wa
             loaders.give_back(loader)
     if as_json:
         ui.show(json.dumps({"flash_pages": len(todo), "eeprom_cells": len(cells), "changes": [change.as_dict() for change in changes]}, indent=2))
-
-
-@contextmanager
-def as_found(loader: Any) -> Iterator[None]:
-    """Leaves the board as it was found when something ends the block early: an error, a no, Ctrl-C. Not after a PortError."""
-    from m512.board import loaders
-
-    try:
-        yield
-    except PortError:
-        raise
-    except (M512Error, KeyboardInterrupt, click.Abort):
-        loaders.give_back(loader)
-        raise
 
 
 def _compare(loader: Any, saved: Any, areas: list[str], pages: Any) -> Any:

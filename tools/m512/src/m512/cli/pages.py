@@ -37,7 +37,7 @@ class Source:
             from m512.board.motions import read_motions
 
             image = read_motions(self.word, self.which_board)
-            self.found = image.resized(image.end)[0]
+            self.found = image.copy()
             return image
         if Path(self.word).is_dir():
             raise FileError(f"{self.word} is a folder; the motions of a backup are its file motions.bin")
@@ -77,7 +77,7 @@ class Source:
             ui.say("The board holds this already.")
             return
         ui.confirm("Write this to the board?", yes)
-        write_motions(self.word, self.image, self.which_board)
+        write_motions(self.word, self.found, self.image, self.which_board)
 
 
 def changes(function: Any) -> Any:

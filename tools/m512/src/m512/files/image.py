@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from io import StringIO
 
 from m512.errors import FileError
@@ -60,6 +60,10 @@ class Image:
 
     def items(self) -> Iterator[tuple[int, Page]]:
         return enumerate(self.pages, self.first)
+
+    def copy(self) -> Image:
+        """A copy with pages of its own."""
+        return replace(self, pages=[page.copy() for page in self.pages])
 
     def to_bytes(self) -> bytes:
         return b"".join(bytes(page) for page in self.pages)
