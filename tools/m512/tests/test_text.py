@@ -244,6 +244,34 @@ def test_text_wrong_start_and_version():
         read_text("\n# nothing\n")
 
 
+def included(tmp_path, main, other):
+    (tmp_path / "other.m512").write_text("motion512 1\n" + other)
+    return read_text("motion512 1\n" + main, "main", tmp_path)
+
+
+def test_text_a_page_goes_on_after_an_include(tmp_path):
+    """FORMAT.md: a page ends where the next page starts. A text of poses and defaults starts none."""
+    image = included(tmp_path, 'page 1; speed 40\ninclude "other.m512"\nnext 2; step 9 | @up\npage 2', "accel 7; pose up | 1:500\n")
+    assert (image[1].speed, image[1].next, image[1].steps, image[1].accel) == (40, 2, 1, 32)
+    assert (image[2].speed, image[2].next, image[2].steps, image[2].accel) == (32, 0, 0, 7)
+
+
+@pytest.mark.parametrize("before", ["", "page 1; "])
+@pytest.mark.parametrize("statement", ["next 9", "speed 50", "softness 3", "blend left 3", "step 9 | 1:5", "raw 0 41"])
+def test_text_page_statements_after_the_pages_of_an_include_need_a_page(tmp_path, before, statement):
+    with pytest.raises(TextError, match=r'main:3: .*"other.m512" has pages, so no page is open after it: write "page" or "defaults" first'):
+        included(tmp_path, before + f'include "other.m512"\n{statement}\n', "page 5")
+    for opening in ("page 9", "defaults") if statement[:4] != "step" else ("page 9",):
+        assert included(tmp_path, before + f'include "other.m512"\nrow 1\n{opening}\n{statement}\n', "page 5")[5] == Page()
+
+
+def test_text_defaults_of_an_included_text_may_follow_pages(tmp_path):
+    for name in ("up", "down"):
+        (tmp_path / f"{name}.m512").write_text(f"motion512 1\npose {name} | 1:500\n")
+    image = included(tmp_path, 'include "up.m512"\nspeed 40\npage 1\ninclude "other.m512"', 'include "down.m512"\nspeed 50\npage 2\n')
+    assert [image[n].speed for n in (1, 2)] == [40, 50]
+
+
 def test_text_include_in_a_circle(tmp_path):
     file = tmp_path / "a.m512"
     file.write_text('motion512 1\ninclude "a.m512"\n')

@@ -2,7 +2,8 @@
 """Reads the text format of motions into an Image. FORMAT.md is the specification.
 
 A Reader goes through the lines once. Statements about the file change its tables. Statements about a page change the open
-page, or the template of later pages (before the first page and after `defaults`). Links by name are resolved at the end, when all
+page, or the template of later pages (before the first page and after `defaults`). A file that is included begins with the template; if
+it has pages, no page is open after it. Links by name are resolved at the end, when all
 names are known.
 """
 
@@ -21,6 +22,7 @@ from m512.files.text.words import IDENTIFIER, Token, code, continues, joint_list
 
 VERSION = 1
 ONCE = set("repeat speed accel base code next exit link1 link2 dxl_setup byte63 steps checksum fill erased".split())  # at most once in a page
+ABOUT_THE_FILE = set("pages bits joint row pairs pose include defaults page".split())  # all other statements are about a page
 MAX_INCLUDE_DEPTH = 8
 
 
@@ -31,6 +33,7 @@ class Reader(JointWords):
         self.said: dict[str, str] = {}  # the file's values of `pages` and `bits`
         self.template = Draft()
         self.draft = self.template
+        self.ended_by = ""  # the included file whose pages ended the open page, until `page` or `defaults`
         self.pages: dict[int, Draft] = {}
         self.where, self.line, self.folder, self.depth = "", 0, Path("."), 0
         self.origin: dict[int, str] = {}
@@ -75,6 +78,8 @@ class Reader(JointWords):
         handler = getattr(self, f"_do_{word}", None)
         if handler is None or tokens[0].quoted:
             raise WordError(f"unknown word {tokens[0]}")
+        if self.ended_by and word not in ABOUT_THE_FILE:
+            raise WordError(f'{word}: {self.ended_by} has pages, so no page is open after it: write "page" or "defaults" first')
         if word in ONCE:
             self._once(word)
         elif word == "blend" and rest:
@@ -120,7 +125,8 @@ class Reader(JointWords):
     def _do_include(self, rest: list[Token]) -> None:
         self._count(rest, 1, 1, 'include "file"')
         path = self.folder / rest[0].text
-        self.draft = self.template
+        before, ended_by, pages = self.draft, self.ended_by, len(self.pages)
+        self.draft, self.ended_by = self.template, ""
         self.depth += 1
         if self.depth > MAX_INCLUDE_DEPTH:
             raise WordError(f"include goes deeper than {MAX_INCLUDE_DEPTH} files (in a circle?)")
@@ -136,7 +142,7 @@ class Reader(JointWords):
             raise WordError(f"what is included has more than {storage.MOST_BYTES >> 20} MiB in all, which is no motion")
         self.read(text, str(path), path.parent)
         self.depth -= 1
-        self.draft = self.template
+        self.draft, self.ended_by = before, str(rest[0]) if len(self.pages) > pages else ended_by
 
     def _do_joint(self, rest: list[Token]) -> None:
         self._count(rest, 2, 2, "joint ID name")
@@ -164,7 +170,7 @@ class Reader(JointWords):
 
     def _do_defaults(self, rest: list[Token]) -> None:
         self._count(rest, 0, 0, "defaults")
-        self.draft = self.template
+        self.draft, self.ended_by = self.template, ""
 
     def _do_page(self, rest: list[Token]) -> None:
         self._count(rest, 1, 2, "page NUMBER [name]")
@@ -175,7 +181,7 @@ class Reader(JointWords):
         low, high = span
         if not self.first <= low <= high < self.end:
             raise WordError(f"page must be {self.first}..{self.end - 1}, not {rest[0]}")
-        self.draft = Draft(self.template)
+        self.draft, self.ended_by = Draft(self.template), ""
         self.draft.line, self.draft.which = self.line, rest[0].text
         if len(rest) == 2:
             self.draft.page.data[:14] = name_bytes(rest[1]).ljust(14, b"\0")
