@@ -10,13 +10,14 @@ import sys
 import pytest
 from block_peer import PROMPTED, BlockPeer, BlockPtyPeer
 from conftest import REPO
+from factory_peer import FactoryPeer
 from hex_files import hex_file
 from intelhex import IntelHex
 from test_flash import make_app
 from virtual_peer import VirtualLink
 
 from m512 import __version__, ui
-from m512.board import block, bus, ports
+from m512.board import block, bus, loaders, ports
 from m512.board.client import Client
 from m512.board.download import Report
 from m512.board.link import Link
@@ -363,6 +364,32 @@ def test_play_keeps_its_erased_pages_erased(m512, started):
     result = m512("pages", play.path, "rename", "3", "march", "--yes")
     assert result.exit_code == 0, result.stderr
     assert bytes(play.board.flash[0xE000 + 512 * 50 :][:512]) == b"\xff" * 512 and bytes(play.board.flash[0xE000 + 512 * 3 :][:5]) == b"march"
+
+
+@pytest.mark.parametrize("there", [BlockPeer, FactoryPeer])
+def test_a_board_that_waits_in_its_loader_does_so_after_a_change(m512, there):
+    """It may hold no program, half of one after an interrupted flash, or be left there on purpose."""
+    with there(full_flash()) as board:
+        board.eeprom[0xFFF] = 0xFF
+        result = m512("pages", "--board", "cm5", board.path, "rename", "3", "march", "--yes")
+        assert result.exit_code == 0 and "waits in its boot loader; `m512 run` starts the application" in result.stderr, result.stderr
+        assert board.flash[0xE000 + 512 * 3 :][:5] == b"march"
+        assert board.state != 0 and board.eeprom[0xFFF] == 0xFF
+
+
+@pytest.mark.parametrize("mode, says", [(0x11, "The controller restarts"), (0xFF, "waits in its boot loader")])
+def test_a_board_whose_play_was_restarted_keeps_its_boot_mode(m512, started, mode, says):
+    """EEPROM 0xFFF: 0xFF stays in the loader at every start (firmware/boot/ORIGINAL.md)."""
+    play = started("boot-cm5.hex", "play-cm5.hex", text=TEXT, applied=True)
+    play.board.eeprom[0xFFF] = mode
+    result = m512("pages", play.path, "rename", "3", "march", "--yes")
+    assert result.exit_code == 0 and says in result.stderr and play.board.eeprom[0xFFF] == mode, result.stderr
+    play.pass_time(1)
+    with VirtualLink(play.path) as link:
+        if mode == 0xFF:
+            assert loaders.at_prompt(link)
+        else:
+            assert Client(link).version["image"].lower() == "play"
 
 
 def test_a_link_beyond_the_last_page_is_no_change(m512, board):

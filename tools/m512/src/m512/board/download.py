@@ -12,13 +12,14 @@ from typing import Callable
 
 from m512.board.block import BlockLoader
 from m512.board.factory import FactoryLoader
+from m512.board.factory_line import BOOT_MODE
 from m512.board.loaders import Loader
 from m512.board.memory import FLASH_PAGE, Plan
 from m512.errors import BoardError, CancelledError, PortError, RefusedError
 from m512.files.wording import counted
 
 PhaseMaker = Callable[[str], AbstractContextManager[Callable[[int, int], None]]]
-BOOT_MODE, BOOT_APPLICATION = 0xFFF, 0x11
+BOOT_APPLICATION = 0x11
 
 
 @dataclass

@@ -21,7 +21,7 @@ from click import Abort
 from m512.board import banner
 from m512.board.block import IDENTITY, BlockLoader
 from m512.board.factory import FactoryLoader
-from m512.board.factory_line import KNOCK, PROMPT
+from m512.board.factory_line import BOOT_MODE, KNOCK, PROMPT
 from m512.board.link import Link
 from m512.errors import M512Error, NoAnswerError, PortError, RefusedError
 
@@ -29,6 +29,7 @@ May = Callable[[str], None]
 Loader = Union[BlockLoader, FactoryLoader]
 BANNER = b"SYSTEM O.K."
 STAY, START, RESET = range(3)  # leave()
+WAITS = "The board waits in its boot loader; `m512 run` starts the application."
 HASH_SECONDS = 0.025  # the loader's window after a start is 60 ms
 HASHES_MOST = 2100  # together with everything else sent blindly, less than factory_flash.BLIND_MOST
 KNOCK_SECONDS = 1.5
@@ -156,9 +157,20 @@ def enter(link: Link, say: Callable[[str], None], seconds: float = WAIT_SECONDS,
     return identify(link, said, board)
 
 
-def give_back(loader: Loader) -> None:
-    """Leaves the board as enter() found it: at the loader's prompt, or restarted. For use when nothing was written."""
-    loader.leave(STAY if loader.was_at_prompt else RESET)
+def give_back(loader: Loader) -> str:
+    """Leaves the board as enter() found it: at the loader's prompt, or restarted. Returns a sentence for the user about what it does now."""
+    if loader.was_at_prompt:
+        loader.leave(STAY)
+        return WAITS
+    return restart(loader)
+
+
+def restart(loader: Loader) -> str:
+    """Resets the board. Returns a sentence for the user about what it does now."""
+    restores_mode = isinstance(loader, FactoryLoader) and loader.stays and loader.mode_before != 0xFF
+    stays = not restores_mode and loader.read_eeprom(BOOT_MODE, BOOT_MODE + 1) == b"\xff"
+    loader.leave(RESET)
+    return WAITS if stays else "The controller restarts."
 
 
 @contextmanager
@@ -169,7 +181,7 @@ def as_found(loader: Loader) -> Iterator[None]:
     except PortError:
         raise
     except (M512Error, KeyboardInterrupt, Abort):
-        give_back(loader)
+        loader.leave(STAY if loader.was_at_prompt else RESET)
         raise
 
 

@@ -70,7 +70,7 @@ def write_motions(url: str, found: Image, image: Image, board: str = "") -> None
                 other = loader.different(_flash_pages(numbers, found), progress)
             _must_be_as_found(sorted({_motion_page(page) for page in other}), found, lambda number: Page(loader.read(*_area(number))))
         ui.say(str(download.download(loader, Plan(_flash_pages(numbers, image), has_motions=True), ui.phase)))
-        download.start(loader)
+        ui.say(loaders.give_back(loader))
 
 
 def _must_be_as_found(numbers: list[int], found: Image, read: Callable[[int], Page], written: Sequence[int] = ()) -> None:

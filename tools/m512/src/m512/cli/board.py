@@ -165,7 +165,7 @@ def _flash(
             ui.say("started")
         else:
             loader.leave(0)
-            ui.say("The board waits in its boot loader; `m512 run` starts the application.")
+            ui.say(loaders.WAITS)
         if as_json:
             ui.show(json.dumps(dict(report.as_dict(), loader=loader.name, board=loader.board, started=start)))
 
@@ -285,14 +285,10 @@ def backup(folder: Path, what: str, port: str, board: str, wait: float, as_json:
     with link:
         with loaders.as_found(loader):
             made = backups.take(loader, folder, areas, ui.phase)
-        loaders.give_back(loader)
+        after = loaders.give_back(loader)
     if as_json:
         ui.show(json.dumps(made.manifest, indent=2))
-    ui.say(
-        f"{folder}: "
-        + ", ".join(f"{area} {len(made.data[area]):,} bytes" for area in areas)
-        + ("" if loader.was_at_prompt else ". The controller restarts.")
-    )
+    ui.say(f"{folder}: " + ", ".join(f"{area} {len(made.data[area]):,} bytes" for area in areas) + ("" if loader.was_at_prompt else f". {after}"))
 
 
 @click.command(
