@@ -45,7 +45,7 @@ export class Line {
     /** Queues bytes. Resolves when the port has taken them; rejects if it cannot. */
     write(bytes: Uint8Array): Promise<void> {
         const done = this.writing.then(async () => {
-            if (this.held) await this.held;
+            while (this.held) await this.held; // an XON and the next XOFF may come together
             if (!this.writer || this.isClosed) throw new RobotError('not-connected');
             await this.writer.write(bytes);
         });

@@ -65,6 +65,7 @@ export class Adapter {
             await this.closePort();
             await this.openPort(port);
         } catch {
+            this.port = port; // it may have been pulled out while it was closed
             this.lose(port);
         }
     }

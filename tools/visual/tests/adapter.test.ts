@@ -115,3 +115,17 @@ test('once it is given back it is not taken again', async () => {
     expect(bench.rates).toEqual([1_000_000]);
     expect(bench.port.readable).toBe(null);
 });
+
+test('a plug that is pulled out while the rate changes is lost, and taken again when it is back', async () => {
+    const bench = await opened();
+    bench.isRefused = true;
+    bench.isPlugged = false;
+    const set = bench.adapter.setRate(57_142);
+    await vi.advanceTimersByTimeAsync(LONG_MS);
+    await set;
+    expect(bench.told).toEqual([false]);
+    bench.isRefused = false;
+    bench.isPlugged = true;
+    await vi.advanceTimersByTimeAsync(LONG_MS);
+    expect(bench.told).toEqual([false, true]);
+});

@@ -12,15 +12,18 @@ export class WaveButton extends HTMLElement {
     private readonly button = make('button', { title: TEXTS.remote.waveHint, onclick: () => this.press() }, TEXTS.remote.wave);
     /** Pressed while the robot does not walk yet. */
     private isWanted = false;
-    private unwatch: () => void = () => undefined;
+    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.replaceChildren(this.button);
-        this.unwatch = this.session.state.watch(state => this.render(state));
+        this.disposals.push(
+            this.session.state.watch(state => this.render(state)),
+            this.session.onStop(() => (this.isWanted = false)), // Stop, and another robot
+        );
     }
 
     disconnectedCallback(): void {
-        this.unwatch();
+        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     private render(state: SessionState): void {
