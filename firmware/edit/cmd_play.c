@@ -19,6 +19,7 @@ COMMAND(cmd_play)
         report_refusal(status, page, the_performer.fault);
         return SHELL_ERR_REPORTED;
     }
+    robot_trim_play();
     /* Sets the rate before the first step is planned. The voltage limits the speed that a high rate may demand. */
     shape_set_voltage(&the_performer.shape, the_servos.voltage_dv);
     (void)!shape_set_rate(&the_performer.shape, args->count > 2 ? args->number[1] : SHAPE_NORMAL);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * requests_page.c - Edit's own requests, which load and save a page: @open, @data, @crc, @save; and its requests_image. */
+ * requests_page.c - Edit's own requests, which load and save a page: @open, @data, @crc, @save; @play with the trim; and its
+ * requests_image. */
 #include <string.h>
 #include "board.h"
 #include "commands.h"
@@ -84,6 +85,15 @@ REQUEST(do_save)
     return REQUEST_OK;
 }
 
+REQUEST(do_play)
+{
+    const uint8_t result = request_play(args);
+    if (result == REQUEST_OK) {
+        robot_trim_play();
+    }
+    return result;
+}
+
 TEXT_NAMED(word_open, "open  ");
 TEXT_NAMED(word_data, "data  ");
 TEXT_NAMED(word_crc, "crc  ");
@@ -98,7 +108,7 @@ static const shell_command_t own[] PROGMEM = {
     { word_data, do_data, SHELL_ARGS(2, 2) | SHELL_STILL, RANGE_OFFSET },
     { word_crc, do_crc, SHELL_ARGS(0, 0), 0 },
     { word_save, do_save, SHELL_ARGS(2, 2) | SHELL_STILL, RANGE_PAGE },
-    { word_play, request_play, SHELL_ARGS(1, 2), SHELL_BOTH(RANGE_PLAYED, RANGE_CODE) },
+    { word_play, do_play, SHELL_ARGS(1, 2), SHELL_BOTH(RANGE_PLAYED, RANGE_CODE) },
     { word_stop, request_stop, SHELL_ARGS(0, 0), 0 },
     { word_break, request_break, SHELL_ARGS(0, 0), 0 },
     { word_pause, request_pause, SHELL_ARGS(0, 0), 0 },

@@ -89,16 +89,24 @@ void robot_end_play(void)
     }
     the_robot.played = 0;
     robot_read();
+    robot_trim_play();
 }
 
 void robot_set_trim(void)
 {
     int16_t trim_pos[PAGE_JOINTS];
-    the_robot.raw = the_session.page == 0;
+    the_robot.raw = the_session.page == 0 && performer_page(&the_performer) == 0;
     bool trimmed = !the_robot.raw && page_store_trim(&the_pages, trim_pos);
     servo_link_set_trim(&the_servos, trimmed ? trim_pos : NULL);
     servo_link_read_pose(&the_servos, the_servos.present);
     robot_read();
+}
+
+void robot_trim_play(void)
+{
+    if (the_session.page == 0) {
+        robot_set_trim();
+    }
 }
 
 void robot_open_page(uint8_t page)

@@ -15,7 +15,7 @@
 #define ROBOT_SLOWEST 8u   /* the speed of a move is the distance / 4, at least this (ORIGINAL.md section 4) */
 
 typedef struct {
-    bool raw;             /* page 0 is open: no trim */
+    bool raw;             /* no trim */
     uint8_t shown;        /* the joint that robot_follow_play updated last */
     uint32_t played;      /* joints that the play has moved */
     uint32_t failed;      /* joints that did not obey or answer (the_servos.silent), not yet shown on the row */
@@ -49,6 +49,9 @@ void robot_open_page(uint8_t page);
 
 /* Sets the trim again. Call after another page was opened or the trim was saved: page 0 is edited without trim. */
 void robot_set_trim(void);
+
+/* Call when a play has begun, before it reads the pose: pages are played with the trim while page 0 is open, too. */
+void robot_trim_play(void);
 
 /* Moves one joint to `pos` and switches its torque on; the speed depends on the distance. Only shows the position of an
  * absent joint. */

@@ -454,6 +454,62 @@ static void test_key_behind_a_list_changes_the_pose_in_which_a_programs_play_end
     TEST_ASSERT_EQUAL_UINT16(422, goal());
 }
 
+/* ---- page 0 ---- */
+
+/* Stores a trim of 50 for joint 1, and opens page 0. */
+static void open_page_0_with_a_trim(void)
+{
+    uint8_t *page = flash_page(0);
+    page_clear(page);
+    page[PAGE_AT_STEPS] = 3;
+    page_set_pos(page, 0, 1, 512);
+    page_set_pos(page, 1, 1, 562);
+    page_set_pos(page, 2, 1, 50);
+    page_seal(page);
+    page_store_refresh(&the_pages, 0);
+    type("page 0\r");
+}
+
+static void run_to_the_end(void)
+{
+    for (uint8_t s = 0; s < 20 && !performer_is_idle(&the_performer); s++) {
+        run_ms(1000);
+    }
+    run_ms(500);
+    TEST_ASSERT_EQUAL_UINT8(DIALOG_TABLE, the_dialog.mode);
+}
+
+static void test_page_is_played_with_the_trim_while_page_0_is_open(void)
+{
+    open_page_0_with_a_trim();
+    type("play 1\r");
+    run_to_the_end();
+    TEST_ASSERT_EQUAL_UINT16(421 + 50, goal());
+    TEST_ASSERT_EQUAL_STRING("0471", cell(0, 1));   /* page 0 is edited without trim */
+    request("@play 2 ");
+    run_ms(500);
+    type(" ");
+    run_to_the_end();
+    request("@play 1 ");
+    run_to_the_end();
+    TEST_ASSERT_EQUAL_UINT16(421 + 50, goal());
+    request("@play 1 ");
+    request("@play 1 ");   /* refused */
+    run_to_the_end();
+    TEST_ASSERT_EQUAL_UINT16(421 + 50, goal());
+}
+
+static void test_move_of_a_program_has_no_trim_while_page_0_is_open(void)
+{
+    open_page_0_with_a_trim();
+    request("@move 90 1 1A5 ");
+    run_to_the_end();
+    TEST_ASSERT_EQUAL_UINT16(0x1A5, goal());
+    TEST_ASSERT_EQUAL_STRING("0421", cell(0, 1));
+    type("page 1\r");
+    TEST_ASSERT_EQUAL_STRING("0371", cell(0, 1));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -489,5 +545,7 @@ int main(void)
     RUN_TEST(test_end_of_a_programs_play_does_not_end_the_next_one);
     RUN_TEST(test_write_stores_the_pose_in_which_a_programs_play_ended);
     RUN_TEST(test_key_behind_a_list_changes_the_pose_in_which_a_programs_play_ended);
+    RUN_TEST(test_page_is_played_with_the_trim_while_page_0_is_open);
+    RUN_TEST(test_move_of_a_program_has_no_trim_while_page_0_is_open);
     return UNITY_END();
 }
