@@ -244,6 +244,20 @@ def test_text_wrong_start_and_version():
         read_text("\n# nothing\n")
 
 
+@pytest.mark.parametrize("sign", ["\x0b", "\x0c", "\x1c", "\x1d", "\x1e", "\x85", "\u2028", "\u2029"], ids=ascii)
+def test_text_only_a_line_end_ends_a_comment(sign):
+    """FORMAT.md: lines end with LF, CR LF or CR. Unicode knows more line ends, and editors put them into comments unseen."""
+    image = read_text(f"motion512 1 # one{sign}page 3\npage 5 # two{sign}speed 99\nspeed 40")
+    assert (image[5].speed, image[3] == Page()) == (40, True)
+    assert error(f"motion512 1\n# a{sign}b\nhallo").startswith("text:3: ")
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"], ids=ascii)
+def test_text_every_line_end_counts_once(end):
+    assert error(end.join(["motion512 1", "page 5 \\", "name", "", "hallo"])).startswith("text:5: ")
+    assert "the last line ends in a backslash" in error(end.join(["motion512 1", "page 5 \\", ""]))
+
+
 def included(tmp_path, main, other):
     (tmp_path / "other.m512").write_text("motion512 1\n" + other)
     return read_text("motion512 1\n" + main, "main", tmp_path)

@@ -10,6 +10,7 @@ names are known.
 from __future__ import annotations
 
 import re
+from io import StringIO
 from pathlib import Path
 
 from m512.errors import FileError, TextError, WordError
@@ -46,7 +47,8 @@ class Reader(JointWords):
         self.where, self.folder, self.line = where, folder, 0
         started, quoted = False, False
         held: list[str] = []
-        for self.line, line in enumerate(text.splitlines(), 1):
+        for self.line, line in enumerate(StringIO(text, newline=None), 1):
+            line = line.rstrip("\n")
             goes_on, quoted = continues(line, quoted)
             if goes_on:
                 held.append(line[:-1] + " ")
