@@ -69,7 +69,7 @@ def trim_page(*columns, joint=3):
     return page.seal()
 
 
-TRIMS = [(512, 500, -12), (512, 500 - 288, -300), (0x4000, 0x4000, 7), (512, 0x4000, 0x4000), (512, 512, 0x4000), (0x4000, 0x2000, 300)]
+TRIMS = [(512, 500, -12), (512, 500 - 288, -300), (0x4000, 0x4000, 7), (0x4000, 0x2000, 300)]
 NO_TRIMS = [(512, 500, 512), (512, 500, 12), (512, 500, 0x4000), (0x4000, 0x4000, 301), (512, 200, -312), (400, 600, 0)]
 
 
@@ -83,6 +83,47 @@ def test_a_motion_on_page_0_is_not_written_as_the_trim(tmp_path, columns):
     assert [("ID 3" in remark, "--with-trim" in remark) for remark in found.remarks] == ([] if columns in TRIMS else [(True, True)])
     checked = run("pages", tmp_path / "x.bin", "check")
     assert checked.returncode == (0 if columns in TRIMS else 3) and (b"page 0: " in checked.stdout) == (columns in NO_TRIMS)
+
+
+def roboplus_empty():
+    """An empty page as RoboPlus writes it (FILES.md)."""
+    page = Page(bytes(512))
+    page.repeat, page.schedule, page.speed, page.accel, page.byte63 = 1, 0x0A, 32, 32, 0x55
+    for joint in range(26):
+        page.set_compliance(joint, 0x55)
+        for step in range(7):
+            page.set_word(step, joint, 0x4200)
+    return page.seal()
+
+
+def bow():
+    return read_text("motion512 1\npage 1 bow\n  step 1s | 1..18:512\n  step 1s | 1..18:512\n")[1]
+
+
+NO_OFFSET = [roboplus_empty(), trim_page(0x4000, 0x4000, 0), trim_page(512, 0x4000, 0x4000), trim_page(512, 512, 0x4000), bow()]
+
+
+@pytest.mark.parametrize("page", NO_OFFSET, ids=["roboplus", "zero", "master", "both", "motion"])
+@pytest.mark.parametrize("kind", ["bin", "hex"])
+def test_a_page_0_without_a_trim_leaves_the_robot_its_own(m512, tmp_path, page, kind):
+    """The third step of page 0 is the trim (motion/PAGE_FORMAT.md). Without it a robot stands crooked."""
+    image = read_text(TEXT)
+    image[0] = page
+    (tmp_path / "x.bin").write_bytes(image.to_bytes())
+    (tmp_path / "x.hex").write_text(to_hex(image))
+    own = bytes(trim_page(512, 500, -12))
+    with BlockPeer(full_flash()) as board:
+        board.flash[0xE000:0xE200] = own
+        result = m512("flash", tmp_path / f"x.{kind}", "-p", board.path, "--yes")
+        assert result.exit_code == 0 and "the robot keeps its own" in result.stderr and "--with-trim" in result.stderr, result.stderr
+        assert bytes(board.flash[0xE000:0xE200]) == own
+        assert m512("flash", tmp_path / f"x.{kind}", "-p", board.path, "--yes", "--with-trim").exit_code == 0
+        assert bytes(board.flash[0xE000:0xE200]) == bytes(page)
+
+
+def test_a_file_of_page_0_alone_is_told_why_it_is_left_out(tmp_path):
+    with pytest.raises(FileError, match="holds nothing to flash: page 0 of the file holds no trim.*--with-trim"):
+        plan(hex_file(tmp_path / "x.hex", (0xE000, bytes(trim_page(0x4000, 0x4000, 0)))))
 
 
 def test_hex_of_motions_with_a_damaged_page_is_refused(tmp_path):

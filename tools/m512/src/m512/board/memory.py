@@ -12,8 +12,8 @@ from pathlib import Path
 from m512.crc16 import crc16
 from m512.errors import FileError, RefusedError
 from m512.files import formats, scale12
-from m512.files.image import Image, hex_segments
-from m512.files.page import EMPTY, PAGE_BYTES, Page
+from m512.files.image import Image, hex_segments, is_erased
+from m512.files.page import PAGE_BYTES, Page
 
 Segments = list[tuple[int, bytes]]  # (address, bytes)
 FLASH_PAGE = 256
@@ -109,7 +109,7 @@ def plan(path: Path, address: int | None = None, board: str | None = None, with_
         out.has_motions |= start + len(piece) > MOTIONS[0]
         _add(out, start, piece)
     if not out.pages:
-        raise FileError(f"{path} holds nothing to flash")
+        raise FileError(f"{path} holds nothing to flash" + "".join(f": {remark}" for remark in out.remarks))
     if out.has_app:
         _judge_app(out, path, board)
     return out
@@ -169,13 +169,22 @@ def _motions(path: Path, image: Image, out: Plan, with_trim: bool, damaged: str)
     if bad and damaged == "ask":
         raise RefusedError("damaged pages (--damaged keep flashes them all the same):\n" + "\n".join(f"  page {n}: {why}" for n, why in bad))
     data = image.to_bytes()
-    if not with_trim and data[:PAGE_BYTES] in (EMPTY, b"\xff" * PAGE_BYTES):
-        out.remarks.append("page 0 of the file holds no trim; the robot keeps its own (--with-trim overwrites it)")
-        return [(MOTIONS[0] + PAGE_BYTES, data[PAGE_BYTES:])]
-    if not with_trim and image[0].trim_problem():
-        out.remarks.append(f"page 0: {image[0].trim_problem()}. It is left out, and the robot keeps its own (--with-trim writes it)")
+    why = "" if with_trim else _no_trim(image[0])
+    if why:
+        out.remarks.append(why)
         return [(MOTIONS[0] + PAGE_BYTES, data[PAGE_BYTES:])]
     return [(MOTIONS[0], data)]
+
+
+def _no_trim(page: Page) -> str:
+    """Why page 0 of a file must not replace the robot's trim, or an empty text."""
+    if page.trim_problem():
+        return f"page 0: {page.trim_problem()}. It is left out, and the robot keeps its own (--with-trim writes it)"
+    if any(page.trims()):
+        return ""
+    if is_erased(page) or page.is_empty:
+        return "page 0 of the file holds no trim; the robot keeps its own (--with-trim overwrites it)"
+    return "page 0 of the file holds steps and no trim. It is left out, and the robot keeps its own (--with-trim writes it)"
 
 
 def _add(out: Plan, start: int, piece: bytes) -> None:
