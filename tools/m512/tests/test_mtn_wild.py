@@ -229,6 +229,29 @@ def test_pages_beyond_the_board_are_named_with_the_option_that_keeps_them(m512, 
     assert "all good" in m512("pages", tmp_path / "z.bin", "check").stdout
 
 
+@pytest.mark.parametrize("suffix", ["hex", "bin", "m512"])
+def test_pages_makes_of_a_mtn_the_file_that_convert_makes(m512, tmp_path, suffix):
+    """FILES.md: a board of 128 pages takes pages 1..127. Its HEX is at 0x0E000, that of a CM-510 at 0x1E000."""
+    blocks = [Block(f"m{n}", steps=[step()]) for n in range(1, 10)]
+    (tmp_path / "x.mtn").write_bytes(made(blocks))
+    done = m512("pages", tmp_path / "x.mtn", "rename", "3", "new", "-o", tmp_path / f"y.{suffix}")
+    assert done.exit_code == 0, done.stderr
+    blocks[2].name = "new"
+    (tmp_path / "z.mtn").write_bytes(made(blocks))
+    assert m512("convert", tmp_path / "z.mtn", tmp_path / f"z.{suffix}").exit_code == 0
+    assert (tmp_path / f"y.{suffix}").read_bytes() == (tmp_path / f"z.{suffix}").read_bytes()
+
+
+def test_pages_refuses_to_lose_pages_of_a_mtn_beyond_the_board(m512, tmp_path):
+    (tmp_path / "x.mtn").write_bytes(made([Block("m1", steps=[step()])] + [Block()] * 198 + [Block("m200", steps=[step()])]))
+    result = m512("pages", tmp_path / "x.mtn", "rename", "1", "new", "-o", tmp_path / "y.bin")
+    assert result.exit_code == 5 and not (tmp_path / "y.bin").exists()
+    assert 'page 200 "m200": no room among the 128 pages' in result.stderr and "m512 convert --only" in result.stderr
+    assert m512("pages", tmp_path / "x.mtn", "rename", "1", "new", "-o", tmp_path / "y.mtn").exit_code == 0
+    assert m512("pages", tmp_path / "x.mtn", "extract", "m200", "-o", tmp_path / "y.csv").exit_code == 0
+    assert (tmp_path / "y.csv").read_text().startswith("page,200\n")
+
+
 # Combinations
 
 

@@ -15,7 +15,7 @@ from m512 import ui
 from m512.cli.board import FilePath, Finite, board_option
 from m512.cli.files import PAGE_NUMBER, one_of_csv, page_moves, page_numbers
 from m512.errors import EXIT_DIFFERENT, FileError, WordError
-from m512.files import formats
+from m512.files import conversion, formats
 from m512.files.page import Page
 
 
@@ -56,8 +56,8 @@ class Source:
             if source and target:
                 formats.keep_text(Path(source), Path(target))
         if output:
-            losses = formats.save(Path(output), self.image, number)
-            for loss in losses:
+            fitted, lost = conversion.fitted(self.image, None, Path(output))
+            for loss in lost + formats.save(Path(output), fitted, number):
                 ui.say(f"loss: {loss}")
         elif self.board:
             self._to_board(yes)

@@ -53,13 +53,14 @@ def fitted(image: Image, count: int | None, target: Path) -> tuple[Image, list[s
     if lost and not count:
         raise RefusedError(
             f"{named_pages_text(lost)}: no room among the {wanted} pages of this kind of board, nothing was written. "
-            f"--only NAME takes what you choose with all that it leads to, --pages 256 keeps all (for a board of 256 pages), "
+            f"m512 convert --only NAME takes what you choose with all that it leads to, --pages 256 keeps all (for a board of 256 pages), "
             f"--pages {wanted} leaves {'it' if len(lost) == 1 else 'them'} out"
         )
     return image.resized(wanted)
 
 
 def fitting(image: Image, target: Path) -> int:
-    """The number of pages of the source. A .mtn always has 255: it is written from the existing pages, and read for a board of 128."""
-    to_mtn = formats.BY_SUFFIX.get(target.suffix.lower()) == formats.MTN
-    return 128 if image.form == formats.MTN and not to_mtn else image.end
+    """The number of pages of the source. A .mtn always has 255: it is written from the existing pages, and read for a board of 128. A table
+    has one page of any number."""
+    any_number = formats.BY_SUFFIX.get(target.suffix.lower()) in (formats.MTN, formats.CSV)
+    return 128 if image.form == formats.MTN and not any_number else image.end
