@@ -244,6 +244,43 @@ def test_text_wrong_start_and_version():
         read_text("\n# nothing\n")
 
 
+@pytest.mark.parametrize("order", ["{0}; {1}", "{1}; {0}"])
+@pytest.mark.parametrize(
+    "page, statement, steps, fits",
+    [
+        (0, "offset 3:-5", 2, True),
+        (0, "offset 3:-5", 3, False),
+        (0, "offset 3:-5", 7, False),
+        (5, "spare 4 9 | 1:5", 4, True),
+        (5, "spare 4 9 | 1:5", 5, False),
+        (5, "spare 0 9 | 1:5", 1, False),
+    ],
+)
+def test_text_what_a_step_of_the_page_would_replace_is_refused(order, page, statement, steps, fits):
+    """FORMAT.md: spare K is step K, which the page does not use; the offset is stored as step 2. K counts from 0."""
+    text = f"motion512 1\npage {page}; " + order.format(statement, "; ".join(["step 9 | 1:7"] * steps))
+    if not fits:
+        assert f"page {page}: {' '.join(statement.split()[: 1 if page == 0 else 2])} sets step" in error(text)
+        return
+    words = read_text(text)[page].words(2 if page == 0 else 4)
+    assert words[3] == 0xFFFB if page == 0 else words[1] == 5
+
+
+@pytest.mark.parametrize("base, step", [("speed", "0.5s"), ("time", "90dps")])
+def test_text_error_of_a_unit_names_the_file_of_the_page(tmp_path, base, step):
+    """Only the whole text tells the base of a page, because `base` may come after the step."""
+    with pytest.raises(TextError, match=r"other\.m512:4: a (time|speed) in "):
+        included(tmp_path, 'include "other.m512"\npage 9\n\n\n\n', f"page 5\n# a comment\nstep {step} | 1:5\nbase {base}\n")
+
+
+def test_text_error_of_a_link_names_the_file_of_its_statement(tmp_path):
+    """Also of a default: the page is in another file."""
+    with pytest.raises(TextError, match=r"other\.m512:2: no page is called nowhere"):
+        included(tmp_path, 'include "other.m512"\n\n\npage 9\n', "next nowhere\n")
+    with pytest.raises(TextError, match=r"main:3: no page is called nowhere"):
+        included(tmp_path, 'include "other.m512"\npage 9; next nowhere\n', "page 8\n")
+
+
 @pytest.mark.parametrize("sign", ["\x0b", "\x0c", "\x1c", "\x1d", "\x1e", "\x85", "\u2028", "\u2029"], ids=ascii)
 def test_text_only_a_line_end_ends_a_comment(sign):
     """FORMAT.md: lines end with LF, CR LF or CR. Unicode knows more line ends, and editors put them into comments unseen."""

@@ -231,7 +231,7 @@ class Reader(JointWords):
 
     def _link(self, field: str, token: Token) -> None:
         self.draft.links = [link for link in self.draft.links if link[0] != field]
-        self.draft.links.append((field, token, self.line))
+        self.draft.links.append((field, token, self.where, self.line))
 
     def _do_next(self, rest: list[Token]) -> None:
         self._count(rest, 1, 1, "next PAGE")
@@ -316,6 +316,7 @@ class Reader(JointWords):
         k = number(rest[0], 0, STEPS - 1, "step")
         self._once(f"spare {k}")
         self.draft.spares[k] = self.block(self.draft, self.line, rest[1:], "spare K", None)
+        self.draft.spare_lines[k] = f"spare {k}", self.line
 
     def _do_offset(self, rest: list[Token]) -> None:
         """Page 0: the third step holds signed offsets."""
@@ -329,6 +330,7 @@ class Reader(JointWords):
                 self._once(f"the offset of joint {joint}")
                 words[joint] = signed & 0xFFFF
         self.draft.spares[2] = make_block(words, 0, 0)
+        self.draft.spare_lines[2] = "offset", self.line
 
     def _do_fill(self, rest: list[Token]) -> None:
         if self.draft.steps or self.draft.spares:
@@ -347,15 +349,15 @@ class Reader(JointWords):
             self.bits,
             joints={joint: name for name, joint in reversed(list(self.joints.items()))},
         )
-        built = {id(draft): draft for draft in self.pages.values()}
-        for draft in built.values():
-            self._check_units(draft)
+        built = {id(draft): (page, draft) for page, draft in self.pages.items()}
+        for page, draft in built.values():
+            self._check_spares(draft, self._file_of(page))
+            self._check_units(draft, self._file_of(page))
         names: dict[bytes, list[int]] = {}
         for page, draft in self.pages.items():
             names.setdefault(draft.page.name, []).append(page)
         for page, draft in self.pages.items():
-            for field, token, line in draft.links:
-                where = self.origin[page].rsplit(":", 1)[0]
+            for field, token, where, line in draft.links:
                 try:
                     setattr(draft.page, field, self._resolve(token, page, names))
                 except WordError as error:
@@ -363,12 +365,25 @@ class Reader(JointWords):
             image[page] = draft.build()
         return image
 
-    def _check_units(self, draft: Draft) -> None:
+    def _file_of(self, page: int) -> str:
+        return self.origin[page].rsplit(":", 1)[0]
+
+    @staticmethod
+    def _check_spares(draft: Draft, where: str) -> None:
+        """TextError: a `spare` or `offset` for a step that the page uses."""
+        for k, (statement, line) in draft.spare_lines.items():
+            if k < len(draft.steps):
+                raise TextError(
+                    f"page {draft.which}: {statement} sets step {k}, counted from 0, and the page's {len(draft.steps)} step lines use it", where, line
+                )
+
+    @staticmethod
+    def _check_units(draft: Draft, where: str) -> None:
         for unit, line in draft.units:
             if draft.page.schedule == SCHEDULE_SPEED and unit == "s":
-                raise TextError("a time in s or ms, but the page has speed base", self.where, line)
+                raise TextError("a time in s or ms, but the page has speed base", where, line)
             if draft.page.schedule == SCHEDULE_TIME and unit == "dps":
-                raise TextError("a speed in dps, but the page has time base", self.where, line)
+                raise TextError("a speed in dps, but the page has time base", where, line)
 
     def _resolve(self, token: Token, page: int, names: dict[bytes, list[int]]) -> int:
         if not token.quoted:

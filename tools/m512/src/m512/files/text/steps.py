@@ -21,10 +21,11 @@ class Draft:
         self.fill: bytes = bytes(template.fill if template else self.page.step_bytes(0))
         self.steps: list[bytes] = []
         self.spares: dict[int, bytes] = {}
+        self.spare_lines: dict[int, tuple[str, int]] = {}  # step -> the statement and its line
         self.step_count: int | None = None
         self.checksum: int | None = None
         self.raw: list[tuple[int, bytes]] = list(template.raw) if template else []
-        self.links: list[tuple[str, Token, int]] = list(template.links) if template else []
+        self.links: list[tuple[str, Token, str, int]] = list(template.links) if template else []
         self.units: list[tuple[str, int]] = []
         self.line = 0
         self.which = ""  # the page number or range as written in the text
