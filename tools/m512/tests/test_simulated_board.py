@@ -186,6 +186,20 @@ def test_flash_restarts_edit_and_asks_where_edits_would_be_lost(m512, motions, s
     assert result.exit_code == 0 and "MODE" not in result.stderr, result.stderr
 
 
+@pytest.mark.parametrize("words", [("swing", "3", "512", "40", "1s"), ("aim", "3:900", "--speed", "5")])
+def test_flash_does_not_restart_a_board_whose_joints_are_moved_by_code(m512, robot, motions, words):
+    """Play refuses @reset while joints move (PROTOCOL.md, ERR 4). m512 then typed `#` into Play and asked for the MODE button."""
+    start(m512, robot)
+    assert m512("torque", "on", "-p", robot.path).exit_code == 0
+    result = m512(*words, "-p", robot.path)
+    assert result.exit_code == 0, result.stderr
+    result = m512("flash", motions, "-p", robot.path, "--wait", "1")
+    assert result.exit_code == 5 and "`m512 stop` first" in result.stderr and "MODE" not in result.stderr, result.stderr
+    assert m512("stop", "-p", robot.path).exit_code == 0
+    robot.pass_time(2)
+    assert m512("flash", motions, "-p", robot.path, "--wait", "1").exit_code == 0
+
+
 def test_doctor_takes_edits_drawing_for_no_missed_motion(m512, started):
     edit = started("edit-cm5.hex", text=OLD)
     edit.pass_time(1.5)

@@ -23,8 +23,8 @@ ERR_WORD, ERR_EDITS, ERR_LINE, ERR_ASKED = 1, 12, 15, 16
 # Fields of @where: the pattern of each, and its value when it is missing ("": it is mandatory).
 WHERE = {
     **{word: ("[0-9]+", "") for word in ("page", "repetition")},
-    **{word: ("[0-9]+", "0") for word in ("step", "code", "dv", "missed")},
-    "faulty": ("[0-9A-Fa-f]+", "0"),
+    **{word: ("[0-9]+", "0") for word in ("step", "code", "dv", "missed", "layer")},
+    **{word: ("[0-9A-Fa-f]+", "0") for word in ("faulty", "aim")},
 }
 LISTED = r' (\d+):(\d+|!):"([^"]*)"'  # an entry of @list
 DAMAGED = "{} came damaged, " + f"{TRIES} times. Is the cable good?"

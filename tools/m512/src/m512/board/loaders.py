@@ -193,8 +193,11 @@ def reset_by_application(link: Link, say: Callable[[str], None], may: May = refu
         client = Client(link, (0.9,))
     except NoAnswerError:
         return False
-    if client.where().get("state") != "idle":
+    where = client.where()
+    if where["state"] != "idle":
         raise RefusedError("something plays on the robot: `m512 stop` first")
+    if int(where.get("layer", "0")) or int(where.get("aim", "0"), 16):
+        raise RefusedError("`m512 layer`, `aim` or `swing` moves or holds joints of the robot: `m512 stop` first")
     if client.has_edits():
         may("Edit holds a page with edits that are not saved; restarting loses them. Go on?")
     link.write(framed("reset") + b"\r")  # does not wait for the answer: the loader's window opens soon
