@@ -155,7 +155,8 @@ uint32_t servo_link_torque_on(servo_link_t *link, uint32_t ids);
 uint32_t servo_link_torque_off(servo_link_t *link, uint32_t ids);
 
 /* Prepares servos for a goal every tick: switches torque on as above, reads the pose, and sets the moving speed to 0, which
- * means full speed (a single move may have set a slow one). 4 ms per servo. Returns those that are ready. */
+ * means full speed. A servo with a slow one may still be on its way (a single move): it stops where it is, and its pose
+ * becomes the goal. 4 ms per servo. Returns those that are ready. */
 uint32_t servo_link_engage(servo_link_t *link, uint32_t ids);
 
 #endif

@@ -185,9 +185,9 @@ static bool hold_still(servo_link_t *link, uint8_t id, uint8_t table[READ_BYTES]
 
 /* Writes the goal first, then the torque limit, which a shutdown may have set to 0, then torque, which many servos switch on
  * by themselves with the goal. */
-static bool torque_on(servo_link_t *link, uint8_t id)
+static bool switch_on(servo_link_t *link, uint8_t id, uint8_t table[READ_BYTES])
 {
-    uint8_t table[READ_BYTES], maximum[2];
+    uint8_t maximum[2];
     if (!read_table(link, id, table)) {
         return false;
     }
@@ -204,6 +204,12 @@ static bool torque_on(servo_link_t *link, uint8_t id)
     }
     return servo_link_has(&link->torque, id) || (write_one(link, id, DXL_AT_TORQUE_ENABLE, 1, 1) &&
                                                  read_table(link, id, table) && servo_link_has(&link->torque, id));
+}
+
+static bool torque_on(servo_link_t *link, uint8_t id)
+{
+    uint8_t table[READ_BYTES];
+    return switch_on(link, id, table);
 }
 
 uint32_t servo_link_torque_on(servo_link_t *link, uint32_t ids)
@@ -226,9 +232,20 @@ uint32_t servo_link_torque_off(servo_link_t *link, uint32_t ids)
     return for_present(link, ids, torque_off);
 }
 
+/* A servo with a speed limit may still be on its way to a far goal. Its goal and its limit change in one packet, because
+ * without the limit it would leap. */
 static bool engage(servo_link_t *link, uint8_t id)
 {
-    return torque_on(link, id) && write_one(link, id, DXL_AT_SPEED, 0, 2);
+    uint8_t table[READ_BYTES];
+    uint8_t *goal = table + (DXL_AT_GOAL - READ_FROM), *speed = table + (DXL_AT_SPEED - READ_FROM);
+    if (!switch_on(link, id, table)) {
+        return false;
+    }
+    if (word_at(speed) != 0) {
+        memcpy(goal, table + (DXL_AT_PRESENT - READ_FROM), 2);
+        memset(speed, 0, 2);
+    }
+    return servo_link_write(link, id, DXL_AT_GOAL, goal, 4);
 }
 
 uint32_t servo_link_engage(servo_link_t *link, uint32_t ids)

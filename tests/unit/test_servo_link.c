@@ -113,6 +113,34 @@ static void test_engage_takes_back_a_speed_limit(void)
     TEST_ASSERT_EQUAL(0, fake_bus_word(1, DXL_AT_SPEED));
 }
 
+/* Lifting the speed limit first would let the servo leap towards the far goal. */
+static void test_engage_stops_a_servo_that_a_single_move_still_drives(void)
+{
+    const uint8_t *write;
+    for (uint8_t level = 1; level <= 2; level++) {
+        setUp();
+        fake_bus_add(1, BUS_RATE_1M)->table[DXL_AT_RETURN_LEVEL] = level;
+        robot(0);
+        fake_bus_set_word(1, DXL_AT_GOAL, 900);
+        fake_bus_set_word(1, DXL_AT_SPEED, 100);
+        fake_bus_set_word(1, DXL_AT_PRESENT, 415);
+        TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(1), servo_link_engage(&servos, SERVO_LINK_ALL));
+        TEST_ASSERT_EQUAL(415, fake_bus_word(1, DXL_AT_GOAL));
+        TEST_ASSERT_EQUAL(0, fake_bus_word(1, DXL_AT_SPEED));
+        TEST_ASSERT_EQUAL(415, servos.present_pos[1]);
+        TEST_ASSERT_EQUAL(1, logged(DXL_WRITE, &write));   /* both at the same time */
+    }
+}
+
+static void test_engage_leaves_a_servo_without_a_speed_limit_where_it_is(void)
+{
+    robot(1);
+    fake_bus_set_word(1, DXL_AT_GOAL, 600);
+    fake_bus_set_word(1, DXL_AT_PRESENT, 590);   /* sags under load */
+    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(1), servo_link_engage(&servos, SERVO_LINK_ALL));
+    TEST_ASSERT_EQUAL(600, fake_bus_word(1, DXL_AT_GOAL));
+}
+
 /* ---- WRITEs that the servo did not obey ---- */
 
 /* A limp servo at 300 with the old goal 512. */
@@ -183,6 +211,8 @@ int main(void)
     RUN_TEST(test_servo_that_does_not_tell_its_pose_stays_off);
     RUN_TEST(test_torque_off_reaches_the_deaf_too);
     RUN_TEST(test_engage_takes_back_a_speed_limit);
+    RUN_TEST(test_engage_stops_a_servo_that_a_single_move_still_drives);
+    RUN_TEST(test_engage_leaves_a_servo_without_a_speed_limit_where_it_is);
     RUN_TEST(test_torque_stays_off_when_the_goal_cannot_be_set);
     RUN_TEST(test_goal_that_arrives_at_the_second_try_is_enough);
     RUN_TEST(test_servo_that_answers_no_write_is_read_back);
