@@ -372,6 +372,16 @@ def files_of_every_kind(data_of):
     }
 
 
+@pytest.mark.parametrize("name", [b'say "hi"', b'"', b'""', b'"a', b'a"', b'\\"', b"", b"self", b"a,b", b'14 characters"'], ids=ascii)
+def test_csv_keeps_a_name_whatever_is_in_it(name):
+    image = Image.empty()
+    image[3].data[:14] = name.ljust(14, b"\0")
+    image[3].steps = 1
+    image[3].seal()
+    data, losses = formats.encode(Path("p.csv"), image)
+    assert losses == [] and formats.decode(data, Path("p.csv"))[3] == image[3]
+
+
 def test_csv_of_a_trim_says_that_the_trim_is_lost(m512, tmp_path):
     (tmp_path / "x.m512").write_text("motion512 1\npage 0\n  offset 1:-5\n")
     assert "loss: page 0: the robot's trim is not in a .csv" in m512("convert", tmp_path / "x.m512", tmp_path / "p.csv", "--page", "0").stderr

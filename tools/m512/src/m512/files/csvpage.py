@@ -48,7 +48,8 @@ def write(image: Image, which: int | None) -> tuple[bytes, list[str]]:
     table.writerow(["page", which])
     if image.bits != 10:
         table.writerow(["bits", image.bits])
-    table.writerow(["name", quote_name(page.name).strip('"')])
+    name = quote_name(page.name)
+    table.writerow(["name", name[1:-1] if name.startswith('"') else name])
     for field in FIELDS:
         table.writerow([field, getattr(page, field)])
     table.writerow(["softness"] + [f"0x{page.compliance(joint):02X}" for joint in range(JOINTS)])
