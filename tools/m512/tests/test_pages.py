@@ -453,6 +453,16 @@ def test_diff_finds_every_single_byte():
         assert images(a, b), at
 
 
+def test_extract_says_which_partners_are_left_behind(m512, tmp_path):
+    """FORMAT.md: a blend partner is a page, like the target of a link."""
+    (tmp_path / "a.m512").write_text(
+        "motion512 1\npage 3 a\n  link1 U 8\n  blend right 4\n  blend left 5\n  step 1s | 1:500\n"
+        "page 4 b\n  step 1s | 1:500\npage 5 c\n  step 1s | 1:500\npage 8 d\n  step 1s | 1:500\n"
+    )
+    result = m512("pages", tmp_path / "a.m512", "extract", "3", "4", "-o", tmp_path / "b.bin")
+    assert result.stderr.splitlines() == [f'note: page 3 "a": {what} is left behind' for what in ("link1 page 8", "blend left 5")]
+
+
 def test_diff_says_once_what_empty_pages_have_that_has_no_effect(m512, tmp_path):
     """A .mtn fills unused steps and joints in its own way. For 124 empty pages one line is enough."""
     (tmp_path / "a.m512").write_text("motion512 1\npage 1 a\n  step 1s | 1:500 2:500\npage 3 c\n  step 1s | 1:400\n")

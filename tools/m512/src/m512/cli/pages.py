@@ -243,14 +243,14 @@ def extract(source: Source, page: Sequence[str], **where: Any) -> None:
     if 0 not in numbers and source.image.first == 0 and any(source.image[0].trims()):
         remarks.append("page 0, the robot's trim, is left behind: extract 0 as well keeps it")
     if source.image.given is not None:
-        source.image.given &= numbers
+        source.image.given = source.image.given & numbers
     for number, here in source.image.items():
         if number not in numbers:
             source.image[number] = Page()
         else:
             remarks += [
-                f'page {number} "{here.title}": {link} {getattr(here, link)} is left behind'
-                for link in Page.LINKS
+                f'page {number} "{here.title}": {link.replace("_", " ")} {getattr(here, link)} is left behind'
+                for link in Page.LINKS + Page.PARTNERS
                 if getattr(here, link) not in numbers | {0}
             ]
     source.store(remarks, **where, number=only)
