@@ -11,7 +11,7 @@ import re
 import pytest
 from block_peer import BlockPeer, BlockPtyPeer
 from conftest import REPO
-from factory_peer import FactoryPeer, FactoryPtyPeer
+from factory_peer import EEPROM_DATA, FactoryPeer, FactoryPtyPeer
 from hex_files import hex_file
 from virtual_peer import VirtualLink
 
@@ -418,6 +418,47 @@ def test_restore_leaves_the_mailbox_alone():
     wanted, found = bytearray(4096), bytearray(4096)
     wanted[0xFF3:0xFF7] = b"\1\xaa\5\2"  # FF4: a page waits; FF5: its number (boot/ORIGINAL.md, section 7)
     assert backup.eeprom_changes(bytes(wanted), bytes(found)) == {0xFF3: 1, 0xFF6: 2}
+
+
+@pytest.fixture
+def other_eeprom(m512, tmp_path):
+    """other_eeprom(peer) -> a backup whose cells 0x20..0x3F differ from those of the peer."""
+
+    def make(peer):
+        assert m512("backup", tmp_path / "b", "-p", peer.path, "--what", "eeprom", "--board", "cm5").exit_code == 0
+        peer.eeprom[0x20:0x40] = bytes(range(32))
+        return tmp_path / "b"
+
+    return make
+
+
+def test_an_eeprom_byte_that_arrives_wrong_is_written_again(m512, other_eeprom):
+    with FactoryPeer() as peer:
+        folder, changed = other_eeprom(peer), []
+
+        def garble(direction, _, byte):
+            if direction == "->" and peer.state == EEPROM_DATA and not changed:
+                changed.append(byte)
+                return byte ^ 1
+            return byte
+
+        peer.garble = garble
+        result = m512("restore", folder, "-p", peer.path, "--yes", "--board", "cm5")
+        assert changed and result.exit_code == 0 and "32 EEPROM cells written and read back" in result.stderr, result.stderr
+        assert peer.eeprom[0x20:0x40] == b"\xff" * 32
+
+
+def test_an_eeprom_cell_that_is_worn_out_is_named(m512, peer, other_eeprom):
+    class Worn(bytearray):
+        def __setitem__(self, at, value):
+            super().__setitem__(at, value)
+            super().__setitem__(0x2A, 5)
+
+    folder = other_eeprom(peer)
+    peer.eeprom = Worn(peer.eeprom)
+    result = m512("restore", folder, "-p", peer.path, "--yes", "--board", "cm5")
+    assert result.exit_code == 8 and "EEPROM reads back wrong at 0x02A, 3 times" in result.stderr, result.stderr
+    assert "EEPROM cells written" not in result.stderr and "epeat the command" in result.stderr
 
 
 def test_backup_that_was_changed_is_not_restored(m512, tmp_path):

@@ -13,10 +13,11 @@ from pathlib import Path
 from typing import Any, Callable
 
 from m512.board.block import Progress
+from m512.board.factory import FactoryLoader
 from m512.board.loaders import Loader
 from m512.board.memory import APP, EEPROM_BYTES, FLASH_PAGE, MOTIONS, Record
 from m512.crc16 import crc16
-from m512.errors import FileError
+from m512.errors import BoardError, FileError
 from m512.files import formats
 
 AREAS = {"motions": MOTIONS, "app": APP, "eeprom": (0, EEPROM_BYTES)}
@@ -24,6 +25,7 @@ MANIFEST = "manifest.json"
 FORMAT, VERSION = "m512-backup", 1
 # Transient state of the loaders, which must not be restored: a page waiting in the mailbox would be written at the next start.
 MAILBOX_CELLS = range(0xFF4, 0xFF6)
+EEPROM_TRIES = 3
 
 
 @dataclass
@@ -126,6 +128,20 @@ def flash_pages(backup: Backup, areas: list[str]) -> dict[int, bytes]:
 def eeprom_changes(wanted: bytes, found: bytes) -> dict[int, int]:
     """The EEPROM cells to write: address -> value."""
     return {at: value for at, value in enumerate(wanted) if found[at] != value and at not in MAILBOX_CELLS}
+
+
+def write_eeprom(loader: Loader, cells: dict[int, int], progress: Progress) -> None:
+    """Writes EEPROM cells and reads them back. BoardError: some stay wrong; all others are written."""
+    wrong = cells
+    for _ in range(EEPROM_TRIES):
+        loader.write_eeprom(wrong, progress)
+        first = min(wrong)
+        found = loader.read_eeprom(first, max(wrong) + 1)
+        wrong = {at: value for at, value in wrong.items() if found[at - first] != value}
+        if not wrong:
+            return
+    state = loader.how_it_stands() if isinstance(loader, FactoryLoader) else "Repeat the command: it writes what still differs"
+    raise BoardError(f"EEPROM reads back wrong at {', '.join(f'0x{at:03X}' for at in list(wrong)[:8])}, {EEPROM_TRIES} times. {state}")
 
 
 def board_of(backup: Backup) -> str | None:

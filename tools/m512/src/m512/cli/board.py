@@ -329,8 +329,8 @@ def restore(folder: Path, what: str | None, yes: bool, port: str, board: str, wa
             ui.say(str(download.download(loader, Plan(pages), ui.phase, todo)))
         if cells:
             with ui.phase("EEPROM") as progress:
-                loader.write_eeprom(cells, progress)
-            ui.say(f"{counted(len(cells), 'EEPROM cell')} written")
+                backups.write_eeprom(loader, cells, progress)
+            ui.say(f"{counted(len(cells), 'EEPROM cell')} written and read back")
         if todo or cells:
             loader.leave(2)
         else:
