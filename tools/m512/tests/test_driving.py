@@ -102,6 +102,55 @@ def test_drive_that_fails_stops_the_robot():
     assert board.asked[-1][1] == "stop"
 
 
+class Interrupted(Board):
+    """Ends m512 in other ways while it waits for the answers to these requests."""
+
+    def __init__(self, link, **ended):
+        super().__init__(link)
+        self.ended = {word: list(errors) for word, errors in ended.items()}
+
+    def ask(self, request, *_, **__):
+        super().ask(request)
+        if self.ended.get(request.split()[0]):
+            raise self.ended[request.split()[0]].pop(0)
+        return ""
+
+    def play(self):
+        self.ask("play 1")
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt(), SystemExit(143), NoAnswerError("no answer")])
+def test_a_drive_that_ends_while_its_start_is_answered_stops_the_robot(error):
+    link = Line()
+    board = Interrupted(link, play=[error])
+    with pytest.raises(type(error)):
+        driving.drive(board, Script([]), link, lambda stick: None, begin=board.play)
+    assert [request for _, request in board.asked] == ["play 1", "stop"]
+
+
+def test_a_drive_whose_page_is_refused_stops_nothing():
+    link = Line()
+    board = Interrupted(link, play=[BoardError("Not while something plays", 4)])
+    with pytest.raises(BoardError):
+        driving.drive(board, Script([]), link, lambda stick: None, begin=board.play)
+    assert [request for _, request in board.asked] == ["play 1"]
+
+
+def test_a_second_ctrl_c_while_the_stop_of_a_drive_is_answered_stops_at_once():
+    link = Line()
+    board = Interrupted(link, drive=[KeyboardInterrupt()], stop=[KeyboardInterrupt()])
+    with pytest.raises(KeyboardInterrupt):
+        driving.drive(board, Script([]), link, lambda stick: None)
+    assert [request for _, request in board.asked][-2:] == ["stop", "break"]
+
+
+def test_a_drive_without_an_answer_tells_the_first_reason():
+    link = Line()
+    board = Interrupted(link, drive=[NoAnswerError("no answer to @drive")], stop=[NoAnswerError("no answer to @stop")])
+    with pytest.raises(NoAnswerError, match="no answer to @drive"):
+        driving.drive(board, Script([]), link, lambda stick: None)
+
+
 @pytest.fixture
 def keyboard(monkeypatch):
     """The writing end of a terminal that is this process's standard input."""

@@ -219,7 +219,7 @@ class Client:
     def move(self, positions: dict[int, int], degrees_per_second: int) -> None:
         first, last = min(positions), max(positions)
         digits = "".join(f"{positions[j]:03X}" if j in positions else "---" for j in range(first, last + 1))
-        self.ask(f"move {degrees_per_second} {first} {digits}")
+        self._start(f"move {degrees_per_second} {first} {digits}")
 
     def torque(self, on: bool, joints: list[int]) -> None:
         self.ask(" ".join(["torque", "on" if on else "off"] + [str(j) for j in joints]))
@@ -244,7 +244,20 @@ class Client:
         return found
 
     def play(self, page: int, code: int = 0) -> None:
-        self.ask(f"play {page}" + (f" {code}" if code else ""))
+        self._start(f"play {page}" + (f" {code}" if code else ""))
+
+    def _start(self, request: str) -> None:
+        """Sends a request that begins a movement. While something moves a board refuses it. So when its answer is lost it is not simply
+        repeated: a robot that stood still before and moves now has taken it."""
+        stood = self.where()["state"] == "idle"
+        for _ in range(TRIES):
+            try:
+                self.ask(request, tries=1)
+                return
+            except NoAnswerError:
+                if stood and self.where()["state"] != "idle":
+                    return
+        raise NoAnswerError(f"no answer to @{request.split()[0]}")
 
 
 def _by_joints(values: bytes) -> str:

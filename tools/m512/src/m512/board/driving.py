@@ -9,12 +9,13 @@ from __future__ import annotations
 
 import re
 from collections import deque
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any, Callable, Protocol
 
 from m512.board.client import Client
 from m512.board.link import Link
-from m512.errors import BoardError
+from m512.errors import BoardError, NoAnswerError, PortError
 
 PERIOD = 0.05  # seconds between two lines
 ASK_EVERY = 20  # lines between two checks that the play still runs
@@ -102,11 +103,15 @@ class Pad:
             stick.done = "stop"
 
 
-def drive(client: Client, source: Source, link: Link, told: Callable[[Stick], object], layer: int = 0) -> Stick:
-    """Sends lines until the source sets `done` or the play ends; calls `told(stick)` after each line. layer: the second page, 0: none.
-    An exception stops the play softly."""
-    stick, before, laid, lines = Stick(), link.now(), False, 0
+def drive(
+    client: Client, source: Source, link: Link, told: Callable[[Stick], object], layer: int = 0, begin: Callable[[], object] = lambda: None
+) -> Stick:
+    """Begins the play, then sends lines until the source sets `done` or the play ends; calls `told(stick)` after each line. layer: the
+    second page, 0: none. An exception stops the play softly, unless the board refuses to begin it."""
+    stick, laid, lines, begun = Stick(), False, 0, False
     try:
+        begin()
+        begun, before = True, link.now()
         while not stick.done:
             now, lines = link.now(), lines + 1
             source.update(stick, now - before)
@@ -120,11 +125,25 @@ def drive(client: Client, source: Source, link: Link, told: Callable[[Stick], ob
                 return stick
             told(stick)
             link.sleep(max(PERIOD - (link.now() - now), 0))
-    except BaseException:
-        client.ask("stop")
+    except (NoAnswerError, PortError):
+        with suppress(NoAnswerError, PortError):  # the first one is told
+            _halt(client, "stop")
         raise
-    client.ask(stick.done)
+    except BaseException as error:
+        if begun or not isinstance(error, BoardError):
+            _halt(client, "stop")
+        raise
+    _halt(client, stick.done)
     return stick
+
+
+def _halt(client: Client, word: str) -> None:
+    """Stops the play; Ctrl-C while the answer is awaited stops at once."""
+    try:
+        client.ask(word)
+    except KeyboardInterrupt:
+        client.ask("break")
+        raise
 
 
 def _laid(client: Client, page: int | str) -> str:

@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Callable
 
 import click
 
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from m512.board.client import Client
 
 ID_MAX = 30
+STOPPED = "stopped by Ctrl-C"
 
 
 def _servos(_context: click.Context, _parameter: click.Parameter, text: str) -> str:
@@ -112,7 +113,6 @@ Examples:
 @robot_options
 def play(page: str, rate: int | None, amplitude: int | None, blend: int | None, key: str | None, wait: bool, **options: Any) -> None:
     """Play a page of the board, by number or name."""
-    from m512.board.bus import is_bus
     from m512.files.text.words import Token
     from m512.files.text.words import code as parse
 
@@ -125,26 +125,50 @@ def play(page: str, rate: int | None, amplitude: int | None, blend: int | None, 
         for word, value in (("rate", rate), ("amplitude", amplitude), ("blend", blend)):
             if value is not None:
                 client.ask(f"{word} {value}")
-        client.play(number, code)
-        ui.say(f"page {number} plays" + ("; waiting for its end, Ctrl-C stops it" if wait else ""))
-        is_ours = options["sim"] or is_bus(options["port"])  # a program started for this command ends with it
-        stopped = False
-        if wait or is_ours:
-            try:
-                stopped = _follow(client)
-            except PortError as error:
-                raise error if is_ours else PortError(f"{error}. Without it what plays on the robot goes on") from None
+        is_ours = _is_ours(options)
+
+        def start() -> None:
+            client.play(number, code)
+            ui.say(f"page {number} plays" + ("; waiting for its end, Ctrl-C stops it" if wait else ""))
+
+        stopped = _follow(client, start, wait or is_ours, is_ours)
         _report(client, options["as_json"])
     if stopped:
-        raise CancelledError("stopped by Ctrl-C")
+        raise CancelledError(STOPPED)
 
 
-def _follow(client: Client) -> bool:
-    """Shows the state until the robot is idle. The first Ctrl-C stops, the second breaks. Returns whether there was one. Anything else
-    that ends this program (a closed terminal window) also stops the play, because nobody can press Ctrl-C any more."""
-    before, asked = None, 0
+def _is_ours(options: dict[str, Any]) -> bool:
+    """Whether the robot's program was started for this command and ends with it."""
+    from m512.board.bus import is_bus
+
+    return bool(options["sim"]) or is_bus(options["port"] or "")
+
+
+def _follow(client: Client, start: Callable[[], None], wait: bool, is_ours: bool) -> bool:
+    """Starts a movement and, with `wait`, shows the state until the robot is idle. The first Ctrl-C stops, the second breaks, at any
+    moment from the start on. Returns whether there was one. Anything else that ends this program (a closed terminal window) also stops
+    the movement, because nobody can press Ctrl-C any more."""
+    try:
+        return _followed(client, start, wait)
+    except (PortError, NoAnswerError) as error:
+        if is_ours:
+            raise
+        raise type(error)(f"{error}. Without it what plays on the robot goes on (m512 stop ends it)") from None
+
+
+def _followed(client: Client, start: Callable[[], None], wait: bool) -> bool:
+    before, asked, halt, started = None, 0, "", False
     while True:
         try:
+            if halt:
+                client.ask(halt)
+                ui.say("stopping through the exit page; Ctrl-C again stops at once" if halt == "stop" else "stopping at once")
+                halt = ""
+            elif not started:
+                start()
+                started = True
+                if not wait:
+                    return False
             state = client.where()
             here = (state["state"], state["page"], state["repetition"])
             if here != before:
@@ -159,9 +183,8 @@ def _follow(client: Client) -> bool:
         except KeyboardInterrupt:
             asked += 1
             if asked > 2:
-                raise
-            client.ask("stop" if asked == 1 else "break")
-            ui.say("stopping through the exit page; Ctrl-C again stops at once" if asked == 1 else "stopping at once")
+                raise CancelledError("ended by Ctrl-C before the board has answered: the robot may still move (m512 stop --now)") from None
+            halt, started = "stop" if asked == 1 else "break", True
 
 
 @click.command(
@@ -192,15 +215,18 @@ Examples:
 @robot_options
 def pose(positions: Sequence[str], speed: int, as_text: bool, **options: Any) -> None:
     """Show the pose of the robot, or move joints to positions (0..1023, or 30deg from the centre)."""
-    wanted = positions_of(positions)
+    wanted, stopped = positions_of(positions), False
     with robot(options) as client:
         if wanted:
             missing = sorted(wanted.keys() - client.pose().keys())
             if missing:
                 raise BoardError(f"no answer from servos {' '.join(map(str, missing))}: nothing was moved")
-            client.move(wanted, speed)
-            ui.say("moving; waiting for the end")
-            _follow(client)
+
+            def start() -> None:
+                client.move(wanted, speed)
+                ui.say("moving; waiting for the end")
+
+            stopped = _follow(client, start, True, _is_ours(options))
         found = client.pose()
     if not found:
         raise BoardError("no servo answers; is their power on? m512 doctor looks")
@@ -212,6 +238,8 @@ def pose(positions: Sequence[str], speed: int, as_text: bool, **options: Any) ->
         for joint, (at, on) in found.items():
             degrees = "" if at is None else f"{(at - 512) * 300 / 1024:+7.1f} deg"
             ui.show(f"ID {joint:2}  {'silent' if at is None else at:>6}  {degrees}  {'holds' if on else 'limp'}")
+    if stopped:
+        raise CancelledError(STOPPED)
 
 
 def positions_of(words: Sequence[str]) -> Any:

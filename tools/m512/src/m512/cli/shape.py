@@ -12,7 +12,7 @@ import click
 from m512 import ui
 from m512.cli.layers import must_last, show_shape
 from m512.cli.robot import robot, robot_options
-from m512.errors import MissingError, how_to_install
+from m512.errors import MissingError, NoAnswerError, PortError, how_to_install
 
 if TYPE_CHECKING:
     from m512.board.client import Client
@@ -81,11 +81,17 @@ def drive(page: str, pad: bool, laid: Any, **options: Any) -> None:
         client.shape()  # Edit refuses this; it would play the page but could not be driven
         number, second = client.motion(page), client.motion(laid) if laid else 0
         with _pad() if pad else _keys() as source:
-            client.play(number)
-            ui.say(f"page {number} plays. " + ("Any of the first four buttons stops it" if pad else driving.Keys.HELP))
-            if second:
-                ui.say(f"{'The fifth button' if pad else 'f'} lays page {second} over it")
-            stick = driving.drive(client, source, client.link, _tell, second)
+
+            def begin() -> None:
+                try:
+                    client.play(number)
+                except (NoAnswerError, PortError) as error:
+                    raise type(error)(f"{error}. If page {number} plays, it goes on (m512 stop ends it)") from None
+                ui.say(f"page {number} plays. " + ("Any of the first four buttons stops it" if pad else driving.Keys.HELP))
+                if second:
+                    ui.say(f"{'The fifth button' if pad else 'f'} lays page {second} over it")
+
+            stick = driving.drive(client, source, client.link, _tell, second, begin)
     ui.say("\nstopping" if stick.done else "")
 
 

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: MIT
+"""`m512 play` and `pose` on a line that loses bytes, and when Ctrl-C or a signal comes at any moment: the robot does what is said."""
+
+import pytest
+from play_peer import PlayPeer
+
+CTRL_C, TERMINATED = KeyboardInterrupt(), SystemExit(143)
+
+
+def starts(robot):
+    return [request for request in robot.asked if request.split()[0] in ("play", "move")]
+
+
+@pytest.mark.parametrize("page", ["1", "2"])  # page 1 has gone on to page 2 before the loss is known
+def test_a_play_whose_answer_is_lost_is_followed(m512, page):
+    with PlayPeer(damaged=["play"], where=[None, None, CTRL_C]) as robot:
+        result = m512("play", page, "--wait", "-p", robot.path)
+    assert result.exit_code == 130 and "playing: page 2" in result.stderr, result.stderr
+    assert starts(robot) == [f"play {page}"] and robot.state == "idle"
+
+
+def test_a_play_whose_answer_is_lost_is_reported_as_one(m512):
+    with PlayPeer(damaged=["play"]) as robot:
+        result = m512("play", "2", "-p", robot.path)
+    assert result.exit_code == 0 and "page 2 plays" in result.stderr and robot.state == "playing", result.stderr
+
+
+def test_a_move_whose_answer_is_lost_has_worked(m512, monkeypatch):
+    monkeypatch.setattr("play_peer.MOVE_SECONDS", 9)  # longer than m512 waits for an answer
+    with PlayPeer(damaged=["move"]) as robot:
+        result = m512("pose", "1:900", "-p", robot.path)
+    assert result.exit_code == 0 and len(starts(robot)) == 1, result.stderr
+
+
+def test_a_play_is_refused_while_another_one_goes_on(m512):
+    for damaged in ([], ["play"], ["play", "where"]):
+        with PlayPeer(damaged=damaged) as robot:
+            robot.state, robot.page = "playing", 2
+            result = m512("play", "2", "-p", robot.path)
+        assert result.exit_code == 8 and "Not while something plays" in result.stderr, result.stderr
+        assert "stop" not in robot.asked and robot.state == "playing"
+
+
+def test_a_page_that_is_refused_stops_nothing(m512):
+    with PlayPeer() as robot:
+        result = m512("play", "9", "--wait", "-p", robot.path)
+    assert result.exit_code == 8 and "has no action" in result.stderr and "stop" not in robot.asked
+
+
+@pytest.mark.parametrize("words", [("play", "2"), ("play", "2", "--wait"), ("pose", "1:900")])
+def test_ctrl_c_while_the_start_is_answered_stops_the_robot(m512, words):
+    with PlayPeer(play=[CTRL_C], move=[CTRL_C]) as robot:
+        result = m512(*words, "-p", robot.path)
+    assert result.exit_code == 130 and "stopped by Ctrl-C" in result.stderr, result.stderr
+    assert robot.state == "idle" and "stop" in robot.asked and len(starts(robot)) == 1
+
+
+@pytest.mark.parametrize("first", [{"play": [CTRL_C]}, {"where": [CTRL_C]}])
+def test_a_second_ctrl_c_while_the_stop_is_answered_stops_at_once(m512, first):
+    with PlayPeer(**first, stop=[CTRL_C]) as robot:
+        result = m512("play", "2", "--wait", "-p", robot.path)
+    assert result.exit_code == 130 and "stopped by Ctrl-C" in result.stderr, result.stderr
+    assert robot.asked.index("stop") < robot.asked.index("break") and robot.state == "idle"
+
+
+def test_a_third_ctrl_c_says_that_the_robot_may_still_move(m512):
+    with PlayPeer(where=[CTRL_C], stop=[CTRL_C], **{"break": [CTRL_C]}) as robot:
+        result = m512("play", "2", "--wait", "-p", robot.path)
+    assert result.exit_code == 130 and "may still move" in result.stderr and "m512 stop --now" in result.stderr, result.stderr
+
+
+@pytest.mark.parametrize("words", [("play", "2"), ("play", "2", "--wait"), ("pose", "1:900")])
+@pytest.mark.parametrize(
+    "ended",
+    [
+        {"play": [TERMINATED], "move": [TERMINATED]},
+        {"where": [TERMINATED]},
+        {"play": [CTRL_C], "move": [CTRL_C], "stop": [TERMINATED]},
+        {"where": [CTRL_C], "stop": [TERMINATED]},
+    ],
+)
+def test_a_signal_at_any_moment_stops_the_robot(m512, words, ended):
+    if "where" in ended and words == ("play", "2"):
+        pytest.skip("it does not wait: the play is meant to go on")
+    with PlayPeer(**ended) as robot:
+        result = m512(*words, "-p", robot.path)
+        robot.pass_time(2)
+    assert result.exit_code == 143 and "stop" in robot.asked and robot.state == "idle", result.stderr
+
+
+@pytest.mark.parametrize("mute, words", [("where", ("play", "2", "--wait")), ("play where", ("play", "2")), ("stop", ("play", "2", "--wait"))])
+def test_a_robot_that_no_longer_answers_is_said_to_go_on(m512, mute, words):
+    with PlayPeer(play=[CTRL_C] if mute == "stop" else []) as robot:
+        play = robot.do_play
+        robot.do_play = lambda *rest: (robot.mute.update(mute.split()), play(*rest))[1]
+        result = m512(*words, "-p", robot.path)
+    assert result.exit_code == 7 and "goes on" in result.stderr and "m512 stop" in result.stderr, result.stderr
+
+
+@pytest.mark.parametrize("quiet, exit_code", [((), 0), (("play", "where", "stop"), 7)])
+def test_a_drive_plays_its_page_or_says_that_it_may_go_on(m512, monkeypatch, quiet, exit_code):
+    from contextlib import contextmanager
+
+    from m512.board.driving import Keys
+    from m512.cli import shape
+
+    @contextmanager
+    def keys():
+        source = Keys()
+        source.press(" ")
+        yield source
+
+    monkeypatch.setattr(shape, "_keys", keys)
+    with PlayPeer() as robot:
+        play = robot.do_play
+        robot.do_play = lambda *rest: (robot.mute.update(quiet), play(*rest))[1]
+        result = m512("drive", "2", "-p", robot.path)
+    assert result.exit_code == exit_code and ("it goes on (m512 stop" in result.stderr) == bool(quiet), result.stderr
+    assert "stop" in robot.asked
