@@ -9,6 +9,7 @@ from virtual_peer import VirtualPeer
 
 PROMPT = b"\r\n - "
 PROMPTED, SESSION = range(2, 4)
+SLOW, RATES = 57600, {34: 57600, 16: 117647}  # UBRR -> rate; the program on the PC calls 57,143 bit/s 57,600
 
 
 def crc16(data):
@@ -23,10 +24,18 @@ class BlockBoard(LoaderBoard):
         self.writes, self.left = [], []
         self.broken_pages = set()  # the loader detects that they do not take the data
         self.forgetful_pages = set()  # the loader does not detect it
+        self.rate = self.pc_rate = SLOW
         super().__init__(state, presses_mode)
 
+    def set_rate(self, rate):
+        self.pc_rate = rate
+
+    def send(self, data):
+        if self.rate == self.pc_rate:
+            super().send(data)
+
     def press_mode(self):
-        self.frame = None
+        self.frame, self.rate = None, SLOW
         super().press_mode()
 
     def on_silence(self, seconds):
@@ -38,11 +47,11 @@ class BlockBoard(LoaderBoard):
             self.frame = None
             self._answer(0, 0, 4)
         if self.state == SESSION and seconds > 4:
-            self.state, self.frame = PROMPTED, None
+            self.state, self.frame, self.rate = PROMPTED, None, SLOW
             self.send(PROMPT)
 
     def on_byte(self, byte):
-        if self.before_the_loader(byte):
+        if self.rate != self.pc_rate or self.before_the_loader(byte):
             return
         if self.state == SESSION or byte == 0xA5:
             self.state = SESSION
@@ -86,6 +95,10 @@ class BlockBoard(LoaderBoard):
         status, data = 2, b""
         if command == 1:
             status = 0
+        elif command == 2 and first in RATES:
+            self._answer(command, number, 0)
+            self.rate = RATES[first]
+            return
         elif command == 3:
             memory, at = (self.eeprom, first - 0x8100) if first >= 0x8100 else (self.flash, first)
             status, data = 0, bytes(memory[at * 256 : at * 256 + 256])
@@ -107,6 +120,7 @@ class BlockBoard(LoaderBoard):
             status = 0
             self.left.append(first)
             self._answer(command, number, status)
+            self.rate = SLOW
             self.state = APP if first == 1 else PROMPTED
             if first == 2:
                 self.press_mode()

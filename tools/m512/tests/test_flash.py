@@ -15,6 +15,7 @@ from factory_peer import EEPROM_DATA, FactoryPeer, FactoryPtyPeer
 from hex_files import hex_file
 from virtual_peer import VirtualLink
 
+from m512 import ui
 from m512.board import backup, factory_flash, memory
 from m512.board.block import frame
 from m512.board.factory import FactoryLoader
@@ -106,6 +107,18 @@ def test_flash_asks_before_motions_that_the_file_does_not_hold_are_lost(m512, pe
     result = m512("flash", motions, "-p", peer.path, "--yes")
     assert result.exit_code == 0, result.stderr
     assert peer.flash[0xE200:0x1E000] == motion_area()[512:]
+
+
+def test_a_late_yes_does_not_lose_a_fast_session(m512, motions, monkeypatch):
+    """Our loader ends a session, and its rate, after 4 s without a byte (boot/BLOCK_PROTOCOL.md)."""
+    with BlockPeer() as peer:
+        peer.flash[0xE200:0x1E000] = read_text("motion512 1\npage 7 bow\n  step 1s | 1..18:300\n").to_bytes()[512:]
+        rates, asked = [], []
+        peer.set_rate = lambda rate: (rates.append(rate), setattr(peer, "pc_rate", rate))
+        monkeypatch.setattr(ui, "confirm", lambda question, yes: (asked.append(question), peer.pass_time(20)))
+        result = m512("flash", motions, "-p", peer.path, "--fast")
+        assert asked and result.exit_code == 0 and rates == [117647, 57600], result.stderr
+        assert peer.flash[0xE200:0x1E000] == motion_area()[512:]
 
 
 def test_flash_application_and_start(m512, peer, app_hex):

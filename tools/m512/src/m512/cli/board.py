@@ -154,10 +154,10 @@ def _flash(
         return
     link, loader = connect(port, wait, yes, board)
     with link:
-        if fast and isinstance(loader, BlockLoader) and not loader.go_faster():
-            ui.say("note: the fast rate does not work here; going on at 57,600")
         with loaders.as_found(loader):
-            todo = _agreed(loader, plan, yes)
+            todo = _agreed(loader, plan, yes)  # before the fast rate, which the loader ends during a question
+            if fast and isinstance(loader, BlockLoader) and not loader.go_faster():
+                ui.say("note: the fast rate does not work here; going on at 57,600")
         report = download.download(loader, plan, ui.phase, todo)
         ui.say(str(report))
         if start:
