@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import sys
+import time
 
 import pytest
 from block_peer import PROMPTED, BlockPeer, BlockPtyPeer
@@ -903,6 +904,31 @@ def test_what_a_program_says_at_its_end_is_told_in_words_of_m512(says, monkeypat
     monkeypatch.setenv("START", "trap end INT; echo serial port: /dev/pts/0 >&2; while :; do sleep 0.1; done")
     bus.Program("bus:/dev/ttyX", "play").close()
     assert capsys.readouterr().err == "note: ended. To make them limp: m512 torque off -p bus:/dev/ttyX\n"
+
+
+@pytest.mark.parametrize("when", ["console", "greeting"])
+@pytest.mark.parametrize("error", [KeyboardInterrupt, SystemExit])
+def test_a_program_for_an_adapter_ends_with_a_start_that_is_ended(says, monkeypatch, tmp_path, when, error):
+    """Left behind, it would keep the adapter and the robot's folder from the next command."""
+    master, slave = os.openpty()
+    port = f"echo serial port: {os.ttyname(slave)} >&2; " if when == "greeting" else ""
+    says("ended")
+    monkeypatch.setenv("START", f"trap 'rm {tmp_path}/runs; exit' INT; touch {tmp_path}/runs; {port}while :; do sleep 0.1; done")
+
+    def ended(*_):
+        while not (tmp_path / "runs").exists():
+            time.sleep(0.01)
+        raise error
+
+    if when == "console":
+        monkeypatch.setattr(bus.select, "select", ended)
+    else:
+        monkeypatch.setattr(Link, "_receive", ended)
+    with pytest.raises(error):
+        Link("bus:/dev/ttyX")
+    assert not (tmp_path / "runs").exists()
+    os.close(master)
+    os.close(slave)
 
 
 def test_a_device_that_is_no_serial_port_is_called_so(m512):

@@ -91,7 +91,11 @@ class Program:
         assert self.process.stderr is not None
         self.errors: IO[bytes] = self.process.stderr
         self.said = ""
-        self.console = self._wait_for_console()
+        try:
+            self.console = self._wait_for_console()
+        except BaseException:  # Ctrl-C as well: a program left behind would keep the adapter and the robot's folder
+            self.close()
+            raise
         self.reader = threading.Thread(target=self._tell, daemon=True)
         self.reader.start()
 

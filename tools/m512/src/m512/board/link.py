@@ -33,7 +33,11 @@ class Link:
             raise PortError(explain(url, error)) from None
         self.held = b""  # bytes read and put back
         if self.program:
-            self.held = self._receive(4096, bus.START_SECONDS)  # the program has found its servos and sends its greeting
+            try:
+                self.held = self._receive(4096, bus.START_SECONDS)  # the program has found its servos and sends its greeting
+            except BaseException:  # Ctrl-C as well
+                self.close()
+                raise
 
     def __enter__(self) -> Link:
         return self
