@@ -348,6 +348,46 @@ def test_factory_download_near_the_loader_is_refused_before_a_word_is_typed(page
         assert not [word for word in peer.words if word.startswith(b"load")] and not peer.hurt and bytes(peer.flash) == peer.before
 
 
+class WornEeprom(bytearray):
+    """The cell 0x810, in the mailbox, holds 5 whatever is written."""
+
+    def __setitem__(self, at, value):
+        super().__setitem__(at, value)
+        super().__setitem__(0x810, 5)
+
+
+STAYS = "the controller stays in it at every start"
+
+
+def test_factory_mailbox_that_fails_says_that_the_controller_stays_in_its_loader(m512, tmp_path):
+    """m512 has typed `sys` by then: EEPROM FFF is FF (boot/ORIGINAL.md)."""
+    path = tmp_path / "x.m512"
+    path.write_text("motion512 1\npage 120 end\n  step 50 | 1..18:600\n")
+    with FactoryPeer(bytes(0xE000) + EMPTY * 128 + b"\xff" * 0x2000) as peer:
+        peer.eeprom = WornEeprom(peer.eeprom)
+        result = m512("flash", path, "-p", peer.path, "--board", "cm5")
+        assert result.exit_code == 8 and "the EEPROM does not take the page" in result.stderr and peer.eeprom[0xFFF] == 0xFF
+        assert STAYS in result.stderr and "repeat the command" in result.stderr, result.stderr
+
+
+def test_factory_flash_that_is_worn_out_says_that_the_controller_stays_in_its_loader(m512, app_hex):
+    with FactoryPeer() as peer:
+        peer.dead_pages = {0x400}
+        result = m512("flash", app_hex, "-p", peer.path, "--board", "cm5")
+        assert result.exit_code == 8 and "read back wrong at 0x00400" in result.stderr and peer.eeprom[0xFFF] == 0xFF
+        assert result.stderr.count(STAYS) == 1, result.stderr
+
+
+@pytest.mark.parametrize("mode, says", [(0x11, "The controller restarts"), (0xFF, "waits in its boot loader; `m512 run` starts the application")])
+def test_restore_says_whether_the_controller_stays_in_its_loader(m512, peer, tmp_path, mode, says):
+    """After an interrupted transfer the boot mode is that of the transfer."""
+    peer.eeprom[0xFFF] = mode
+    assert m512("backup", tmp_path / "b", "-p", peer.path, "--what", "motions", "--board", "cm5").exit_code == 0
+    peer.flash[0xE000 + 512 * 3 + 2] ^= 1
+    result = m512("restore", tmp_path / "b", "-p", peer.path, "--what", "motions", "--yes", "--board", "cm5")
+    assert result.exit_code == 0 and says in result.stderr and peer.eeprom[0xFFF] == mode, result.stderr
+
+
 def test_factory_success_is_not_believed(m512, motions):
     flash = bytearray(b"\xff" * 0x20000)
     flash[0xE000:0x1E000] = EMPTY * 128

@@ -12,10 +12,10 @@ from typing import Callable
 
 from m512.board.block import BlockLoader
 from m512.board.factory import FactoryLoader
-from m512.board.factory_line import BOOT_MODE
+from m512.board.factory_line import BOOT_MODE, Unsure
 from m512.board.loaders import Loader
 from m512.board.memory import FLASH_PAGE, Plan
-from m512.errors import BoardError, CancelledError, PortError, RefusedError
+from m512.errors import BoardError, CancelledError, NoAnswerError, PortError, RefusedError
 from m512.files.wording import counted
 
 PhaseMaker = Callable[[str], AbstractContextManager[Callable[[int, int], None]]]
@@ -85,6 +85,12 @@ def _to_factory(loader: FactoryLoader, pages: dict[int, bytes], progress: Callab
         raise CancelledError("stopped. " + loader.how_it_stands()) from None
     except PortError as error:
         raise PortError(f"{error}. {loader.how_it_stands()}") from None
+    except Unsure:  # says itself what to do
+        raise
+    except (BoardError, NoAnswerError) as error:
+        if loader.how_it_stands() in str(error):
+            raise
+        raise type(error)(f"{error}. {loader.how_it_stands()}") from None
 
 
 def start(loader: Loader) -> None:

@@ -332,7 +332,7 @@ def restore(folder: Path, what: str | None, yes: bool, port: str, board: str, wa
                 backups.write_eeprom(loader, cells, progress)
             ui.say(f"{counted(len(cells), 'EEPROM cell')} written and read back")
         if todo or cells:
-            loader.leave(2)
+            ui.say(loaders.restart(loader))
         else:
             ui.say("The board holds this already.")
             loaders.give_back(loader)
