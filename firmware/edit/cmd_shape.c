@@ -96,7 +96,7 @@ COMMAND(cmd_take)
     }
     the_dialog.take_page = the_session.page;
     the_dialog.take_first = first;
-    the_dialog.take_last = last;
+    the_dialog.take_count = (uint8_t)(last - first + 1u);
     TEXT("Noted for PASTE");
     if (the_session.is_changed) {
         TEXT(" (save it first)");
@@ -121,13 +121,13 @@ COMMAND(cmd_paste)
     if (cmd_step_is_trim_page()) {
         return SHELL_ERR_REPORTED;
     }
-    if (the_dialog.take_page == DIALOG_NO_PAGE) {
+    uint8_t count = the_dialog.take_count;
+    if (count == 0) {
         return dialog_refuse(TEXT_P("Nothing noted: TAKE first"));
     }
     if (args->count > 1) {
         to = (uint8_t)args->number[0];
     }
-    uint8_t count = (uint8_t)(the_dialog.take_last - the_dialog.take_first + 1u);
     if (to + count > PAGE_STEPS) {
         return dialog_refuse(TEXT_P("No room: 7 steps at most"));
     }

@@ -19,7 +19,6 @@ enum { MORE_ROWS = 2 };
 void dialog_init(void)
 {
     memset(&the_dialog, 0, sizeof the_dialog);
-    the_dialog.take_page = DIALOG_NO_PAGE;
     shell_init(&the_dialog.shell, the_dialog.line, DIALOG_LINE_BYTES, the_dialog.history, DIALOG_HISTORY_BYTES);
 }
 

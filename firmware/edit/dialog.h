@@ -20,7 +20,6 @@
 
 #define DIALOG_LINE_BYTES 112u    /* a line of a program (requests.h); the screen shows 77 */
 #define DIALOG_HISTORY_BYTES 30u
-#define DIALOG_NO_PAGE 0xFFu
 enum { LATE_TICKS = 96 };         /* 0.75 s: a space this soon after a list, a play or an ignored space is ignored */
 enum { ROW_TICKS = 512 };         /* 4 s: time to read the row before faults replace it */
 enum { WELL_TICKS = 128 };        /* 1 s: time to read that all servos are well */
@@ -44,7 +43,7 @@ typedef struct {
     uint16_t next_item;            /* of the list being shown */
     uint8_t lines;                 /* of the list on the screen */
     uint8_t list_first, list_last; /* pages of LIST and CHECK */
-    uint8_t take_page, take_first, take_last; /* steps noted by TAKE */
+    uint8_t take_page, take_first, take_count; /* steps noted by TAKE; a count of 0: none (each page number is a real one) */
     uint8_t late_ticks;            /* counts down; until then a space changes no cell */
     uint8_t well_ticks;            /* counts down from WELL_TICKS while the row shows that all servos are well */
     uint16_t row_ticks;            /* counts down from ROW_TICKS; then faults are shown again */

@@ -56,6 +56,15 @@ def test_lists_of_edit_end_at_the_last_page(make, files):
     robot.expect("There is no such page", at)
 
 
+def test_paste_copies_a_step_of_the_last_page(make, files):
+    robot = make(image="edit", motions=files).run()
+    robot.expect("Arrows move")
+    for line, text in ((f"page {LAST}", "last"), ("take 0", "Noted for PASTE"), ("page 1", "first"), ("paste 1", "0484")):
+        at = len(robot.console)
+        robot.send(line + "\r")
+        robot.expect(text, at)
+
+
 def test_m512_takes_all_of_them_and_a_board_says_what_does_not_fit(make, files, tmp_path):
     robot, back = make(), tmp_path / "back.bin"
 
