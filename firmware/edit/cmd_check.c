@@ -144,6 +144,11 @@ static bool check_item(uint16_t item)
     if (item + the_dialog.list_first > the_dialog.list_last) {
         return false;
     }
+    if (!performer_is_idle(&the_performer)) {   /* a program has begun a motion between two pages */
+        TEXT("Something moves");
+        text_line_end();
+        return false;
+    }
     servo_link_quiet(&the_servos);
     if (page != 0 && !session_is_empty(page)) {
         check_page(page);
