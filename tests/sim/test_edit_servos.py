@@ -151,6 +151,17 @@ def test_page_0_computes_the_trim():
         assert r.board.servos[3].goal == 612 - 12 and r.cell(0, 3) == "0612"
 
 
+def test_a_page_is_played_with_the_trim_while_page_0_is_open():
+    trimmed = page("Offset", [(0, {3: 512}), (0, {3: 500}), (0, {3: 50})])
+    with start(pages={0: trimmed, 7: page("pose", [(30, {3: 600})])}) as r:
+        r.line("page 0")
+        r.keys("play 7\r", ms=3000)
+        assert r.message.endswith("OK") and r.board.servos[3].goal == 650
+        assert r.cell(0, 3) == "0650"  # the work pose has no trim here, and neither has GO
+        r.line("go 0", ms=1000)
+        assert r.board.servos[3].goal == 512
+
+
 @pytest.mark.parametrize("line", ["go 2", "mirror 2", "write", "write 2", "move 0 2"])
 def test_the_trim_is_no_pose(line):
     """As goals its values would be the limits of a joint's range; a pose there would become the trim."""
