@@ -514,6 +514,65 @@ def test_an_eeprom_cell_that_is_worn_out_is_named(m512, peer, other_eeprom):
     assert "EEPROM cells written" not in result.stderr and "epeat the command" in result.stderr
 
 
+class WrongDigit:
+    """The line changes 0x0n at the start of this row of a dump into 0x1n, `times` times. Both are shown as a dot beside the row."""
+
+    def __init__(self, peer, address, times=1):
+        self.row, self.times, self.line = b" %08X : " % address, times, bytearray()
+        peer.garble = self
+
+    def __call__(self, direction, _, byte):
+        if direction != "<-":
+            return byte
+        self.line.append(byte)
+        if byte == 0x0A:
+            self.line.clear()
+        if self.times and self.line == self.row + b"0":
+            self.times -= 1
+            return 0x31
+        return byte
+
+
+def first_low_byte(data, start):
+    """The first row from `start` on whose first byte is 0x00..0x0F."""
+    return next(at for at in range(start, len(data), 16) if data[at] < 16)
+
+
+@pytest.mark.parametrize("what", ["eeprom", "motions", "app", "app of others", "behind the app"])
+def test_a_digit_that_the_line_changes_is_in_no_backup(m512, tmp_path, what):
+    """The factory loader's dump has no checksum (boot/ORIGINAL.md)."""
+    flash = bytearray(make_app()).ljust(0xE000, b"\xff") + motion_area() + b"\xff" * 0x2000
+    if what == "app of others":
+        flash[0x8C:0x90] = b"none"
+    flash[0x2000:0x2010] = bytes(16)
+    with FactoryPeer(flash) as peer:
+        peer.eeprom[0x120:0x140] = bytes(32)
+        area = what if what in ("eeprom", "motions") else "app"
+        at = {"eeprom": 0x120, "motions": 0xE000 + 3 * 512 + 64, "behind the app": 0x2000}.get(what) or first_low_byte(flash, 0x200)
+        line = WrongDigit(peer, at)
+        result = m512("backup", tmp_path / "b", "-p", peer.path, "--what", area, "--board", "cm5")
+        assert result.exit_code == 0 and line.times == 0, result.stderr
+        wanted = {"eeprom": peer.eeprom, "motions": flash[0xE000:0x1E000], "app": flash[:0xC000]}[area]
+        assert (tmp_path / "b" / f"{area}.bin").read_bytes() == bytes(wanted)
+
+
+def test_a_backup_that_is_read_differently_each_time_is_none(m512, tmp_path):
+    with FactoryPeer() as peer:
+        line, dump, readings = WrongDigit(peer, 0x120, times=0), peer._do_e, []
+
+        def every_other_time(args):
+            if (args or [peer.dump_at]) == [0x100]:
+                readings.append(args)
+                line.times = len(readings) % 2
+            dump(args)
+
+        peer._do_e = every_other_time
+        peer.eeprom[0x120:0x140] = bytes(32)
+        result = m512("backup", tmp_path / "b", "-p", peer.path, "--what", "eeprom", "--board", "cm5")
+        assert result.exit_code == 7 and "eeprom at 0x100 is read differently each time" in result.stderr, result.stderr
+        assert not (tmp_path / "b").exists()
+
+
 def test_backup_that_was_changed_is_not_restored(m512, tmp_path):
     folder = tmp_path / "b"
     folder.mkdir()

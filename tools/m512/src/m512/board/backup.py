@@ -17,8 +17,9 @@ from m512.board.factory import FactoryLoader
 from m512.board.loaders import Loader
 from m512.board.memory import APP, EEPROM_BYTES, FLASH_PAGE, MOTIONS, Record
 from m512.crc16 import crc16
-from m512.errors import BoardError, FileError
+from m512.errors import BoardError, FileError, NoAnswerError
 from m512.files import formats
+from m512.files.page import PAGE_BYTES, Fault, Page
 
 AREAS = {"motions": MOTIONS, "app": APP, "eeprom": (0, EEPROM_BYTES)}
 MANIFEST = "manifest.json"
@@ -26,6 +27,9 @@ FORMAT, VERSION = "m512-backup", 1
 # Transient state of the loaders, which must not be restored: a page waiting in the mailbox would be written at the next start.
 MAILBOX_CELLS = range(0xFF4, 0xFF6)
 EEPROM_TRIES = 3
+READ_TRIES = 4
+
+PhaseMaker = Callable[[str], AbstractContextManager[Progress]]
 
 
 @dataclass
@@ -47,13 +51,15 @@ def must_be_possible(folder: Path) -> None:
         raise FileError(f"cannot make {folder}: nothing can be written in {there}")
 
 
-def take(loader: Loader, folder: Path, areas: list[str], phase: Callable[[str], AbstractContextManager[Progress]]) -> Backup:
+def take(loader: Loader, folder: Path, areas: list[str], phase: PhaseMaker) -> Backup:
     """Reads the areas of the board and writes the folder, the manifest last."""
     data = {}
     for area in areas:
         with phase(f"Reading {area}") as progress:
             read = loader.read_eeprom if area == "eeprom" else loader.read
             data[area] = read(*AREAS[area], progress)
+        if isinstance(loader, FactoryLoader):
+            data[area] = _certain(read, area, data[area], phase)
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -81,6 +87,45 @@ def take(loader: Loader, folder: Path, areas: list[str], phase: Callable[[str], 
         formats.write_bytes(folder / f"{area}.bin", data[area])
     formats.write_bytes(folder / MANIFEST, (json.dumps(manifest, indent=2) + "\n").encode())
     return Backup(folder, manifest, data)
+
+
+def _certain(read: Callable[..., bytes], area: str, data: bytes, phase: PhaseMaker) -> bytes:
+    """The area, after each part without a valid checksum was read until two readings in a row agree: a dump of the factory loader protects
+    printable characters only. NoAnswerError: the readings never agree."""
+    out, base = bytearray(data), AREAS[area][0]
+    for start, end in _doubtful(area, data):
+        with phase(f"Reading {area} again") as progress:
+            again = read(base + start, base + end, progress)
+        for at in range(start, end, FLASH_PAGE):
+            first, second = data[at : at + FLASH_PAGE], again[at - start : at - start + FLASH_PAGE]
+            for _ in range(READ_TRIES):
+                if first == second:
+                    break
+                first, second = second, read(base + at, base + at + FLASH_PAGE)
+            else:
+                raise NoAnswerError(f"{area} at 0x{base + at:X} is read differently each time, so no backup was made. Is the cable good?")
+            out[at : at + FLASH_PAGE] = second
+    return bytes(out)
+
+
+def _doubtful(area: str, data: bytes) -> list[tuple[int, int]]:
+    """Parts [start, end) of an area that no valid checksum covers, in flash pages. Erased flash is not among them."""
+    if area == "eeprom":
+        return [(0, len(data))]
+    if area == "motions":
+        pages = [(at, at + PAGE_BYTES) for at in range(0, len(data), PAGE_BYTES) if Page(data[at : at + PAGE_BYTES]).fault() is Fault.CHECKSUM]
+    else:
+        record = Record.of(data)
+        covered = record.length if record and record.fits(data) else 0
+        pages = [(at, at + FLASH_PAGE) for at in range(covered // FLASH_PAGE * FLASH_PAGE, len(data), FLASH_PAGE)]
+    out: list[tuple[int, int]] = []
+    for start, end in pages:
+        if set(data[start:end]) == {0xFF}:
+            continue
+        if out and out[-1][1] == start:
+            start = out.pop()[0]
+        out.append((start, end))
+    return out
 
 
 def load(folder: Path) -> Backup:
