@@ -186,10 +186,14 @@ def test_pairs_stand_as_in_a_text_too(m512, lib, tmp_path):
     assert (tmp_path / "a.bin").read_bytes() == (tmp_path / "b.bin").read_bytes()
 
 
-@pytest.mark.parametrize("word", ["1..5", "all"])
+@pytest.mark.parametrize("word", ["1..5", "5..3", "all"])
 def test_several_pages_for_one_are_refused_as_what_they_are(m512, lib, word):
-    for action in (("time", word), ("copy", word, "20", "-o", lib.parent / "new.bin")):
-        result = m512("pages", lib, *action)
+    for action in (
+        ("pages", lib, "time", word),
+        ("pages", lib, "copy", word, "20", "-o", lib.parent / "new.bin"),
+        ("convert", lib, lib.parent / "new.csv", "--page", word),
+    ):
+        result = m512(*action)
         assert result.exit_code == 4 and f"{word} means several pages, and one is asked for" in result.stderr
 
 

@@ -117,3 +117,11 @@ def test_a_drive_plays_its_page_or_says_that_it_may_go_on(m512, monkeypatch, qui
         result = m512("drive", "2", "-p", robot.path)
     assert result.exit_code == exit_code and ("it goes on (m512 stop" in result.stderr) == bool(quiet), result.stderr
     assert "stop" in robot.asked
+
+
+@pytest.mark.parametrize("words", [("play",), ("layer",), ("drive", "2", "--layer")])
+def test_a_range_that_goes_down_is_no_page(m512, words):
+    with PlayPeer() as robot:
+        robot.do_list = lambda: '2:2:"walk" OK'
+        result = m512(*words, "5..3", "-p", robot.path)
+    assert result.exit_code == 8 and "5..3 means several pages, and one is asked for" in result.stderr, result.stderr

@@ -18,6 +18,7 @@ from typing import Callable, Protocol
 from m512.errors import M512Error, WordError
 
 NUMBER_MOST = 255  # the largest page number on any board
+RANGE = r"([0-9]{1,9})\.\.([0-9]{1,9})"
 
 
 class Pages(Protocol):
@@ -41,7 +42,7 @@ def find(word: str, names: Mapping[int, str], error: Callable[[str], M512Error],
             return hits[0]
         if hits:
             raise error(f"page name {word!r} is not unique: pages " + ", ".join(map(str, hits)))
-    if word == "all" or number_range(word):
+    if word == "all" or re.fullmatch(RANGE, word):
         raise error(f"{word} means several pages, and one is asked for")
     raise error(f"no page{whose} is called {word!r}")
 
@@ -53,7 +54,7 @@ def page_number(text: str) -> int | None:
 
 def number_range(text: str) -> tuple[int, int] | None:
     """(1, 6) for `1..6`; None if the text is not a range."""
-    match = re.fullmatch(r"([0-9]{1,9})\.\.([0-9]{1,9})", text)
+    match = re.fullmatch(RANGE, text)
     if not match:
         return None
     low, high = int(match.group(1)), int(match.group(2))
