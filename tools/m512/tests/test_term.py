@@ -95,6 +95,105 @@ def test_term_sends_a_file_line_by_line(term, tmp_path):
         child.expect("cannot read /no/such")
 
 
+class Blocked(Echo):
+    """Says XOFF with its first answer, and XON when the line `go on` comes."""
+
+    def on_byte(self, byte):
+        super().on_byte(byte)
+        if byte == 0x0D:
+            self.send(b"\x11" if self.lines[-1] == b"go on" else b"\x13")
+
+
+def test_a_file_is_given_up_when_the_board_does_not_go_on(term, tmp_path, monkeypatch):
+    """A lost XON once held the terminal for ever: it took no keys, so that not even Ctrl-] q worked."""
+    (tmp_path / "script").write_text("one\ntwo\nthree")
+    with Blocked() as board:
+        child = term("-p", board.path)
+        child.expect("to quit")
+        child.send("\x1ds")
+        child.expect("file: ")
+        child.send(f"{tmp_path / 'script'}\r")
+        child.expect("line 2 of .*script and all after it were not sent: the board has said XOFF and no XON for 10 s", timeout=60)
+        assert board.lines == [b"one"]
+        child.send("go on\r")
+        child.expect("<go on>")
+        child.send("\x1dq")
+        child.expect(pexpect.EOF)
+
+
+def test_the_log_is_switched_off_while_the_board_sends(monkeypatch):
+    """The thread that reads once ended at a log that was being closed: nothing was shown any more, and nothing was said."""
+    from m512.board import terminal
+
+    class Line:
+        said = [b"one", b"two"]
+
+        def read_some(self, _):
+            if len(self.said) == 1:
+                it.running = False
+            return self.said.pop(0)
+
+    class Log(list):
+        shut = False
+
+        def write(self, data):
+            if self.shut:
+                raise ValueError("write to closed file")
+            self.append(data)
+
+        def flush(self):
+            pass
+
+        def close(self):
+            self.shut = True
+            it._read(screen)  # what comes while the file is closed
+
+    monkeypatch.setattr(terminal, "Link", lambda url, image: Line())
+    it, shown = terminal.Terminal("here"), []
+    screen = type("Screen", (), {"write_bytes": staticmethod(shown.append)})
+    it.log = Log()
+    it._toggle_log(screen)
+    assert shown == [b"one", b"two"] and it.log is None
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a full disk")
+def test_a_log_that_cannot_be_written_is_told_and_the_terminal_goes_on(term):
+    with Echo() as board:
+        child = term("-p", board.path, "--log", "/dev/full", "--force")
+        child.expect("to quit")
+        child.send("list\r")
+        child.expect("the log ends here: No space left on device")
+        child.send("where\r")
+        child.expect("<where>")
+
+
+class Busy(FactoryPtyPeer):
+    """An application that echoes what is typed; its person presses MODE after 20 '#'."""
+
+    heard = 0
+
+    def before_the_loader(self, byte):
+        if self.state == APP:
+            self.heard += 1
+            if self.heard < 20:
+                self.send(bytes([byte]))
+                return True
+            self.app_heard += b"#"
+        return super().before_the_loader(byte)
+
+
+def test_an_echo_is_no_boot_loader(term, monkeypatch):
+    """Edit echoes what is typed. An echo once ended the calling before MODE was pressed."""
+    monkeypatch.setattr("factory_peer.WINDOW", 0.2)
+    with Busy(state=APP) as board:
+        child = term("-p", board.path)
+        child.expect("to quit")
+        child.send("\x1dl")
+        child.expect("Press MODE")
+        child.expect("SYSTEM O.K.", timeout=60)
+        child.expect("- ")
+
+
 def test_term_calls_the_boot_loader(term, monkeypatch):
     monkeypatch.setattr("factory_peer.WINDOW", 0.2)  # a busy PC may pause for longer than the board's 60 ms; the line ends 0.35 s later
     with FactoryPtyPeer(state=APP) as board:

@@ -7,11 +7,14 @@ import io
 import sys
 import threading
 import time
+from contextlib import suppress
 from itertools import chain
 from pathlib import Path
 from typing import Any, BinaryIO
 
+from m512.board.factory_line import PROMPT
 from m512.board.link import Link
+from m512.board.loaders import BANNER
 from m512.errors import FileError, M512Error, PortError, RefusedError
 from m512.files import storage
 
@@ -23,7 +26,9 @@ HELP = """
  Ctrl-] g   log to a file, on and off             Ctrl-] Ctrl-]  send Ctrl-]
 """
 PIPE_QUIET = 0.3  # silence that ends an answer when lines come from a pipe
+HELD_SECONDS = 10  # how long the board may hold a file back by XOFF: saving takes less than a second
 LINE_SECONDS = 2.0  # how long the board may take to answer a line of a file
+HEARD_BYTES = 64
 XON, XOFF = 0x11, 0x13
 HIDDEN = (XON, XOFF, 0xFF)  # flow control, and the byte that a controller sends at its start
 
@@ -31,8 +36,9 @@ HIDDEN = (XON, XOFF, 0xFF)  # flow control, and the byte that a controller sends
 class Terminal:
     def __init__(self, url: str, log: Path | None = None, image: str = "edit"):
         self.log: BinaryIO | None = None
+        self.log_lock = threading.Lock()  # one thread writes it, the other opens and closes it
         self.running, self.held, self.trouble = True, False, ""
-        self.heard_at = 0.0
+        self.heard_at, self.heard = 0.0, b""  # the last that came
         self.link = Link(url, image=image)
         if log:
             try:
@@ -47,6 +53,23 @@ class Terminal:
             self.log = open(path, "wb")
         except OSError as error:
             raise FileError(f"cannot write {path}: {error.strerror}") from None
+
+    def _to_log(self, data: bytes) -> None:
+        try:
+            with self.log_lock:
+                if self.log:
+                    self.log.write(data)
+                    self.log.flush()
+        except OSError as error:
+            self._close_log()
+            self._say(f"the log ends here: {error.strerror}")
+
+    def _close_log(self) -> None:
+        with self.log_lock:
+            log, self.log = self.log, None
+        if log:
+            with suppress(OSError):  # every write was flushed, and one that failed was told
+                log.close()
 
     def run(self, send: Path | None = None, data: bytes = b"") -> None:
         """data: the content of the file `send`. It goes to the board first, line by line."""
@@ -71,8 +94,7 @@ class Terminal:
             console.cleanup()
             reader.join(1)
             self.link.close()
-            if self.log:
-                self.log.close()
+            self._close_log()
         if self.trouble:
             raise PortError(self.trouble)
 
@@ -85,12 +107,10 @@ class Terminal:
                 answer = self.link.drain(PIPE_QUIET, LINE_SECONDS)
                 sys.stdout.buffer.write(bytes(b for b in answer if b not in HIDDEN))
                 sys.stdout.buffer.flush()
-                if self.log:
-                    self.log.write(answer)
+                self._to_log(answer)
         finally:
             self.link.close()
-            if self.log:
-                self.log.close()
+            self._close_log()
 
     @staticmethod
     def _say(text: str) -> None:
@@ -108,12 +128,10 @@ class Terminal:
                 return
             if not data:
                 continue
-            self.heard_at = time.monotonic()
+            self.heard_at, self.heard = time.monotonic(), (self.heard + data)[-HEARD_BYTES:]
             self.held = data.rfind(XOFF) > data.rfind(XON) if XOFF in data or XON in data else self.held
             console.write_bytes(bytes(b for b in data if b not in HIDDEN))
-            if self.log:
-                self.log.write(data)
-                self.log.flush()
+            self._to_log(data)
 
     def _keys(self, console: Any) -> None:
         while self.running:
@@ -150,20 +168,20 @@ class Terminal:
         return True
 
     def _call(self) -> None:
-        heard, until, more = self.heard_at, time.monotonic() + 30, 3
+        until, more = time.monotonic() + 30, 3
+        self.heard = b""
         while self.running and time.monotonic() < until and more:
             self.link.write(b"#")
             time.sleep(0.015)
-            # The board has restarted when something is received (0xFF). Three more '#' fit into the loader's window of 60 ms, and the last
-            # byte in it must be a '#'.
-            more -= self.heard_at > heard
+            # A loader sends 0xFF when it starts, then its text; an application may echo. Three more '#' fit into the loader's window of
+            # 60 ms, and the last byte in it must be a '#'.
+            more -= any(sign in self.heard for sign in (b"\xff", BANNER, PROMPT))
         time.sleep(0.35)
         self.link.write(b"\x08\r")
 
     def _toggle_log(self, console: Any) -> None:
         if self.log:
-            self.log.close()
-            self.log = None
+            self._close_log()
             self._say("log closed")
             return
         name = self._ask(console, "log to: ")
@@ -203,10 +221,15 @@ class Terminal:
             self._send_lines(path, data)
 
     def _send_lines(self, path: Path, data: bytes) -> None:
-        """After each line waits until the board has answered and is quiet. Waits for XON after XOFF."""
-        for line in data.replace(b"\r\n", b"\n").split(b"\n"):
+        """After each line waits until the board has answered and is quiet. Waits for XON after XOFF, but not for ever: it may be lost."""
+        for number, line in enumerate(data.replace(b"\r\n", b"\n").split(b"\n"), 1):
+            until = time.monotonic() + HELD_SECONDS
             while self.held and self.running:
                 time.sleep(0.01)
+                if time.monotonic() > until:
+                    self.held = False  # the next try does not wait for the lost one
+                    self._say(f"line {number} of {path} and all after it were not sent: the board has said XOFF and no XON for {HELD_SECONDS} s")
+                    return
             sent = time.monotonic()
             self.link.write(line + b"\r")
             while time.monotonic() - sent < LINE_SECONDS and self.running:
