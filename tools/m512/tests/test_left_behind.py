@@ -33,10 +33,10 @@ def world(tmp_path):
         high.set_word(0, joint, 2048)
     (tmp_path / "high.bin").write_bytes(bytes(512) + bytes(high.seal()) + bytes(Page()) * 126)
 
-    def start(*words, **environment):
+    def start(*words, before=(), **environment):
         env = {"M512_BUILD": str(REPO / "build"), "HOME": str(tmp_path), "PATH": "/usr/bin:/bin", "TMPDIR": str(world.temporary), **environment}
         return subprocess.Popen(
-            [sys.executable, "-m", "m512", *words], env=env, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+            [*before, sys.executable, "-m", "m512", *words], env=env, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
         )
 
     world.start = start
@@ -123,3 +123,23 @@ def test_a_signal_ends_the_simulator_too(world, number, when):
     process.communicate(timeout=600)
     wait_for_the_end(simulators[0])
     assert not list(world.temporary.iterdir())
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="finds the children of a process in /proc")
+@pytest.mark.parametrize("before, ends", [((), True), (("nohup",), False)])
+def test_nohup_keeps_a_command_alive_when_its_terminal_closes(world, before, ends):
+    mute = world.folder / "mute"
+    mute.write_text("#!/bin/sh\nexec sleep 600\n")
+    mute.chmod(0o755)
+    process = world.start("play", "wave", "--sim", "--motions", "wave.m512", before=before, M512_CM5SIM=str(mute))
+    while not children(process.pid):
+        assert process.poll() is None
+        time.sleep(0.05)
+    process.send_signal(signal.SIGHUP)
+    try:
+        assert ends == (process.wait(600 if ends else 3) == 128 + signal.SIGHUP)
+    except subprocess.TimeoutExpired:
+        assert not ends
+    process.terminate()
+    process.communicate(timeout=600)
+    assert process.returncode == 128 + (signal.SIGHUP if ends else signal.SIGTERM)

@@ -4,6 +4,7 @@
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
 import time
@@ -1001,6 +1002,14 @@ def test_a_dry_run_without_a_board_is_no_success(m512, files, monkeypatch):
     monkeypatch.setattr(ports, "available", list)
     result = m512("flash", files / "x.bin", "--dry-run")
     assert result.exit_code == 6 and "254 flash pages" in result.stderr, result.stderr
+
+
+@pytest.mark.parametrize("at_prompt, left", [(True, 0), (False, 2)])
+def test_sigterm_leaves_the_board_as_it_was_found(m512, files, board, monkeypatch, at_prompt, left):
+    board.state = PROMPTED if at_prompt else 0
+    monkeypatch.setattr(block.BlockLoader, "different", lambda *_: signal.raise_signal(signal.SIGTERM))
+    assert m512("flash", files / "x.bin", "-p", board.path, "--wait", "5").exit_code == 128 + signal.SIGTERM
+    assert board.left == [left]
 
 
 def test_ctrl_c_leaves_a_loader_that_is_read_at_its_prompt(m512, board, monkeypatch):

@@ -175,12 +175,13 @@ def restart(loader: Loader) -> str:
 
 @contextmanager
 def as_found(loader: Loader) -> Iterator[None]:
-    """Leaves the board as it was found when something ends the block early: an error, a no, Ctrl-C. Not after a PortError."""
+    """Leaves the board as it was found when something ends the block early: an error, a no, Ctrl-C, SIGTERM. Not after a
+    PortError."""
     try:
         yield
     except PortError:
         raise
-    except (M512Error, KeyboardInterrupt, Abort):
+    except (M512Error, KeyboardInterrupt, SystemExit, Abort):
         loader.leave(STAY if loader.was_at_prompt else RESET)
         raise
 

@@ -69,8 +69,9 @@ class LazyGroup(click.Group):
     def invoke(self, ctx: click.Context) -> Any:
         from m512.errors import EXIT_CANCELLED, M512Error
 
-        for name in ("SIGTERM", "SIGHUP"):  # the simulator and a driven robot must not outlive this program
-            if hasattr(signal, name):
+        # The simulator and a driven robot must not outlive this program. A signal that nohup has set to be ignored stays ignored.
+        for name in ("SIGTERM", "SIGHUP"):
+            if hasattr(signal, name) and signal.getsignal(getattr(signal, name)) is not signal.SIG_IGN:
                 signal.signal(getattr(signal, name), lambda number, _: sys.exit(128 + number))
         try:
             return super().invoke(ctx)
