@@ -133,13 +133,12 @@ def test_the_log_is_switched_off_while_the_board_sends(monkeypatch):
                 it.running = False
             return self.said.pop(0)
 
-    class Log(list):
+    class Log:
         shut = False
 
         def write(self, data):
             if self.shut:
                 raise ValueError("write to closed file")
-            self.append(data)
 
         def flush(self):
             pass
