@@ -249,6 +249,27 @@ def test_a_hand_written_text_that_gave_some_of_the_motions_stays(m512, files, mo
     assert m512(*[word.replace("hand", "own") for word in words]).exit_code == 0
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["convert", "main.m512", "poses.m512", "--force"],
+        ["pages", "main.m512", "rename", "3", "new", "-o", "./poses.m512", "--force"],
+        ["pages", "x.bin", "merge", "main.m512", "3", "--replace", "-o", "poses.m512", "--force"],
+    ],
+)
+def test_a_text_that_is_included_is_not_overwritten_by_the_whole(m512, files, monkeypatch, words):
+    """README: a text is never replaced by its own motions. The included one gave some of them."""
+    monkeypatch.chdir(files)
+    poses = "motion512 1\npose up | 1:300  # as high as it goes\n"
+    (files / "poses.m512").write_text(poses)
+    (files / "main.m512").write_text('motion512 1\ninclude "middle.m512"\npage 3 bow\nstep 9 | @up\n')
+    (files / "middle.m512").write_text('motion512 1\ninclude "poses.m512"\n')
+    result = m512(*words)
+    assert result.exit_code == 5 and "poses.m512 is a text that main.m512 includes" in result.stderr
+    assert (files / "poses.m512").read_text() == poses
+    assert m512(*[word.replace("poses", "own") for word in words]).exit_code == 0
+
+
 @pytest.mark.parametrize("size", [65_024, 65_536, 131_072])
 @pytest.mark.parametrize("suffix", ["m512", "hex", "mtn", "csv"])
 def test_a_text_of_the_size_of_an_image_is_a_text(m512, files, size, suffix):

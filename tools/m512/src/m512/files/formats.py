@@ -124,8 +124,8 @@ def must_be_writable(path: Path, force: bool) -> None:
 
 
 def keep_text(source: Path, target: Path) -> None:
-    """RefusedError if a text would be overwritten by its own motions and would lose content, such as comments."""
-    if not (storage.exists(source) and storage.exists(target) and target.samefile(source)):
+    """RefusedError if a text, or one that it includes, would be overwritten by its own motions and would lose content, such as comments."""
+    if not (storage.exists(source) and storage.exists(target)):
         return
     data = read_bytes(source)
     if recognise(data, source) != TEXT:
@@ -133,7 +133,10 @@ def keep_text(source: Path, target: Path) -> None:
     from m512.files.text import read_text, write_text
 
     text = _text_of(data, source)
-    if write_text(read_text(text, str(source), source.parent)) != text:
+    image = read_text(text, str(source), source.parent)
+    if any(storage.exists(path) and target.samefile(path) for path in image.included):
+        raise RefusedError(f"{target} is a text that {source} includes, and would be lost. Name another file for the result")
+    if target.samefile(source) and write_text(image) != text:
         raise RefusedError(
             f"{source} is somebody's text: its comments, poses, names and includes would become numbers. "
             "Change the text itself, or name another file for the result (of `m512 pages`: -o new.m512)"

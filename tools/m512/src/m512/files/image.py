@@ -15,6 +15,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from io import StringIO
+from pathlib import Path
 
 from m512.errors import FileError
 from m512.files import selection
@@ -37,6 +38,7 @@ class Image:
     joints: dict[int, str] = field(default_factory=dict)  # names, if the file has some
     form: str = ""  # the kind of file it was read from (formats.TEXT, BINARY, ...)
     given: set[int] | None = None  # the pages that an Intel HEX file contains, if not all
+    included: list[Path] = field(default_factory=list)  # other texts that it was read from
 
     @classmethod
     def empty(cls, count: int = 128) -> Image:

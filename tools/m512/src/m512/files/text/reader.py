@@ -38,7 +38,8 @@ class Reader(JointWords):
         self.pages: dict[int, Draft] = {}
         self.where, self.line, self.folder, self.depth = "", 0, Path("."), 0
         self.origin: dict[int, str] = {}
-        self.included = 0  # bytes
+        self.included: list[Path] = []
+        self.included_bytes = 0
 
     # Files and lines
 
@@ -139,8 +140,9 @@ class Reader(JointWords):
             raise WordError(str(error)) from None
         except (UnicodeError, ValueError):
             raise WordError(f"cannot read {path}: not UTF-8 text") from None
-        self.included += len(data)
-        if self.included > storage.MOST_BYTES:
+        self.included.append(path)
+        self.included_bytes += len(data)
+        if self.included_bytes > storage.MOST_BYTES:
             raise WordError(f"what is included has more than {storage.MOST_BYTES >> 20} MiB in all, which is no motion")
         self.read(text, str(path), path.parent)
         self.depth -= 1
@@ -348,6 +350,7 @@ class Reader(JointWords):
             self.first,
             self.bits,
             joints={joint: name for name, joint in reversed(list(self.joints.items()))},
+            included=self.included,
         )
         built = {id(draft): (page, draft) for page, draft in self.pages.items()}
         for page, draft in built.values():
