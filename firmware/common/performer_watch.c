@@ -39,7 +39,7 @@ static performer_verdict_t rule(const performer_t *performer)
     case SETTINGS_FAULT_LIMP:
         return WATCH_LIMP;
     case SETTINGS_FAULT_EXIT:
-        return performer->state == PERFORMER_PLAY ? WATCH_EXIT : WATCH_BREAK;
+        return performer->state == PERFORMER_PLAY && !performer_is_paused(performer) ? WATCH_EXIT : WATCH_BREAK;
     default:
         return WATCH_BREAK;
     }

@@ -18,7 +18,7 @@
 /* What happens when a servo falls silent or reports overload, overheating or angle error during a play. */
 enum {
     SETTINGS_FAULT_HOLD = 0,  /* default: all joints slow down and stop, with torque on */
-    SETTINGS_FAULT_EXIT = 1,  /* soft stop through the exit page */
+    SETTINGS_FAULT_EXIT = 1,  /* soft stop through the exit page; in a pause as `hold`, so that nothing begins to move */
     SETTINGS_FAULT_LIMP = 2   /* the faulty joint's torque goes off, the play continues without it */
 };
 

@@ -106,6 +106,23 @@ static void test_performer_fault_exit_leaves_through_the_exit_page(void)
     TEST_ASSERT_EQUAL_UINT16(300, fake_servo_link.goal_pos[2]);
 }
 
+/* The person who paused it may have hands at it. */
+static void test_performer_fault_exit_in_a_pause_moves_nothing(void)
+{
+    settings.fault_rule = SETTINGS_FAULT_EXIT;
+    start(2, 0);
+    reach(PERFORMER_PLAY);
+    ticks(10);
+    TEST_ASSERT_TRUE(performer_pause(&performer));
+    ticks(60);
+    const uint16_t held = fake_servo_link.goal_pos[1];
+    fake_servo_link_fault(&servos, 2, SERVO_FAULT_SILENT, 0);
+    ticks(300);
+    TEST_ASSERT_EQUAL_UINT16(held, fake_servo_link.goal_pos[1]);
+    TEST_ASSERT_TRUE(performer_is_idle(&performer));
+    TEST_ASSERT_EQUAL_UINT8(PERFORMER_END_SERVO, end_reason());
+}
+
 static void test_performer_voltage_error_is_told_and_ends_nothing(void)
 {
     play_with_fault(SETTINGS_FAULT_HOLD, SERVO_FAULT_ERRORS, DXL_ERR_VOLTAGE);
@@ -263,6 +280,7 @@ int main(void)
     RUN_TEST(test_performer_fault_limp_goes_on_without_the_joint);
     RUN_TEST(test_performer_fault_limp_switches_one_joint_off_a_turn);
     RUN_TEST(test_performer_fault_exit_leaves_through_the_exit_page);
+    RUN_TEST(test_performer_fault_exit_in_a_pause_moves_nothing);
     RUN_TEST(test_performer_voltage_error_is_told_and_ends_nothing);
     RUN_TEST(test_performer_fault_of_a_joint_out_of_the_play_ends_nothing);
     RUN_TEST(test_performer_silent_servo_at_the_start_is_named);
