@@ -296,7 +296,7 @@ uint8_t classic_last_tick(player_t *player)
 
 static uint16_t ticks_left(const player_t *player)
 {
-    const uint16_t of_section = (uint16_t)(player->section_ticks - player->section_tick);
+    const uint16_t of_section = is_used_up(player) ? 0 : (uint16_t)(player->section_ticks - player->section_tick);
     switch (player->section) {
     case SECTION_RISE:
         return player->now.ticks != 0 ? (uint16_t)(player->now.ticks - player->section_tick) : 1u;

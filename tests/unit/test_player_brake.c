@@ -154,6 +154,29 @@ static void test_player_classic_goes_on_after_a_pause_to_its_end(void)
     }
 }
 
+/* Without ramps the law has sections that are empty. */
+static void test_player_classic_without_ramps_ends_after_a_pause_at_any_tick(void)
+{
+    for (uint8_t tick = 1; tick < 63; tick++) {   /* the step has 60, RISE and FALL are empty and take one each */
+        setUp();
+        sparse_pages[1].accel = 0;
+        sparse_pages[1].steps = 1;
+        TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, 1, PLAYER_LAW_CLASSIC, pose, ALL));
+        for (uint8_t i = 0; i < tick; i++) {
+            (void)player_tick(&player, &l);
+        }
+        TEST_ASSERT_TRUE(player_is_moving(&player));
+        player_pause(&player);
+        while ((player_tick(&player, &l) & PLAYER_EV_STOPPED) == 0) {
+        }
+        player_resume(&player);
+        for (uint8_t i = 0; i < 70; i++) {
+            (void)player_tick(&player, &l);
+        }
+        TEST_ASSERT_FALSE(player_is_moving(&player));
+    }
+}
+
 /* A resume during braking continues the play as soon as it stands, in the same number of ticks as a resume right after
  * that, without an event. A resume before the next tick cancels the pause. */
 static void resume_while_slowing_down(player_law_t law)
@@ -293,6 +316,7 @@ int main(void)
     RUN_TEST(test_player_exact_goes_on_after_a_pause_in_the_time_left);
     RUN_TEST(test_player_classic_goes_on_after_a_pause_to_its_end);
     RUN_TEST(test_player_exact_goes_on_from_any_tick_of_short_steps);
+    RUN_TEST(test_player_classic_without_ramps_ends_after_a_pause_at_any_tick);
     RUN_TEST(test_player_resume_while_slowing_down_is_not_lost);
     RUN_TEST(test_player_pause_takes_back_a_resume);
     RUN_TEST(test_player_break_while_paused_ends_the_play_where_it_stands);
