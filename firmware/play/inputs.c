@@ -223,7 +223,7 @@ void inputs_tick(inputs_t *inputs)
         inputs->remote_act = REMOTE_ACT_CODE;
         inputs->remote_held.down = 0;
         inputs->remote_held.spent = 0;
-        if (was_held && inputs->settings->remote_mode == LINK_HOLD) {
+        if (was_held && inputs->performer->link.mode == LINK_HOLD) {
             inputs_code(inputs, LINK_CODE_NONE);
         }
     }

@@ -98,7 +98,7 @@ static void test_inputs_latch_mode_outlives_silence(void)
 
 static void test_inputs_hold_mode_hears_silence_after_500_ms(void)
 {
-    settings.remote_mode = LINK_HOLD;
+    performer.link.mode = LINK_HOLD;
     performer.state = PERFORMER_PLAY;
     remote(1);
     ticks(63);
@@ -109,9 +109,19 @@ static void test_inputs_hold_mode_hears_silence_after_500_ms(void)
     TEST_ASSERT_EQUAL_STRING("code 1 0;code 0 0;", told);
 }
 
+static void test_inputs_silence_stops_a_hold_play_whatever_is_set_meanwhile(void)
+{
+    performer.link.mode = LINK_HOLD;
+    performer.state = PERFORMER_PLAY;
+    settings.remote_mode = LINK_LATCH;
+    remote(1);
+    ticks(64);
+    TEST_ASSERT_EQUAL_STRING("code 1 0;code 0 0;", told);
+}
+
 static void test_inputs_hold_mode_repeated_packets_keep_it_alive(void)
 {
-    settings.remote_mode = LINK_HOLD;
+    performer.link.mode = LINK_HOLD;
     performer.state = PERFORMER_PLAY;
     for (uint8_t i = 0; i < 10; i++) {
         remote(1);
@@ -122,7 +132,7 @@ static void test_inputs_hold_mode_repeated_packets_keep_it_alive(void)
 
 static void test_inputs_hold_mode_never_heard_remote_is_not_missed(void)
 {
-    settings.remote_mode = LINK_HOLD;
+    performer.link.mode = LINK_HOLD;
     performer.state = PERFORMER_PLAY;
     ticks(200);
     TEST_ASSERT_EQUAL_STRING("", told);
@@ -358,7 +368,7 @@ static void test_inputs_pause_and_stop_held_at_the_start_are_no_press(void)
 
 static void test_inputs_hold_mode_does_not_miss_a_remote_that_was_not_heard_since_the_start(void)
 {
-    settings.remote_mode = LINK_HOLD;
+    performer.link.mode = LINK_HOLD;
     start_anew();
     performer.state = PERFORMER_PLAY;   /* started by page number */
     ticks(200);
@@ -547,6 +557,7 @@ int main(void)
     RUN_TEST(test_inputs_button_5_pauses_and_resumes);
     RUN_TEST(test_inputs_latch_mode_outlives_silence);
     RUN_TEST(test_inputs_hold_mode_hears_silence_after_500_ms);
+    RUN_TEST(test_inputs_silence_stops_a_hold_play_whatever_is_set_meanwhile);
     RUN_TEST(test_inputs_hold_mode_repeated_packets_keep_it_alive);
     RUN_TEST(test_inputs_hold_mode_never_heard_remote_is_not_missed);
     RUN_TEST(test_inputs_stop_after_a_lost_release_counts_again);
