@@ -50,6 +50,9 @@ layers_status_t performer_take_for_code(performer_t *performer, uint8_t id)
     if (code_motion_slot(&performer->layers->code, id) == NULL) {
         return LAYERS_ERR_FULL;
     }
+    if (!performer_is_idle(performer) && performer->leaving) {
+        return LAYERS_ERR_BUSY;
+    }
     if ((layers_joints(performer->layers) & joint) != 0 || performer->state == PERFORMER_PLAY) {
         return LAYERS_OK; /* its goal is up to date */
     }

@@ -21,8 +21,9 @@ void performer_layer_off(performer_t *performer);
 uint8_t performer_layer_page(const performer_t *performer);     /* 0: none */
 
 /* Call before layers_aim and layers_swing of joint `id`. If nothing is playing, switches its torque on and reads its pose,
- * which blocks 6 ms at most. LAYERS_ERR_FULL: see layers.h. LAYERS_ERR_BUSY: a play is about to begin. LAYERS_ERR_JOINTS:
- * the joint does not answer, was switched off by hand or has been dropped from the play. */
+ * which blocks 6 ms at most. LAYERS_ERR_FULL: see layers.h. LAYERS_ERR_BUSY: a play is about to begin, or a break is ending
+ * it, which will free all joints. LAYERS_ERR_JOINTS: the joint does not answer, was switched off by hand or has been dropped
+ * from the play. */
 MUST_CHECK layers_status_t performer_take_for_code(performer_t *performer, uint8_t id);
 
 /* Sets blend, rate and amplitude (of all joints) in percent, until the play ends. false: one is out of range; none is set.

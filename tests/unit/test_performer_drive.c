@@ -143,6 +143,23 @@ static void test_centre_page_is_that_of_the_settings(void)
     TEST_ASSERT_EQUAL_UINT8(7, performer.shape.centre_page);
 }
 
+/* ---- joints moved by code ---- */
+
+/* The end of the break frees all joints, so OK would be a promise that is not kept. */
+static void test_joint_is_not_taken_for_code_while_a_break_slows_down(void)
+{
+    start(2, 0);
+    reach(PERFORMER_PLAY);
+    ticks(10);
+    TEST_ASSERT_EQUAL(LAYERS_OK, performer_take_for_code(&performer, 2));
+    performer_break(&performer);
+    ticks(1);
+    TEST_ASSERT_EQUAL(PERFORMER_PLAY, performer.state);
+    TEST_ASSERT_EQUAL(LAYERS_ERR_BUSY, performer_take_for_code(&performer, 2));
+    reach(PERFORMER_IDLE);
+    TEST_ASSERT_EQUAL(LAYERS_OK, performer_take_for_code(&performer, 2));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -157,5 +174,6 @@ int main(void)
     RUN_TEST(test_rate_set_by_hand_outlives_the_play);
     RUN_TEST(test_limit_follows_the_voltage);
     RUN_TEST(test_centre_page_is_that_of_the_settings);
+    RUN_TEST(test_joint_is_not_taken_for_code_while_a_break_slows_down);
     return UNITY_END();
 }
