@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""No image executes a line of which bytes were lost: the sender ignores XOFF, or a character has no stop bit (for example, from a wrong
-baud rate). The image reports the loss."""
+"""No image executes a line of which bytes were lost, except `stop` and `break` in Play: the sender ignores XOFF, or a character has no
+stop bit (for example, from a wrong baud rate). The image reports the loss."""
 
 import pytest
 
@@ -41,6 +41,22 @@ def test_play_refuses_a_program_line_and_ctrl_u_begins_anew():
     garble(board, "@rc -1", "\x15@where\r")
     text = board.take().decode("latin-1")
     assert LOST not in text and "@where state=idle" in text
+
+
+@pytest.mark.parametrize("word", ["stop", "BREAK"])
+def test_play_obeys_stop_and_break_all_the_same(word):
+    """The loss may be noise of long ago, before the line began; a robot that walks on because of it is worse than one that stops."""
+    board = robot()
+    ask(board, "play 4")
+    board.run(ms=3000)
+    board.take()
+    garble(board, "", "")
+    board.run(ms=3000)
+    board.send(word + "\r")
+    board.run(ms=6000)
+    text = board.take().decode("latin-1")
+    assert LOST not in text and " OK" in text
+    assert "Nothing is playing" in ask(board, "stop")
 
 
 def test_play_does_not_make_one_line_of_two():
