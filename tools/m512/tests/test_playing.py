@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """`m512 play` and `pose` on a line that loses bytes, and when Ctrl-C or a signal comes at any moment: the robot does what is said."""
 
+import json
+
 import pytest
 from play_peer import PlayPeer
 
@@ -125,3 +127,17 @@ def test_a_range_that_goes_down_is_no_page(m512, words):
         robot.do_list = lambda: '2:2:"walk" OK'
         result = m512(*words, "5..3", "-p", robot.path)
     assert result.exit_code == 8 and "5..3 means several pages, and one is asked for" in result.stderr, result.stderr
+
+
+def test_the_same_field_is_the_same_in_each_json(m512):
+    """`play --json` once had the bits of `aim` as a number or as text, by chance, and blend=-30 as text."""
+    with PlayPeer() as robot:
+        for bits, joints in (("00000000", "none"), ("00000006", "1,2"), ("0000000A", "1,3")):
+            robot.do_shape = lambda bits=bits: f"rate=120 blend=-30 amplitude={'3C' * 30 + '78'} layer=0 aim={bits} OK"
+            fields = json.loads(m512("shape", "--json", "-p", robot.path).stdout)
+            assert fields == {"rate": 120, "blend": -30, "amplitude": "60 30:120", "layer": 0, "aim": joints}
+            for words in (("stop",), ("torque", "off"), ("play", "2", "--code", "0")):
+                robot.do_torque = lambda *_: "OK"
+                robot.do_break()
+                state = json.loads(m512(*words, "--json", "-p", robot.path).stdout)
+                assert fields.items() <= state.items() and state["faulty"] == "00000000" and state["dv"] == 96, words

@@ -66,3 +66,10 @@ def test_help_does_not_import_what_it_does_not_need():
     code = "import sys; from m512.cli import main; main(['--help'], standalone_mode=False); print(sorted(sys.modules))"
     out = subprocess.run([sys.executable, "-c", code], env={"PATH": ""}, capture_output=True, text=True).stdout
     assert not re.search(r"'(serial|matplotlib|intelhex|numpy)'", out)
+
+
+def test_help_has_the_exit_codes_of_the_readme(m512):
+    table = README.partition("| code | meaning |")[2].partition("\n\n")[0]
+    codes = re.findall(r"^\| (\d+) \|", table, re.M)
+    told = " ".join(m512("--help").stdout.partition("Exit codes: ")[2].split())
+    assert len(codes) >= 11 and [code for code in codes if not re.search(rf"(^|, ){code} [a-zA-Z]", told)] == []

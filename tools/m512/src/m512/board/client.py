@@ -233,15 +233,8 @@ class Client:
         raise NoAnswerError(DAMAGED.format("what the robot does"))
 
     def shape(self) -> dict[str, str]:
-        """What shapes the motion: rate, blend, amplitude ("60", or "60 3,4:120" if joints differ), layer (the second page, 0: none), aim
-        (joints controlled by code)."""
-        found = self._fields(self.ask("shape"))
-        if len(found.get("amplitude", "")) == 2 * JOINTS:
-            found["amplitude"] = _by_joints(bytes.fromhex(found["amplitude"]))
-        if "aim" in found:
-            joints = int(found["aim"], 16)
-            found["aim"] = ",".join(str(joint) for joint in range(JOINTS) if joints >> joint & 1) or "none"
-        return found
+        """What shapes the motion, as shape_in_words() says it."""
+        return shape_in_words(self._fields(self.ask("shape")))
 
     def play(self, page: int, code: int = 0) -> None:
         self._start(f"play {page}" + (f" {code}" if code else ""))
@@ -258,6 +251,18 @@ class Client:
                 if stood and self.where()["state"] != "idle":
                     return
         raise NoAnswerError(f"no answer to @{request.split()[0]}")
+
+
+def shape_in_words(found: dict[str, str]) -> dict[str, str]:
+    """The fields of @where or @shape with rate, blend, amplitude ("60", or "60 3,4:120" if joints differ), layer (the second page, 0:
+    none), aim ("3,4", the joints controlled by code, or "none")."""
+    found = dict(found)
+    if len(found.get("amplitude", "")) == 2 * JOINTS:
+        found["amplitude"] = _by_joints(bytes.fromhex(found["amplitude"]))
+    if "aim" in found:
+        joints = int(found["aim"], 16)
+        found["aim"] = ",".join(str(joint) for joint in range(JOINTS) if joints >> joint & 1) or "none"
+    return found
 
 
 def _by_joints(values: bytes) -> str:

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
@@ -12,7 +11,7 @@ import click
 
 from m512 import ui
 from m512.cli.files import id_list
-from m512.cli.robot import ID_MAX, ids_argument, positions_of, robot, robot_options
+from m512.cli.robot import ID_MAX, ids_argument, in_json, positions_of, robot, robot_options
 
 if TYPE_CHECKING:
     from m512.board.client import Client
@@ -33,7 +32,7 @@ def show_shape(client: Client, as_json: bool) -> None:
     """Prints the current shape."""
     found = client.shape()
     if as_json:
-        ui.show(json.dumps({word: int(text) if re.fullmatch("-?[0-9]+", text) and word != "aim" else text for word, text in found.items()}))
+        ui.show(in_json(found))
     else:
         ui.show("  ".join(f"{word} {value}" for word, value in found.items()))
 

@@ -90,10 +90,19 @@ def robot(options: dict[str, Any], image: Any = "play") -> Iterator[Client]:
 
 
 def _report(client: Client, as_json: bool) -> dict[str, str]:
+    from m512.board.client import shape_in_words
+
     state = client.where()
     if as_json:
-        ui.show(json.dumps({k: int(v) if v.isdigit() and k != "faulty" else v for k, v in state.items()}))
+        ui.show(in_json(shape_in_words(state)))
     return state
+
+
+def in_json(fields: dict[str, str]) -> str:
+    """Numbers as numbers. Lists of joints and bits stay text, also when they look like numbers."""
+    return json.dumps(
+        {word: int(text) if re.fullmatch("-?[0-9]+", text) and word not in ("aim", "faulty") else text for word, text in fields.items()}
+    )
 
 
 @click.command(
