@@ -54,7 +54,7 @@ void layers_init(layers_t *layers, uint16_t goal_pos[PAGE_JOINTS]);
 void layers_set_speed(layers_t *layers, uint16_t deg_s);
 
 /* Sets the main play: call it after player_init, and with NULL before the memory of the main play gets another use (an
- * approach). Ends a page layer; code-made motion goes on. */
+ * approach). Ends a page layer at once, without slowing down; code-made motion goes on. */
 void layers_bind(layers_t *layers, player_t *main_play);
 
 /* Plays a page on `joints` (0: those that its first step uses), as far as the main play has them and code does not. Plays as

@@ -101,7 +101,8 @@ void performer_stop(performer_t *performer);
 /* Ends after the current repetition, without the exit page. A break during the approach. */
 void performer_stop_without_exit(performer_t *performer);
 
-/* A break: all joints, including those moved by code, slow down and stop; torque stays on. */
+/* A break: the joints of the play and of a second page slow down and stop; those moved by code stop at once. Torque stays
+ * on. */
 void performer_break(performer_t *performer);
 
 /* pause stops all joints, with torque on; resume continues. false: nothing to pause or resume. A move cannot be paused. */
