@@ -394,6 +394,47 @@ def test_pages_time_says_where_a_servo_cannot_follow(m512, tmp_path):
     assert m512("pages", path, "time", "fast", "--volts", "2").exit_code == 2
 
 
+TWELVE = """motion512 1
+bits 12
+page 1 slow
+  accel 0
+  base speed
+  next 2
+  step 128 | 1:2048
+  step 128 | 1:4095 2:2048
+page 2 back
+  accel 0
+  step 100 | 1:2048
+  step 20 | 1:4095
+"""
+
+
+def test_pages_time_counts_the_degrees_of_12_bit_positions(m512, tmp_path):
+    """FORMAT.md: 4096 units are 360 degrees, and speed 256 is 720 degrees/s. So half a turn at 128, 360 degrees/s, takes half a second;
+    the page begins where it ends, so it has two. Half a turn in 20 ticks is 1152 degrees/s, and in 100 ticks 230, for which 9.6 V are enough (59 rpm at 12 V)."""
+    path = tmp_path / "twelve.m512"
+    path.write_text(TWELVE)
+    out = json.loads(m512("pages", path, "time", "slow", "--json").stdout)
+    assert out["pages"][0]["seconds"] == pytest.approx(1.0, abs=0.02)
+    assert [(part["page"], part["step"]) for part in out["too_fast"]] == [(1, 2), (2, 2)]
+    assert out["too_fast"][1]["degrees_s"] == pytest.approx(1152, rel=0.01)
+    path.write_text(TWELVE.replace("step 20", "step 100").replace("speed", "time"))
+    assert json.loads(m512("pages", path, "time", "slow", "--json").stdout)["too_fast"] == []
+
+
+@pytest.mark.parametrize(
+    "pauses, following, looked", [(10, "next none", True), (40, "next none", False), (20, "next self", False), (10, "next self", True)]
+)
+def test_pages_time_says_how_far_it_has_looked(m512, tmp_path, pauses, following, looked):
+    """A play of more than a minute, one pass and what follows it, is not looked at to its end."""
+    path = tmp_path / "long.m512"
+    path.write_text(f"motion512 1\npage 1 long\n  repeat {pauses}\n  {following}\n  step 1s pause 1s | 1:500\n")
+    said = m512("pages", path, "time", "long").stdout
+    assert ("for joints that are too fast, only the first 60 s were looked at" in said) != looked, said
+    out = json.loads(m512("pages", path, "time", "long", "--json").stdout)
+    assert (out["looked_at_s"] < 60) == looked
+
+
 def test_pages_actions_want_a_place_for_the_result(m512, lib):
     before = lib.read_bytes()
     result = m512("pages", lib, "rename", "walk", "x")

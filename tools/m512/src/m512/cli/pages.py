@@ -324,6 +324,7 @@ def time(source: Source, page: str, volts: float, as_json: bool) -> None:
     parts, end = operations.chain(source.image, number)
     fast = speed.too_fast(source.image, number, volts)
     total = sum(seconds for _, _, seconds in parts)
+    looked = speed.looked(total, end)
     if as_json:
         ui.show(
             json.dumps(
@@ -332,6 +333,7 @@ def time(source: Source, page: str, volts: float, as_json: bool) -> None:
                     "seconds": round(total, 4),
                     "end": end,
                     "volts": volts,
+                    "looked_at_s": round(looked, 4),
                     "too_fast": [{"page": f.page, "step": f.step, "joint": f.joint, "degrees_s": round(f.degrees_s)} for f in fast],
                 },
                 indent=2,
@@ -347,3 +349,5 @@ def time(source: Source, page: str, volts: float, as_json: bool) -> None:
             f"page {part.page:3} step {part.step}: too fast at {volts:g} V: joint {part.joint} is asked for "
             f"{part.degrees_s:.0f} degrees/s, an unloaded AX-12 does {speed.no_load_degrees_s(volts):.0f}"
         )
+    if looked == speed.LOOKED_SECONDS:
+        ui.show(f"for joints that are too fast, only the first {looked:.0f} s were looked at")

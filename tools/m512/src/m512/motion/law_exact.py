@@ -39,7 +39,7 @@ class Exact:
         self.target = [self.here.target(j, self.start[j]) for j in range(JOINTS)]
         self.move = [b - a for a, b in zip(self.start, self.target)]
         pause = pause_ticks(self.here)
-        ideal = step_ticks(self.here, self.move)
+        ideal = step_ticks(self.here, self.move, self.walk.image.bits)
         self.length = self._whole(ideal, 1)
         self.hold = self._whole(pause, 0)
         self.ramp = min(self.here.data.accel, self.length // 2)
@@ -56,7 +56,7 @@ class Exact:
         if ahead is None or pause:
             return [Fraction(0)] * JOINTS
         onward = [ahead.target(j, self.target[j]) - self.target[j] for j in range(JOINTS)]
-        ticks = max(step_ticks(ahead, onward), Fraction(1))
+        ticks = max(step_ticks(ahead, onward, self.walk.image.bits), Fraction(1))
         out = []
         for move, go in zip(self.move, onward):
             here, there = Fraction(move, self.length), go / ticks

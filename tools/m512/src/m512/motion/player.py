@@ -42,7 +42,7 @@ def play(image: Image, page: int, pose: Sequence[int] | None = None, limit: int 
         yield Tick(number, law.here.page, law.here.number, goals)
 
 
-def page_seconds(page: Page, start: Sequence[int] | None = None) -> float:
+def page_seconds(page: Page, start: Sequence[int] | None = None, bits: int = 10) -> float:
     """Ideal play time of one repetition in seconds. `start`: the pose before it. Without it, a page in speed base is assumed to begin
     where it ends, like a repeated page."""
     if page.steps == 0 or page.speed == 0:
@@ -55,6 +55,6 @@ def page_seconds(page: Page, start: Sequence[int] | None = None) -> float:
     total = Fraction(0)
     for step in steps:
         after = [step.target(j, pose[j]) for j in range(JOINTS)]
-        total += max(step_ticks(step, [b - a for a, b in zip(pose, after)]), Fraction(1)) + pause_ticks(step)
+        total += max(step_ticks(step, [b - a for a, b in zip(pose, after)], bits), Fraction(1)) + pause_ticks(step)
         pose = after
     return float(total / 128)

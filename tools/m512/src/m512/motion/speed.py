@@ -12,13 +12,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from m512.files.image import Image
-from m512.files.page import JOINTS
+from m512.files.page import JOINTS, is_used
 from m512.motion.player import play
+from m512.motion.walk import degrees_per_unit
 
 NO_LOAD_RPM, SHEET_V = 59.0, 12.0
 BATTERY_V = 9.6  # a CM-5's pack: 8 cells of 1.2 V
-DEGREES_PER_UNIT = 300 / 1024
 TICKS_PER_SECOND = 128
+LOOKED_SECONDS = 60.0  # of a play; it takes this PC some seconds
 WINDOW = 4  # ticks over which the speed is measured, because goals are integers
 
 
@@ -36,14 +37,16 @@ def no_load_degrees_s(volts: float) -> float:
     return NO_LOAD_RPM * 6 * volts / SHEET_V
 
 
-def no_load_units_per_tick(volts: float) -> float:
-    return no_load_degrees_s(volts) / DEGREES_PER_UNIT / TICKS_PER_SECOND
+def no_load_units_per_tick(volts: float, bits: int = 10) -> float:
+    return no_load_degrees_s(volts) / float(degrees_per_unit(bits)) / TICKS_PER_SECOND
 
 
-def too_fast(image: Image, number: int, volts: float = BATTERY_V, pose: Sequence[int] | None = None, seconds: float = 60) -> list[TooFast]:
+def too_fast(
+    image: Image, number: int, volts: float = BATTERY_V, pose: Sequence[int] | None = None, seconds: float = LOOKED_SECONDS
+) -> list[TooFast]:
     """The steps of a play from page `number` (along its next links) in which a joint must move faster than an unloaded servo can at this
     supply. `pose`: the initial pose; by default that of the page's first step, because the robot approaches it slowly."""
-    limit = no_load_units_per_tick(volts)
+    limit, degrees_s = no_load_units_per_tick(volts, image.bits), float(degrees_per_unit(image.bits)) * TICKS_PER_SECOND
     found: dict[tuple[int, int], TooFast] = {}
     recent: deque[list[int]] = deque(maxlen=WINDOW + 1)
     for tick in play(image, number, pose or _first_pose(image, number), int(seconds * TICKS_PER_SECOND)):
@@ -53,11 +56,17 @@ def too_fast(image: Image, number: int, volts: float = BATTERY_V, pose: Sequence
         speed, joint = max((abs(tick.goals[j] - recent[0][j]) / WINDOW, j) for j in range(JOINTS))
         if len(recent) > WINDOW and speed > limit:
             place = tick.page, tick.step
-            if place not in found or found[place].degrees_s < speed * DEGREES_PER_UNIT * TICKS_PER_SECOND:
-                found[place] = TooFast(*place, joint, speed * DEGREES_PER_UNIT * TICKS_PER_SECOND)
+            if place not in found or found[place].degrees_s < speed * degrees_s:
+                found[place] = TooFast(*place, joint, speed * degrees_s)
     return list(found.values())
+
+
+def looked(total: float, end: str) -> float:
+    """How many seconds of a play too_fast() looks at: all of it, once more if it goes on for ever, but not more than LOOKED_SECONDS."""
+    return min(total if end.startswith("ends") else 2 * total, LOOKED_SECONDS)
 
 
 def _first_pose(image: Image, number: int) -> list[int]:
     page = image[number]
-    return [page.word(0, joint) if page.steps and page.word(0, joint) <= 1023 else 512 for joint in range(JOINTS)]
+    centre = (image.kind.pos_max + 1) // 2
+    return [page.word(0, joint) if page.steps and is_used(page.word(0, joint)) else centre for joint in range(JOINTS)]

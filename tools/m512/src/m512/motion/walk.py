@@ -86,12 +86,18 @@ class Walk:
         return here, Step(self.follow, 1, self.image[self.follow], True)
 
 
-def step_ticks(step: Step, move: Sequence[int]) -> Fraction:
-    """The ideal length of a step in ticks."""
+def degrees_per_unit(bits: int) -> Fraction:
+    """Of positions of 10 bits (AX-12) or 12 bits."""
+    return Fraction(300, 1024) if bits == 10 else Fraction(360, 4096)
+
+
+def step_ticks(step: Step, move: Sequence[int], bits: int = 10) -> Fraction:
+    """The ideal length of a step in ticks. In speed base 256 means 720 degrees/s."""
     page, time = step.data, step.data.time(step.number - 1)
     if page.schedule == SCHEDULE_TIME:
         return Fraction(time * page.speed, 32)
-    return Fraction(40 * 32 * max(map(abs, move)), 3 * max(time, 1) * page.speed)
+    degrees = max(map(abs, move)) * degrees_per_unit(bits)
+    return degrees / 720 * Fraction(256, max(time, 1)) * Fraction(32, page.speed) * 128
 
 
 def pause_ticks(step: Step) -> Fraction:

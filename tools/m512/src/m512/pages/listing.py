@@ -38,7 +38,7 @@ def describe(image: Image, number: int, page: Page) -> dict[str, Any]:
         "link1_code": page.link1_code,
         "link2_code": page.link2_code,
         "links": links,
-        "seconds": round(page_seconds(page), 3) if good else None,
+        "seconds": round(page_seconds(page, bits=image.bits), 3) if good else None,
         "valid": good,
         "erased": is_erased(page),
         "fault": fault,

@@ -248,14 +248,14 @@ def retime(image: Image, number: int, factor: float) -> list[str]:
         raise WordError(f"{factor:g}: the factor is 0.01..100")
     _no_trim(number)
     page = _need_motion(image, number)
-    before = page_seconds(page)
+    before = page_seconds(page, bits=image.bits)
     for step in range(page.steps):
         time_based = page.schedule == SCHEDULE_TIME
         page.set_time(step, _scaled(page.time(step), factor if time_based else 1 / factor, 1, f"step {step + 1}"))
         page.set_pause(step, _scaled(page.pause(step), factor, 0, f"the pause of step {step + 1}"))
     page.accel = min(max(round(page.accel * factor), 1 if page.accel else 0), 255)
     page.seal()
-    return [f"page {number}: {before:.3f} s -> {page_seconds(page):.3f} s (asked for {before * factor:.3f} s)"]
+    return [f"page {number}: {before:.3f} s -> {page_seconds(page, bits=image.bits):.3f} s (asked for {before * factor:.3f} s)"]
 
 
 def _scaled(value: int, factor: float, least: int, what: str) -> int:
@@ -278,17 +278,17 @@ def chain(image: Image, number: int) -> tuple[list[tuple[int, int, float]], str]
         page = image[number]
         seen[number] = None
         if page.is_playable:
-            once = page_seconds(page, pose)
-            pose = end_pose(page, pose)
-            again = page_seconds(page, pose)
+            once = page_seconds(page, pose, image.bits)
+            pose = end_pose(page, pose or [(image.kind.pos_max + 1) // 2] * JOINTS)
+            again = page_seconds(page, pose, image.bits)
             out.append((number, page.repeat, once + (page.repeat - 1) * again))
         if not max(1, image.first) <= page.next < image.end:  # page 0 is the trim: no link leads there
             return out, "ends"
         number = page.next
 
 
-def end_pose(page: Page, pose: list[int] | None = None) -> list[int]:
-    out = list(pose or [512] * JOINTS)
+def end_pose(page: Page, pose: list[int]) -> list[int]:
+    out = list(pose)
     for step in range(page.steps):
         for joint in range(JOINTS):
             if is_used(page.word(step, joint)):
