@@ -24,7 +24,7 @@ from m512.board.client import Client
 from m512.board.download import Report
 from m512.board.link import Link
 from m512.board.memory import plan
-from m512.errors import FileError, M512Error, PortError, RefusedError, TextError
+from m512.errors import BoardError, FileError, M512Error, PortError, RefusedError, TextError
 from m512.files import formats, storage
 from m512.files.image import Image, to_hex
 from m512.files.page import EMPTY, Page
@@ -399,6 +399,24 @@ def test_a_page_that_a_person_saves_in_edit_during_the_question_is_not_replaced(
     assert result.exit_code == 5 and 'page 3 "run": changed on the board' in result.stderr and "Nothing was written" in result.stderr, result.stderr
     assert bytes(edit.board.flash[0xE000 + 512 * 3 :][:512]) == bytes(with_page(3, "run"))
     assert bytes(edit.board.flash[0xE000 + 512 * 20 :][:512]) in (EMPTY, b"\xff" * 512)
+
+
+def test_a_change_that_ends_half_way_says_what_was_written(m512, monkeypatch, started):
+    """A page is moved: the first save works, the second is refused, as when a person begins to edit."""
+    edit, saves = started("boot-cm5.hex", "edit-cm5.hex", text=TEXT, applied=True), []
+    save = Client.save_page
+
+    def second_fails(client, number, page):
+        saves.append(number)
+        if len(saves) == 2:
+            raise BoardError("Edits would be lost", 12)
+        save(client, number, page)
+
+    monkeypatch.setattr(Client, "save_page", second_fails)
+    result = m512("pages", edit.path, "renumber", "3", "20", "--yes")
+    assert result.exit_code == 8 and "Only page 20 had been written" in result.stderr and saves == [20, 3], result.stderr
+    flash = bytes(edit.board.flash)
+    assert all(flash[0xE000 + 512 * number :][:4] == b"walk" for number in (3, 20))
 
 
 @pytest.mark.parametrize("number, code", [(7, 0), (3, 5)])

@@ -9,7 +9,7 @@ from m512 import ui
 from m512.board.client import Client
 from m512.board.link import Link
 from m512.board.memory import FLASH_PAGE, MOTIONS, Plan
-from m512.errors import BoardError, NoAnswerError, RefusedError
+from m512.errors import BoardError, NoAnswerError, PortError, RefusedError
 from m512.files.image import Image, from_bytes, is_erased
 from m512.files.page import EMPTY, PAGE_BYTES, Page
 from m512.files.wording import named_pages_text, pages_text
@@ -51,6 +51,7 @@ def write_motions(url: str, found: Image, image: Image, board: str = "") -> None
     """Writes the pages of `image` that differ from `found`, the result of read_motions: through Edit if it runs there, else through the boot
     loader. board: as for read_motions. RefusedError: one of these pages has changed on the board since then."""
     numbers = [number for number, page in image.items() if page != found[number]]
+    numbers.sort(key=lambda number: image[number].is_empty)  # a page that moves is written before its old place is emptied
     with Link(url, image="edit") as link:
         try:
             client = Client(link)
@@ -60,7 +61,12 @@ def write_motions(url: str, found: Image, image: Image, board: str = "") -> None
             _must_be_as_found(numbers, found, client.page)
             for done, number in enumerate(numbers):
                 _must_be_as_found([number], found, client.page, numbers[:done])
-                client.save_page(number, image[number])
+                try:
+                    client.save_page(number, image[number])
+                except (BoardError, NoAnswerError, PortError) as error:
+                    if not done:
+                        raise
+                    raise type(error)(f"{error}. Only {pages_text(numbers[:done])} had been written before that. Repeat the command") from None
             return
         from m512.board import download, loaders
 
