@@ -86,7 +86,7 @@ def test_walking_with_a_full_line():
     board.run(ms=2000)
     board.take()
     board.send("\r", wait=True)
-    board.run(ms=100)
+    board.run(ms=1000)  # the half-typed line may be `help`
     text = ask(board, "faults")
     heard = board.console[before:].translate(None, bytes((XON, XOFF)))  # XON and XOFF come between any two characters
     answers = heard.count(b"\n] ")
