@@ -446,3 +446,17 @@ def test_text_written_says_damage_in_words_rather_than_bytes():
 def test_text_mirror_pairs_reach_from_1_to_18_unless_said():
     page = page_of("page 1\nstep 1 | 0..18:500\nstep 1 | mirror same")
     assert page.word(1, 0) == 500 and [page.word(1, j) for j in range(1, 19)] == [524] * 18
+
+
+def test_a_step_in_speed_base_has_a_speed():
+    """FORMAT.md: 1..255. A step of speed 0 would never end."""
+    text = "motion512 1\npage 1\n  base speed\n  step 8 | 1:500\n  step 0 | 1:600\n"
+    for wrong in (text, text.replace("  base speed\n", "") + "  base speed\n"):
+        with pytest.raises(TextError, match=r":[45]: a step in speed base has a speed of 1..255"):
+            read_text(wrong)
+    assert read_text(text.replace("base speed", "base time"))[1].time(1) == 0
+    page = read_text(text.replace("step 0", "step 9 "))[1]
+    page.set_time(1, 0)
+    image = Image.empty()
+    image[1] = page.seal()
+    assert read_text(write_text(image)).to_bytes() == image.to_bytes()  # an old image stays readable

@@ -383,6 +383,8 @@ class Reader(JointWords):
     @staticmethod
     def _check_units(draft: Draft, where: str) -> None:
         for unit, line in draft.units:
+            if draft.page.schedule == SCHEDULE_SPEED and unit == "zero":
+                raise TextError("a step in speed base has a speed of 1..255, not 0", where, line)
             if draft.page.schedule == SCHEDULE_SPEED and unit == "s":
                 raise TextError("a time in s or ms, but the page has speed base", where, line)
             if draft.page.schedule == SCHEDULE_TIME and unit == "dps":

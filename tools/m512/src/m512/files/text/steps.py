@@ -85,6 +85,8 @@ class JointWords:
             time = ticks(head[0], "time")
             if head[0].text.endswith("s"):
                 draft.units.append(("s", line))
+            if time == 0 and what == "step":
+                draft.units.append(("zero", line))
         words = block_words(base if base is not None else draft.fill)
         words = self.joint_words(joints, words, block_words(before) if before else None)
         return make_block(words, pause, time)
