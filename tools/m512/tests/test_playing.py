@@ -71,19 +71,16 @@ def test_a_third_ctrl_c_says_that_the_robot_may_still_move(m512):
     assert result.exit_code == 130 and "may still move" in result.stderr and "m512 stop --now" in result.stderr, result.stderr
 
 
-@pytest.mark.parametrize("words", [("play", "2"), ("play", "2", "--wait"), ("pose", "1:900")])
+AT_THE_START = [{"play": [TERMINATED], "move": [TERMINATED]}, {"play": [CTRL_C], "move": [CTRL_C], "stop": [TERMINATED]}]
+WHILE_IT_WAITS = [{"where": [TERMINATED]}, {"where": [CTRL_C], "stop": [TERMINATED]}]
+
+
 @pytest.mark.parametrize(
-    "ended",
-    [
-        {"play": [TERMINATED], "move": [TERMINATED]},
-        {"where": [TERMINATED]},
-        {"play": [CTRL_C], "move": [CTRL_C], "stop": [TERMINATED]},
-        {"where": [CTRL_C], "stop": [TERMINATED]},
-    ],
+    "words, ended",
+    [(("play", "2"), ended) for ended in AT_THE_START]  # it does not wait: the play is meant to go on
+    + [(words, ended) for words in (("play", "2", "--wait"), ("pose", "1:900")) for ended in AT_THE_START + WHILE_IT_WAITS],
 )
 def test_a_signal_at_any_moment_stops_the_robot(m512, words, ended):
-    if "where" in ended and words == ("play", "2"):
-        pytest.skip("it does not wait: the play is meant to go on")
     with PlayPeer(**ended) as robot:
         result = m512(*words, "-p", robot.path)
         robot.pass_time(2)
