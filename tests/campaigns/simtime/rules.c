@@ -217,7 +217,10 @@ static void must_not_leap(uint8_t id, uint16_t goal)
 {
     const joint_t *joint = &session.joint[id];
     const uint32_t since = session.tick - joint->goal_tick;
-    const bool goes_on = joint->goal_tick > session.boot_tick && since <= 2;
+    const int is = (int)joint->servo->position;
+    /* A joint that could not follow begins where it is, just after its old goal was written back (servo_link_engage). */
+    const bool begins_anew = abs(joint->goal - is) > START_MAX && abs(goal - is) <= START_MAX;
+    const bool goes_on = joint->goal_tick > session.boot_tick && since <= 2 && !begins_anew;
     if (goes_on && long_ago(session.late_tick, SECOND)) {
         const int most = STEP_MAX * (int)(since == 0 ? 1 : since);
         const bool waits = session.has_deaf && session.latency != 0;   /* a tick's REG WRITEs take several ticks */
@@ -226,7 +229,6 @@ static void must_not_leap(uint8_t id, uint16_t goal)
         }
     } else if (long_ago(joint->goal_tick, SECOND) && long_ago(joint->pushed_tick, 2 * SECOND) && !rules_has_fault(joint) &&
                long_ago(session.trouble_tick, TROUBLE) && !(rules.pages_are_edited && goes_on_behind_a_pause(joint))) {
-        const int is = (int)joint->servo->position;
         if (abs(goal - is) > START_MAX) {
             session_fail("a motion begins where the joint is", "servo %u stands at %d, its first goal is %u", id, is, goal);
         }
