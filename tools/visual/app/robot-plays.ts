@@ -101,10 +101,11 @@ export class RobotPlays {
     /** A layer plays from the robot's flash, so a page that differs is refused. */
     private async layer(page: number | null, joints: readonly number[]): Promise<void> {
         const { format, state } = this.parts.editor;
-        const mine = this.asked;
-        if (page !== null && (await this.differing(format.reach(state.get().document, page))).length > 0)
-            throw new RobotError('layer-differs');
-        if (page !== null && mine !== this.asked) throw new RobotError('cancelled');
+        if (page !== null) {
+            const mine = this.asked;
+            if ((await this.differing(format.reach(state.get().document, page))).length > 0) throw new RobotError('layer-differs');
+            if (mine !== this.asked) throw new RobotError('cancelled');
+        }
         await setLayer(this.requests, page, joints);
     }
 
