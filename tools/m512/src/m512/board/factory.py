@@ -10,7 +10,7 @@ from typing import Callable
 
 from m512.board import factory_flash, mailbox
 from m512.board.factory_line import TRIES, FactoryLine, Progress
-from m512.board.memory import APP, FLASH_PAGE, MOTIONS, Plan
+from m512.board.memory import APP, FLASH_PAGE, MOTIONS, Plan, motion_page_of
 from m512.errors import BoardError, RefusedError
 
 
@@ -61,7 +61,7 @@ class FactoryLoader(FactoryLine):
             look: set[int] = set()
             for number, page in enumerate(sorted(todo)):
                 if factory_flash.in_reserve(first):
-                    mailbox.write_motion_page(self, mailbox.motion_page_of(first), unit[first] + unit[first + 1])
+                    mailbox.write_motion_page(self, motion_page_of(first), unit[first] + unit[first + 1])
                     look = set(unit)
                     break
                 factory_flash.write_page(self, page, unit)

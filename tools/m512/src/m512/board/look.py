@@ -6,7 +6,7 @@ from __future__ import annotations
 from m512.board.client import Client
 from m512.board.download import PhaseMaker, check_board
 from m512.board.loaders import Loader
-from m512.board.memory import FLASH_PAGE, MOTIONS, Plan
+from m512.board.memory import FLASH_PAGE, MOTIONS, Plan, motion_area, motion_page_of
 from m512.errors import BoardError, RefusedError
 from m512.files.image import is_erased
 from m512.files.page import PAGE_BYTES, Page
@@ -31,15 +31,14 @@ def through_loader(loader: Loader, plan: Plan, phase: PhaseMaker) -> list[str]:
 def emptied(loader: Loader, plan: Plan, todo: list[int], phase: PhaseMaker) -> dict[int, str]:
     """{number: name} of motions on the board that the plan replaces by an empty page. `todo`: the flash pages that differ."""
     numbers = []
-    for number in sorted({(page * FLASH_PAGE - MOTIONS[0]) // PAGE_BYTES for page in todo if page * FLASH_PAGE >= MOTIONS[0]}):
-        first = (MOTIONS[0] + number * PAGE_BYTES) // FLASH_PAGE
+    for number in sorted({motion_page_of(page) for page in todo if page * FLASH_PAGE >= MOTIONS[0]}):
+        first = motion_area(number)[0] // FLASH_PAGE
         if number and first in plan.pages and _holds_nothing(Page(plan.pages[first] + plan.pages[first + 1])):
             numbers.append(number)
     out = {}
     with phase("Reading") as progress:
         for done, number in enumerate(numbers):
-            at = MOTIONS[0] + number * PAGE_BYTES
-            page = Page(loader.read(at, at + PAGE_BYTES))
+            page = Page(loader.read(*motion_area(number)))
             if not _holds_nothing(page) and not page.fault():
                 out[number] = page.title
             progress(done + 1, len(numbers))
@@ -64,7 +63,7 @@ def through_application(client: Client, plan: Plan, phase: PhaseMaker) -> list[s
 
 
 def _motions(client: Client, plan: Plan, phase: PhaseMaker) -> list[str]:
-    first = {(page * FLASH_PAGE - MOTIONS[0]) // PAGE_BYTES: page for page in plan.pages if page * FLASH_PAGE >= MOTIONS[0] and page % 2 == 0}
+    first = {motion_page_of(page): page for page in plan.pages if page * FLASH_PAGE >= MOTIONS[0] and page % 2 == 0}
     listed, out = client.list_pages(), []
     with phase("Comparing") as progress:
         for done, (number, page) in enumerate(sorted(first.items())):

@@ -10,7 +10,6 @@ mark that starts the copy.
 from __future__ import annotations
 
 from m512.board.factory_line import FactoryLine
-from m512.board.memory import FLASH_PAGE, MOTIONS
 from m512.errors import BoardError, NoAnswerError, RefusedError
 
 MAILBOX, STATE, NUMBER = 0x800, 0xFF4, 0xFF5
@@ -68,7 +67,3 @@ def _settle(loader: FactoryLine, cell: int, value: int) -> None:
         loader.write_eeprom({cell: value})
     if different(loader, {cell: value}):
         raise NoAnswerError(f"EEPROM 0x{cell:03X} does not keep 0x{value:02X}")
-
-
-def motion_page_of(flash_page: int) -> int:
-    return (flash_page * FLASH_PAGE - MOTIONS[0]) // PAGE_BYTES

@@ -27,6 +27,16 @@ BOARDS = {1: "cm5", 2: "cm2"}
 KINDS = {1: "play", 2: "edit", 255: "other"}
 
 
+def motion_page_of(flash_page: int) -> int:
+    """The motion page that a flash page of the motion area belongs to."""
+    return (flash_page * FLASH_PAGE - MOTIONS[0]) // PAGE_BYTES
+
+
+def motion_area(number: int) -> tuple[int, int]:
+    """[start, end) of a motion page in flash."""
+    return MOTIONS[0] + number * PAGE_BYTES, MOTIONS[0] + (number + 1) * PAGE_BYTES
+
+
 @dataclass
 class Record:
     """The record in an application image (app_record.h)."""

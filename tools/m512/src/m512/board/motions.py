@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from m512 import ui
 from m512.board.client import Client
 from m512.board.link import Link
-from m512.board.memory import FLASH_PAGE, MOTIONS, Plan
+from m512.board.memory import FLASH_PAGE, MOTIONS, Plan, motion_area, motion_page_of
 from m512.errors import BoardError, NoAnswerError, PortError, RefusedError
 from m512.files.image import Image, from_bytes, is_erased
 from m512.files.page import EMPTY, PAGE_BYTES, Page
@@ -74,7 +74,7 @@ def write_motions(url: str, found: Image, image: Image, board: str = "") -> None
         with loaders.as_found(loader):
             with ui.phase("Comparing") as progress:
                 other = loader.different(_flash_pages(numbers, found), progress)
-            _must_be_as_found(sorted({_motion_page(page) for page in other}), found, lambda number: Page(loader.read(*_area(number))))
+            _must_be_as_found(sorted({motion_page_of(page) for page in other}), found, lambda number: Page(loader.read(*motion_area(number))))
         ui.say(str(download.download(loader, Plan(_flash_pages(numbers, image), has_motions=True), ui.phase)))
         ui.say(loaders.give_back(loader))
 
@@ -100,19 +100,10 @@ def _is_nothing(number: int, page: Page) -> bool:
     return is_erased(page) or (bytes(page) == EMPTY if number == 0 else page.is_empty and not page.fault())
 
 
-def _area(number: int) -> tuple[int, int]:
-    """Start and end address of a motion page."""
-    return MOTIONS[0] + number * PAGE_BYTES, MOTIONS[0] + (number + 1) * PAGE_BYTES
-
-
-def _motion_page(flash_page: int) -> int:
-    return (flash_page * FLASH_PAGE - MOTIONS[0]) // PAGE_BYTES
-
-
 def _flash_pages(numbers: list[int], image: Image) -> dict[int, bytes]:
     """These motion pages as flash pages: index -> bytes."""
     return {
-        (_area(number)[0] + at) // FLASH_PAGE: bytes(image[number])[at : at + FLASH_PAGE]
+        (motion_area(number)[0] + at) // FLASH_PAGE: bytes(image[number])[at : at + FLASH_PAGE]
         for number in numbers
         for at in range(0, PAGE_BYTES, FLASH_PAGE)
     }

@@ -343,7 +343,7 @@ def restore(folder: Path, what: str | None, yes: bool, port: str, board: str, wa
 def _compare(loader: Any, saved: Any, areas: list[str], pages: Any) -> Any:
     """(flash pages that differ, EEPROM cells that differ, changes of motions). Also prints them."""
     from m512.board import backup as backups
-    from m512.board.memory import MOTIONS, Record
+    from m512.board.memory import FLASH_PAGE, MOTIONS, Record
     from m512.files.image import from_bytes
     from m512.files.wording import counted
     from m512.pages.difference import images
@@ -357,7 +357,7 @@ def _compare(loader: Any, saved: Any, areas: list[str], pages: Any) -> Any:
     if "eeprom" in areas:
         with ui.phase("Reading EEPROM") as progress:
             cells = backups.eeprom_changes(saved.data["eeprom"], loader.read_eeprom(progress=progress))
-    in_motions = [n for n in todo if n * 256 >= MOTIONS[0]]
+    in_motions = [n for n in todo if n * FLASH_PAGE >= MOTIONS[0]]
     if in_motions:
         with ui.phase("Reading") as progress:
             found = _motions_now(loader, saved.data["motions"], in_motions, progress)
@@ -378,12 +378,12 @@ def _compare(loader: Any, saved: Any, areas: list[str], pages: Any) -> Any:
 
 def _motions_now(loader: Any, saved: Any, pages: Any, progress: Any) -> bytes:
     """The board's motion area, read only where it differs from the backup."""
-    from m512.board.memory import MOTIONS
+    from m512.board.memory import motion_area, motion_page_of
+    from m512.files.page import PAGE_BYTES
 
     out = bytearray(saved)
-    numbers = sorted({(n * 256 - MOTIONS[0]) // 512 for n in pages})
+    numbers = sorted({motion_page_of(n) for n in pages})
     for done, number in enumerate(numbers):
-        at = MOTIONS[0] + 512 * number
-        out[512 * number : 512 * (number + 1)] = loader.read(at, at + 512)
+        out[PAGE_BYTES * number : PAGE_BYTES * (number + 1)] = loader.read(*motion_area(number))
         progress(done + 1, len(numbers))
     return bytes(out)
