@@ -51,6 +51,8 @@ export class KeptDocuments implements Documents {
     private readonly newest = new Map<string, KeptDocument>();
     /** The open document is an unedited copy. It is dropped when the tab closes or another document opens. */
     private isUntouched = false;
+    /** Counts what is opened or created. The last request wins, even if the storage answers an earlier one later. */
+    private chosen = 0;
 
     constructor(shown: Shown, parts: DocumentsParts) {
         this.shown = shown;
@@ -77,6 +79,7 @@ export class KeptDocuments implements Documents {
 
     /** Opens a new document and returns its id. */
     private begin(name: string, from: MotionDocument): string {
+        this.chosen++;
         const id = this.parts.newId();
         this.show(id, { document: { ...from, name }, history: NO_HISTORY, log: EMPTY_LOG });
         this.state.set({ documents: [...this.state.get().documents, { id, name, savedMs: this.parts.nowMs() }] });
@@ -84,9 +87,10 @@ export class KeptDocuments implements Documents {
     }
 
     async open(id: string): Promise<void> {
+        const mine = ++this.chosen;
         if (id === this.state.get().openId) return;
         const kept = await this.find(id);
-        if (kept) await this.take(kept);
+        if (kept && mine === this.chosen) await this.take(kept);
     }
 
     rename(name: string): void {
@@ -150,7 +154,10 @@ export class KeptDocuments implements Documents {
     /** Opens a stored document with its history, or a copy if another tab has it open. */
     private async take(kept: KeptDocument): Promise<void> {
         const document = documentFrom(kept.image, kept.name);
-        if (!(await this.parts.hold(kept.id))) {
+        const mine = ++this.chosen;
+        const isHeld = await this.parts.hold(kept.id);
+        if (mine !== this.chosen) return this.holdAgain();
+        if (!isHeld) {
             const name = copyName(
                 kept.name,
                 this.state.get().documents.map(one => one.name),
@@ -163,7 +170,13 @@ export class KeptDocuments implements Documents {
             return;
         }
         const steps = await this.parts.storage.readSteps(kept.id).catch(() => []); // the history is then lost, and the page says so
+        if (mine !== this.chosen) return this.holdAgain();
         this.show(kept.id, restored(document, kept.position ?? 0, steps));
+    }
+
+    /** The lock of a document that will not be shown has released that of the open one. */
+    private async holdAgain(): Promise<void> {
+        await this.parts.hold(this.state.get().openId);
     }
 
     private show(id: string, { document, history, log }: Edited & { readonly log: HistoryLog }): void {

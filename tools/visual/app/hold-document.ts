@@ -1,40 +1,48 @@
 // SPDX-License-Identifier: MIT
-// Locks of the browser: one tab for each document, and one for the memory of the robot in the page. They are released when the tab closes.
+// Locks of the browser: one tab for each document, one for the memory of the robot in the page, one for that of My servos. They are released
+// when the tab closes.
 
 /** How long the previous page may hold its lock while the page reloads. */
 const RELOAD_MS = 1000;
 
-let release: () => void = () => undefined;
+type Release = () => void;
+
+const HOLDS_NOTHING: Release = () => undefined;
+
+let releaseDocument = HOLDS_NOTHING;
 
 /** Locks a document for this tab and releases the one locked before. false: another tab has it, and the previous lock stays. */
-export function holdDocument(id: string): Promise<boolean> {
-    if (!('locks' in navigator)) return Promise.resolve(true);
-    return new Promise((resolve, reject) => {
-        const held = navigator.locks.request(`motion512-document-${id}`, { ifAvailable: true }, lock => {
-            resolve(lock !== null);
-            if (!lock) return undefined;
-            release();
-            return new Promise<void>(done => {
-                release = done;
-            });
-        });
-        held.catch(reject);
-    });
+export async function holdDocument(id: string): Promise<boolean> {
+    const release = await tryLock(`document-${id}`);
+    if (!release) return false;
+    releaseDocument();
+    releaseDocument = release;
+    return true;
 }
 
 /** Locks the memory of the robot in the page for as long as this tab lives. false: another tab has it. */
 export async function holdRobot(): Promise<boolean> {
-    if (!('locks' in navigator)) return true;
-    if (await tryRobot()) return true;
-    await new Promise(resolve => setTimeout(resolve, RELOAD_MS));
-    return tryRobot();
+    return (await lock('robot')) !== null;
 }
 
-function tryRobot(): Promise<boolean> {
+/** Locks the memory of My servos until the returned function is called. null: another tab has it. */
+export function holdServos(): Promise<Release | null> {
+    return lock('servos');
+}
+
+async function lock(name: string): Promise<Release | null> {
+    const release = await tryLock(name);
+    if (release) return release;
+    await new Promise(resolve => setTimeout(resolve, RELOAD_MS));
+    return tryLock(name);
+}
+
+function tryLock(name: string): Promise<Release | null> {
+    if (!('locks' in navigator)) return Promise.resolve(HOLDS_NOTHING);
     return new Promise((resolve, reject) => {
-        const held = navigator.locks.request('motion512-robot', { ifAvailable: true }, lock => {
-            resolve(lock !== null);
-            return lock ? new Promise<never>(() => undefined) : undefined;
+        const held = navigator.locks.request(`motion512-${name}`, { ifAvailable: true }, async granted => {
+            if (granted) await new Promise<void>(release => resolve(release));
+            else resolve(null);
         });
         held.catch(reject);
     });

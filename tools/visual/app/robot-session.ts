@@ -222,16 +222,16 @@ export class RobotSession implements Session {
         this.status.terminalSize(size);
     }
 
-    play(page: number): Promise<void> {
-        return this.act(() => this.plays.play(page));
+    async play(page: number): Promise<void> {
+        await this.act(() => this.plays.play(page));
     }
 
-    playEdited(page: number): Promise<void> {
+    async playEdited(page: number): Promise<void> {
         const { format, state } = this.editor;
         const dirty = dirtyPages(state.get(), format);
         const isToWrite = format.reach(state.get().document, page).some(one => dirty.has(one));
         const late = setTimeout(() => this.preview.playAsked(page), isToWrite ? 0 : SHOWN_MS);
-        return this.act(async () => {
+        await this.act(async () => {
             await this.plays.playEdited(page);
             clearTimeout(late);
             this.preview.showRobot();
@@ -257,20 +257,20 @@ export class RobotSession implements Session {
         });
     }
 
-    shape(shape: Shape): Promise<void> {
-        return this.act(() => this.plays.shape(shape));
+    async shape(shape: Shape): Promise<void> {
+        await this.act(() => this.plays.shape(shape));
     }
 
-    overlay(what: Overlay): Promise<void> {
-        return this.act(() => this.plays.overlay(what));
+    async overlay(what: Overlay): Promise<void> {
+        await this.act(() => this.plays.overlay(what));
     }
 
-    command(what: Command): Promise<void> {
+    async command(what: Command): Promise<void> {
         if (what === 'stop' || what === 'break') this.dropWaiting();
-        return this.act(() => command(this.connection.requests, what));
+        await this.act(() => command(this.connection.requests, what));
     }
 
-    setTorque(on: boolean, servos: readonly number[] = []): Promise<void> {
+    setTorque(on: boolean, servos: readonly number[] = []): Promise<boolean> {
         return this.act(() => setTorque(this.connection.requests, on, servos));
     }
 
@@ -345,15 +345,21 @@ export class RobotSession implements Session {
         return this.sources.connection;
     }
 
-    /** A request to a robot that is off is dropped, or it would run whenever the robot is switched on. */
-    private async act(action: () => Promise<void>): Promise<void> {
-        if (this.isSimulated && !this.state.get().isPowered) return this.messages.complain(TEXTS.status.isOff, 'robot');
+    /** A request to a robot that is off is dropped, or it would run whenever the robot is switched on. false: it was not done, which has
+     *  been reported. */
+    private async act(action: () => Promise<void>): Promise<boolean> {
+        if (this.isSimulated && !this.state.get().isPowered) {
+            this.messages.complain(TEXTS.status.isOff, 'robot');
+            return false;
+        }
         try {
             await action();
             this.messages.say(null);
             void this.status.ask();
+            return true;
         } catch (error) {
             this.messages.fail(error);
+            return false;
         }
     }
 }

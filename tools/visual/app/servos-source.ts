@@ -13,6 +13,7 @@ import { forgetServos, loadServos, saveServos } from '../view/robot-store.ts';
 import { TEXTS } from '../view/texts/texts.ts';
 import { motionLibrary, servosModule } from './assets.ts';
 import { FollowedRobot } from './followed-robot.ts';
+import { holdServos } from './hold-document.ts';
 import { rememberAdapter, withPort } from './serial-ports.ts';
 import type { SourceEvents } from './simulated-source.ts';
 
@@ -26,6 +27,8 @@ export class ServosSource {
     private client: ServosClient | null = null;
     private image: ImageName = 'play';
     private turn: Promise<void> = Promise.resolve();
+    /** Lets another tab use the memories. null: this tab does not use them. */
+    private release: (() => void) | null = null;
 
     constructor(body: Body, events: SourceEvents, mayAsk: () => boolean) {
         this.events = events;
@@ -51,7 +54,11 @@ export class ServosSource {
 
     /** Resolves when the adapter is open and the program runs; call connect() then. Rejects with RobotError, and nothing runs. */
     start(image: ImageName): Promise<void> {
-        return this.inTurn(() => this.begin(image));
+        return this.inTurn(async () => {
+            this.release ??= await holdServos(); // two tabs would overwrite each other's memories
+            if (!this.release) throw new RobotError('second-tab');
+            await this.begin(image);
+        });
     }
 
     /** Connects to the program. */
@@ -78,7 +85,11 @@ export class ServosSource {
 
     /** Stops movement. Servos that hold their pose keep holding it. */
     close(): Promise<void> {
-        return this.inTurn(() => this.end());
+        return this.inTurn(async () => {
+            await this.end();
+            this.release?.();
+            this.release = null;
+        });
     }
 
     private inTurn(work: () => Promise<void>): Promise<void> {

@@ -135,18 +135,23 @@ export class RobotSources {
         this.parts.editor.setRobot([]);
     }
 
-    /** A hidden page gets too little time to drive servos. What plays is ended before it stutters, and the person is told on return. */
+    /** A hidden page gets too little time to drive servos. What plays is ended before it stutters, and the person is told on return, which
+     *  may be before the program has answered. */
     private async lookHidden(): Promise<void> {
-        if (!document.hidden && this.wasHidden) {
-            this.wasHidden = false;
-            this.parts.fail(new RobotError('was-hidden'));
-        }
+        this.tellHidden();
         if (!document.hidden || this.parts.state.get().source !== 'servos') return;
         const { requests } = this.connection;
         const where = await askWhere(requests);
         if (!isMoving(where)) return;
         await command(requests, 'break');
         this.wasHidden = true;
+        this.tellHidden();
+    }
+
+    private tellHidden(): void {
+        if (document.hidden || !this.wasHidden) return;
+        this.wasHidden = false;
+        this.parts.fail(new RobotError('was-hidden'));
     }
 
     private simulatedMotions(image: Uint8Array): void {

@@ -327,6 +327,41 @@ test('a page of the library is one until it is changed; its copy is under a name
     expect(editor.page(copy.page).steps).toEqual([]);
 });
 
+test('of two documents that are opened quickly the last is shown and held, even if the disk answers the first later', async () => {
+    const disk = new PassingStorage();
+    const { editor, documents } = await openTab(disk);
+    const [mine] = documents.state.get().documents;
+    await documents.create('Dances');
+    const dances = documents.state.get().openId;
+    await documents.create('Kicks');
+    const held: string[] = [];
+    const { parts } = documents as unknown as { parts: { hold: (id: string) => Promise<boolean> } };
+    parts.hold = id => Promise.resolve(held.push(id) > 0);
+    let answer = (): void => undefined;
+    const late = (): Promise<void> => new Promise<void>(resolve => (answer = resolve));
+    for (const [call, next] of [
+        ['load', dances],
+        ['readSteps', dances],
+        ['readSteps', documents.state.get().openId], // back to the open one
+    ] as const) {
+        const real = disk[call].bind(disk) as (id: string) => Promise<never>;
+        vi.spyOn(disk, call).mockImplementationOnce(async (id?: string) => {
+            await late();
+            return real(id ?? '');
+        });
+        const first = documents.open(mine?.id ?? '');
+        await settle();
+        await documents.open(next);
+        answer();
+        await first;
+        expect([documents.state.get().openId, held.at(-1)], `${call}, then ${next}`).toEqual([next, next]);
+        expect(now(editor).name).toBe(documents.state.get().documents.find(({ id }) => id === next)?.name);
+        await documents.create('Kicks');
+    }
+    await documents.open(mine?.id ?? '');
+    expect(now(editor).name).toBe('My motions');
+});
+
 test('a disk that is full is told of, and the work goes on', async () => {
     const disk = new PassingStorage();
     const { editor, documents, failures } = await openTab(disk);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A cable pulled while pages are written: what the page reports, what it knows of each page, and how it continues. The board is the one in
-// the page, and its port has a method to pull the cable.
+// A cable pulled while pages are written, or while the robot follows: what the page reports, what it knows of each page, and how it
+// continues. The board is the one in the page, and its port has a method to pull the cable.
 import { expect, test } from 'vitest';
 import { Visitor } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
@@ -8,12 +8,13 @@ import { pageSuite } from './page-suite.ts';
 const suite = pageSuite();
 const PAGES = [60, 61, 62, 63];
 
+type Port = { deliver(bytes: Uint8Array): void; unplug(): void };
+type Shell = { session: { sources: { simulated: { connection: { port: Port } } } } };
+
 /** Pulls the cable when the third page is being saved. */
 async function pullAtThirdSave(person: Visitor): Promise<void> {
     await person.page.locator('app-shell').evaluate(shell => {
-        type Port = { deliver(bytes: Uint8Array): void; unplug(): void };
-        const { session } = shell as unknown as { session: { sources: { simulated: { connection: { port: Port } } } } };
-        const { port } = session.sources.simulated.connection;
+        const { port } = (shell as unknown as Shell).session.sources.simulated.connection;
         const deliver = port.deliver;
         let saves = 0;
         port.deliver = bytes => {
@@ -69,3 +70,18 @@ test('a cable pulled while four pages are written: each is told as old or new, "
         .toContain(`Written and verified: ${PAGES.length} motions.`);
     await person.leave();
 }, 900_000);
+
+test('a cable pulled during live follow ends it: the robot does not move by itself when it is connected again', async () => {
+    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
+    const { page } = person;
+    const follow = page.getByRole('checkbox', { name: /^The robot follows/ });
+    await person.untilStanding();
+    await person.open('Steps');
+    await page.getByRole('combobox', { name: 'Motion', exact: true }).selectOption('3');
+    await follow.check();
+    await page.locator('app-shell').evaluate(shell => (shell as unknown as Shell).session.sources.simulated.connection.port.unplug());
+    await expect.poll(() => follow.isChecked()).toBe(false);
+    await person.untilStanding(); // it connects again
+    expect([await follow.isEnabled(), await follow.isChecked()]).toEqual([true, false]);
+    await person.leave();
+});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Legs that were limp and bent do not carry the robot. The hand keeps holding it after "Hold" until "Let go" or a play.
+// Legs that were limp and bent do not carry the robot. The hand keeps holding it after "Hold" until "Let go" or a play. A limb whose release
+// was refused is not shown as limp.
 import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
 import { Visitor } from './page-bench.ts';
@@ -55,5 +56,12 @@ test('the hand stays over legs that were let go, and over an arm beside them, un
     await doing.filter({ hasText: HELD }).waitFor();
     await person.button('Hold').click();
     await doing.filter({ hasNotText: HELD }).waitFor();
+
+    await person.open('Robot'); // a robot that is off releases nothing
+    await person.button('Power off').click();
+    await person.open('Steps');
+    await person.button('Right leg').click();
+    await page.getByRole('log', { name: 'Last message' }).filter({ hasText: 'off' }).waitFor();
+    await expect.poll(() => person.button('Right leg').getAttribute('aria-pressed')).toBe('false');
     await person.leave();
 });

@@ -451,6 +451,18 @@ test.skipIf(why !== null)(
             await person.doing.filter({ hasText: /Playing motion 2[12] \(walk_/ }).waitFor();
             await page.keyboard.press('Space');
             await person.untilStanding();
+            // Another tab would overwrite what this one saves.
+            const second = await page.context().newPage();
+            await second.addInitScript(chooseFirst);
+            await second.goto(page.url());
+            await second.locator('status-bar .doing').filter({ hasText: 'The robot stands and waits.' }).waitFor();
+            await second.locator('more-menu .toggle').click();
+            await second.getByRole('button', { name: 'My servos …' }).click();
+            await second
+                .getByRole('log', { name: 'Last message' })
+                .filter({ hasText: 'Another tab of this page drives your servos.' })
+                .waitFor();
+            await second.close();
             // What was written is still there the next time.
             await person.press('Robot in this page');
             await person.untilStanding();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Live follow: the robot moves slowly to the chosen step. Off by default, and switched off when the taught limbs change or the robot is
-// stopped.
+// Live follow: the robot moves slowly to the chosen step. Off by default, and switched off when the taught limbs change, the robot is
+// stopped, or the connection ends: a robot that is plugged in again must not move by itself.
 
 import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
@@ -37,7 +37,9 @@ export class FollowBar extends HTMLElement {
         const { tab, connection } = this.session.state.get();
         const { editor } = this.session;
         const { page, step } = editor.state.get();
-        const shall = follow && isEditing(tab) && connection === 'ready' && editor.page(page).steps.length > 0;
+        this.box.disabled = connection !== 'ready';
+        if (follow && this.box.disabled) return this.editing.set({ follow: false }); // this renders again
+        const shall = follow && isEditing(tab) && editor.page(page).steps.length > 0;
         if (!shall && !this.isFollowing) return;
         this.isFollowing = shall;
         this.session.follow(shall ? editor.poseAfter(page, step) : null);

@@ -92,12 +92,21 @@ export class TeachBar extends HTMLElement {
      *  robot, and limp legs do not carry it. */
     private async toggle(group: LimbGroup): Promise<void> {
         const { taught } = this.editing.get();
+        const { mustCarry } = this;
         const isTaught = group.servos.every(servo => taught.has(servo));
-        const next = new Set(isTaught ? [...taught].filter(servo => !group.servos.includes(servo)) : [...taught, ...group.servos]);
-        this.editing.set({ taught: next, mode: 'hand', follow: false });
+        this.editing.set({ mode: 'hand', follow: false });
+        this.mark(group, !isTaught);
         if (!isTaught && this.session.state.get().source === 'simulated') this.carry(group);
-        await this.session.setTorque(isTaught, group.servos);
-        if (isTaught) this.letStand(next);
+        const isDone = await this.session.setTorque(isTaught, group.servos);
+        if (!isDone) this.mark(group, isTaught);
+        if (!isDone && !isTaught) this.mustCarry = mustCarry;
+        if (isTaught === isDone) this.letStand();
+    }
+
+    private mark(group: LimbGroup, isTaught: boolean): void {
+        const { taught } = this.editing.get();
+        const others = [...taught].filter(servo => !group.servos.includes(servo));
+        this.editing.set({ taught: new Set(isTaught ? [...others, ...group.servos] : others) });
     }
 
     private carry(group: LimbGroup): void {
@@ -107,15 +116,16 @@ export class TeachBar extends HTMLElement {
     }
 
     private async holdAll(): Promise<void> {
+        const { taught } = this.editing.get();
         this.editing.set({ taught: new Set() });
-        await this.session.setTorque(true, this.limp);
-        this.letStand(new Set());
+        if (await this.session.setTorque(true, this.limp)) this.letStand();
+        else this.editing.set({ taught });
     }
 
     /** Lets go of the body when nothing is taught any more. After teaching legs the robot may not stand, so the hand stays until Play or
      *  "Let go". */
-    private letStand(taught: ReadonlySet<number>): void {
-        if (taught.size > 0 || !this.isCarrying) return;
+    private letStand(): void {
+        if (this.editing.get().taught.size > 0 || !this.isCarrying) return;
         this.isCarrying = false;
         if (this.mustCarry) {
             this.mustCarry = false;

@@ -124,8 +124,8 @@ export interface Session {
     terminalSize(size: TerminalSize): void;
     play(page: number): Promise<void>;
     command(command: Command): Promise<void>;
-    /** Default: all servos. */
-    setTorque(on: boolean, servos?: readonly number[]): Promise<void>;
+    /** Default: all servos. false: the robot refused or did not answer, which has been reported. */
+    setTorque(on: boolean, servos?: readonly number[]): Promise<boolean>;
     /** Plays a page of the document. First writes it and the pages it leads to, where the robot's differ. The picture previews it
      *  meanwhile. */
     playEdited(page: number): Promise<void>;

@@ -221,6 +221,8 @@ const DE: Texts = {
             'port-lost': 'Das Kabel wurde gezogen. Stecke es wieder ein; die Seite verbindet sich von selbst.',
             'port-busy':
                 'Der Anschluss lässt sich nicht öffnen. Schließe das andere Programm, das ihn benutzt, und versuche es noch einmal.',
+            'second-tab':
+                'Ein anderer Tab dieser Seite steuert deine Servos. Mach dort weiter, oder schließe ihn und wähle noch einmal Meine Servos.',
             'old-browser': 'Dieser Browser ist zu alt für Meine Servos. Nötig ist Chromium, Chrome oder Edge ab Version 137.',
             'no-serial':
                 'Dieser Browser erreicht keinen seriellen Anschluss. Nötig ist Web Serial, das Chromium hat. Der Roboter in der Seite geht auch hier.',
