@@ -32,7 +32,7 @@ export interface RobotForPages {
 export function makeDocuments(
     editor: DocumentEditor,
     { storage, isKept }: ChosenStorage,
-    events: Pick<DocumentsParts, 'failed' | 'copied'>,
+    events: Pick<DocumentsParts, 'failed' | 'copied' | 'gone'>,
 ): KeptDocuments {
     const shown = {
         open: (document: MotionDocument, history: History) => editor.open(document, history),

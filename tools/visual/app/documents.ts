@@ -21,8 +21,10 @@ export interface Shown {
     edited(): Edited;
 }
 
-/** Locks a document for this tab and releases the one locked before. false: another tab has it. */
-export type Hold = (id: string) => Promise<boolean>;
+export type Release = () => void;
+
+/** Locks a document for this tab until the returned function is called. null: it is locked already. */
+export type Hold = (id: string) => Promise<Release | null>;
 
 export interface DocumentsParts {
     readonly storage: DocumentStorage;
@@ -35,10 +37,13 @@ export interface DocumentsParts {
     readonly newId: () => string;
     /** Another tab has the document. This tab continues with a copy of that name. */
     readonly copied: (name: string) => void;
+    /** The document of that name is not stored any more. */
+    readonly gone: (name: string) => void;
     /** The document could not be stored. */
     readonly failed: (error: unknown) => void;
 }
 
+const HOLDS_NOTHING: Release = () => undefined;
 const NEWEST_FIRST = (a: { savedMs: number }, b: { savedMs: number }): number => b.savedMs - a.savedMs;
 
 export class KeptDocuments implements Documents {
@@ -53,6 +58,10 @@ export class KeptDocuments implements Documents {
     private isUntouched = false;
     /** Counts what is opened or created. The last request wins, even if the storage answers an earlier one later. */
     private chosen = 0;
+    /** Lock of the open document. */
+    private release = HOLDS_NOTHING;
+    /** What is opened takes its lock one after the other. Nobody gets a lock twice, not even this tab. */
+    private turn: Promise<void> = Promise.resolve();
 
     constructor(shown: Shown, parts: DocumentsParts) {
         this.shown = shown;
@@ -67,14 +76,20 @@ export class KeptDocuments implements Documents {
         const [newest] = [...kept.documents].sort(NEWEST_FIRST);
         this.state.set({ documents: kept.documents.map(entryOf) });
         if (!newest) return this.create(first.name, first);
-        await this.take(newest);
+        await this.inTurn(() => this.take(newest));
     }
 
     /** The new document is open when this returns, so the next edit belongs to it. The promise only waits for the lock. */
-    async create(name: string, from?: MotionDocument): Promise<void> {
+    create(name: string, from?: MotionDocument): Promise<void> {
         const id = this.begin(name, from ?? this.parts.empty);
         this.keep();
-        await this.parts.hold(id); // cannot fail: no other tab knows this id
+        return this.inTurn(() => this.holdNew(id));
+    }
+
+    private async holdNew(id: string): Promise<void> {
+        const release = (await this.parts.hold(id)) ?? HOLDS_NOTHING; // no other tab knows this id
+        if (id === this.state.get().openId) this.release = release;
+        else release();
     }
 
     /** Opens a new document and returns its id. */
@@ -86,11 +101,13 @@ export class KeptDocuments implements Documents {
         return id;
     }
 
-    async open(id: string): Promise<void> {
+    open(id: string): Promise<void> {
         const mine = ++this.chosen;
-        if (id === this.state.get().openId) return;
-        const kept = await this.find(id);
-        if (kept && mine === this.chosen) await this.take(kept);
+        return this.inTurn(async () => {
+            if (mine !== this.chosen || id === this.state.get().openId) return;
+            const kept = await this.find(id);
+            if (kept && mine === this.chosen) await this.take(kept);
+        });
     }
 
     rename(name: string): void {
@@ -99,12 +116,13 @@ export class KeptDocuments implements Documents {
     }
 
     async remove(): Promise<void> {
-        const { openId, documents } = this.state.get();
-        const left = documents.filter(entry => entry.id !== openId);
-        this.state.set({ documents: left });
-        const [next] = [...left].sort(NEWEST_FIRST);
-        if (next) await this.open(next.id);
-        else await this.create(TEXTS.document.mine);
+        const { openId } = this.state.get();
+        const mine = ++this.chosen;
+        this.drop(openId);
+        const { documents } = await this.load(); // another tab may have removed some as well
+        const [next] = documents.filter(({ id }) => id !== openId).sort(NEWEST_FIRST);
+        if (next) await this.inTurn(async () => (mine === this.chosen ? this.take(next) : undefined));
+        else if (mine === this.chosen) await this.create(TEXTS.document.mine);
         this.newest.delete(openId);
         await this.parts.storage.removeDocument(openId).catch((error: unknown) => this.parts.failed(error));
     }
@@ -154,10 +172,9 @@ export class KeptDocuments implements Documents {
     /** Opens a stored document with its history, or a copy if another tab has it open. */
     private async take(kept: KeptDocument): Promise<void> {
         const document = documentFrom(kept.image, kept.name);
-        const mine = ++this.chosen;
-        const isHeld = await this.parts.hold(kept.id);
-        if (mine !== this.chosen) return this.holdAgain();
-        if (!isHeld) {
+        const mine = this.chosen;
+        const release = await this.parts.hold(kept.id);
+        if (!release && mine === this.chosen) {
             const name = copyName(
                 kept.name,
                 this.state.get().documents.map(one => one.name),
@@ -166,26 +183,31 @@ export class KeptDocuments implements Documents {
             this.parts.copied(name);
             const id = this.begin(name, document);
             this.isUntouched = true;
-            await this.parts.hold(id);
-            return;
+            return this.holdNew(id);
         }
         const steps = await this.parts.storage.readSteps(kept.id).catch(() => []); // the history is then lost, and the page says so
-        if (mine !== this.chosen) return this.holdAgain();
-        this.show(kept.id, restored(document, kept.position ?? 0, steps));
+        if (!release || mine !== this.chosen) return release?.();
+        this.show(kept.id, restored(document, kept.position ?? 0, steps), release);
     }
 
-    /** The lock of a document that will not be shown has released that of the open one. */
-    private async holdAgain(): Promise<void> {
-        await this.parts.hold(this.state.get().openId);
-    }
-
-    private show(id: string, { document, history, log }: Edited & { readonly log: HistoryLog }): void {
-        const { openId, documents } = this.state.get();
-        if (this.isUntouched) this.state.set({ documents: documents.filter(one => one.id !== openId) });
+    private show(id: string, { document, history, log }: Edited & { readonly log: HistoryLog }, release = HOLDS_NOTHING): void {
+        if (this.isUntouched) this.drop(this.state.get().openId);
         this.isUntouched = false;
+        this.release();
+        this.release = release;
         this.log = log;
         this.state.set({ openId: id, forgotten: log.base });
         this.shown.open(document, history);
+    }
+
+    private drop(id: string): void {
+        this.state.set({ documents: this.state.get().documents.filter(one => one.id !== id) });
+    }
+
+    private inTurn(action: () => Promise<void>): Promise<void> {
+        const done = this.turn.then(action);
+        this.turn = done.catch(() => undefined); // the caller gets the error
+        return done;
     }
 
     private async load(): ReturnType<DocumentStorage['load']> {
@@ -199,7 +221,13 @@ export class KeptDocuments implements Documents {
     }
 
     private async find(id: string): Promise<KeptDocument | undefined> {
-        return (await this.load()).documents.find(kept => kept.id === id);
+        const found = (await this.load()).documents.find(kept => kept.id === id);
+        const entry = this.state.get().documents.find(one => one.id === id);
+        if (!found && entry) {
+            this.drop(id);
+            this.parts.gone(entry.name);
+        }
+        return found;
     }
 
     private follow(put: Promise<void>): void {

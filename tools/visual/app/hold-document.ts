@@ -9,15 +9,9 @@ type Release = () => void;
 
 const HOLDS_NOTHING: Release = () => undefined;
 
-let releaseDocument = HOLDS_NOTHING;
-
-/** Locks a document for this tab and releases the one locked before. false: another tab has it, and the previous lock stays. */
-export async function holdDocument(id: string): Promise<boolean> {
-    const release = await tryLock(`document-${id}`);
-    if (!release) return false;
-    releaseDocument();
-    releaseDocument = release;
-    return true;
+/** Locks a document until the returned function is called. null: it is locked already. */
+export function holdDocument(id: string): Promise<Release | null> {
+    return tryLock(`document-${id}`);
 }
 
 /** Locks the memory of the robot in the page for as long as this tab lives. false: another tab has it. */

@@ -119,6 +119,7 @@ export class RobotSession implements Session {
         this.documents = makeDocuments(this.editor, storage, {
             failed: () => this.messages.complain(TEXTS.document.couldNotSave, 'storage'),
             copied: name => this.messages.keep({ text: TEXTS.document.secondTab(name), tone: 'calm' }),
+            gone: name => this.messages.complain(TEXTS.document.gone(name), 'edit'),
         });
         this.transfer = makeTransfer(this.editor, this.documents, {
             name: () => (this.isSimulated ? ROBOT_IN_PAGE : this.state.get().portName),

@@ -3,6 +3,7 @@
 import { readFileSync } from 'node:fs';
 import { expect, test, vi } from 'vitest';
 import { KeptDocuments } from '../app/documents.ts';
+import type { Hold } from '../app/documents.ts';
 import { DocumentEditor } from '../app/editor.ts';
 import type { Body } from '../model/body.ts';
 import { copyName, emptyDocument, imageOf, pageOf } from '../model/document.ts';
@@ -21,9 +22,10 @@ const library = await libraryDocument('My motions');
 let ids = 0;
 
 /** A tab of a browser whose disk is `storage`. */
-async function openTab(storage: DocumentStorage, options: { taken?: string } = {}) {
+async function openTab(storage: DocumentStorage, options: { taken?: string; hold?: Hold } = {}) {
     const failures: unknown[] = [];
     const copies: string[] = [];
+    const gone: string[] = [];
     const editor: DocumentEditor = new DocumentEditor(
         body,
         { format, player, document: library },
@@ -45,13 +47,14 @@ async function openTab(storage: DocumentStorage, options: { taken?: string } = {
             empty: emptyDocument(format, ''),
             nowMs: () => ++ids,
             newId: () => `id${++ids}`,
-            hold: id => Promise.resolve(id !== options.taken),
+            hold: options.hold ?? (id => Promise.resolve(id === options.taken ? null : () => undefined)),
             failed: error => failures.push(error),
             copied: name => copies.push(name),
+            gone: name => gone.push(name),
         },
     );
     await documents.start(library);
-    return { editor, documents, failures, copies };
+    return { editor, documents, failures, copies, gone };
 }
 
 function now(editor: DocumentEditor): MotionDocument {
@@ -327,39 +330,75 @@ test('a page of the library is one until it is changed; its copy is under a name
     expect(editor.page(copy.page).steps).toEqual([]);
 });
 
-test('of two documents that are opened quickly the last is shown and held, even if the disk answers the first later', async () => {
+/** Locks as a browser keeps them: nobody, not even the same tab, gets one twice. */
+function makeLocks() {
+    const held = new Set<string>();
+    const hold = (id: string): Promise<(() => void) | null> => {
+        if (held.has(id)) return Promise.resolve(null);
+        held.add(id);
+        return Promise.resolve(() => void held.delete(id));
+    };
+    return { held, hold };
+}
+
+test('whatever is opened quickly, the last is shown and held, and no other, even if the disk answers late', async () => {
     const disk = new PassingStorage();
-    const { editor, documents } = await openTab(disk);
-    const [mine] = documents.state.get().documents;
+    const { held, hold } = makeLocks();
+    const { editor, documents, copies } = await openTab(disk, { hold });
+    const bows = documents.state.get().openId;
     await documents.create('Dances');
     const dances = documents.state.get().openId;
     await documents.create('Kicks');
-    const held: string[] = [];
-    const { parts } = documents as unknown as { parts: { hold: (id: string) => Promise<boolean> } };
-    parts.hold = id => Promise.resolve(held.push(id) > 0);
-    let answer = (): void => undefined;
-    const late = (): Promise<void> => new Promise<void>(resolve => (answer = resolve));
-    for (const [call, next] of [
-        ['load', dances],
-        ['readSteps', dances],
-        ['readSteps', documents.state.get().openId], // back to the open one
-    ] as const) {
-        const real = disk[call].bind(disk) as (id: string) => Promise<never>;
-        vi.spyOn(disk, call).mockImplementationOnce(async (id?: string) => {
-            await late();
-            return real(id ?? '');
-        });
-        const first = documents.open(mine?.id ?? '');
-        await settle();
-        await documents.open(next);
-        answer();
-        await first;
-        expect([documents.state.get().openId, held.at(-1)], `${call}, then ${next}`).toEqual([next, next]);
-        expect(now(editor).name).toBe(documents.state.get().documents.find(({ id }) => id === next)?.name);
-        await documents.create('Kicks');
-    }
-    await documents.open(mine?.id ?? '');
-    expect(now(editor).name).toBe('My motions');
+    const kicks = documents.state.get().openId;
+    for (const call of ['load', 'readSteps'] as const)
+        for (const [first, then] of [
+            [bows, dances],
+            [bows, bows], // twice the same
+            [bows, kicks], // back to the open one
+        ] as const) {
+            const waiting: (() => void)[] = [];
+            const real = disk[call].bind(disk) as (id: string) => Promise<never>;
+            const late = vi.spyOn(disk, call).mockImplementation(async (id?: string) => {
+                await new Promise<void>(resolve => waiting.push(resolve));
+                return real(id ?? '');
+            });
+            const opened = documents.open(first);
+            await settle();
+            const next = documents.open(then);
+            for (let answers = 0; answers < 4; answers++) {
+                await settle();
+                waiting.shift()?.();
+            }
+            await Promise.all([opened, next]);
+            late.mockRestore();
+            const { openId, documents: all } = documents.state.get();
+            expect([openId, ...held], `${call}: ${first}, ${then}`).toEqual([then, then]);
+            expect(now(editor).name).toBe(all.find(({ id }) => id === then)?.name);
+            expect(copies).toEqual([]);
+            await documents.open(kicks);
+        }
+    await Promise.all([documents.create('one'), documents.create('two')]);
+    expect([...held]).toEqual([documents.state.get().openId]);
+});
+
+test('a document that another tab has deleted is told of, and is no document to go back to', async () => {
+    const disk = new PassingStorage();
+    const { editor, documents, gone } = await openTab(disk);
+    const bows = documents.state.get().openId;
+    await documents.create('Dances');
+    const dances = documents.state.get().openId;
+    await documents.create('Kicks');
+    await disk.removeDocument(dances);
+    await documents.open(dances);
+    expect(gone).toEqual(['Dances']);
+    expect(documents.state.get().documents.map(one => one.name)).toEqual(['My motions', 'Kicks']);
+    await disk.removeDocument(bows);
+    await documents.remove();
+    editor.dispatch(editor.edits.rename(now(editor), 2, 'curtsy'));
+    await settle();
+    const kept = (await disk.load()).documents;
+    expect(kept.map(one => one.id)).toEqual([documents.state.get().openId]);
+    expect(kept).toHaveLength(1);
 });
 
 test('a disk that is full is told of, and the work goes on', async () => {

@@ -540,6 +540,7 @@ const DE: Texts = {
         removes: 'Löschen',
         secondTab: name =>
             `Ein anderer Tab hat dieses Dokument geöffnet, deshalb hat dieser eine Kopie: ${name}. Was du hier änderst, wird nur in der Kopie aufbewahrt.`,
+        gone: name => `${name} gibt es nicht mehr. Ein anderer Tab hat es gelöscht.`,
         forgotten: steps =>
             `Rückgängig: Die ersten ${steps} Änderungen dieses Dokuments waren nicht gespeichert, als sein Tab geschlossen wurde.`,
         undo: 'Rückgängig',

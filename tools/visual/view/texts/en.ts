@@ -660,6 +660,7 @@ export const EN = {
         removes: 'Delete',
         secondTab: (name: string) =>
             `Another tab has this document open, so this one has a copy: ${name}. What you change here is kept in the copy alone.`,
+        gone: (name: string) => `${name} is not there any more. Another tab has deleted it.`,
         forgotten: (steps: number) => `Undo: the first ${steps} steps of this document were not saved when its tab was closed.`,
         undo: 'Undo',
         redo: 'Redo',

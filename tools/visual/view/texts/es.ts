@@ -531,6 +531,7 @@ const ES: Texts = {
         removes: 'Eliminar',
         secondTab: name =>
             `Otra pestaña tiene abierto este documento, así que esta tiene una copia: ${name}. Lo que cambies aquí se guarda solo en la copia.`,
+        gone: name => `${name} ya no existe. Otra pestaña lo ha eliminado.`,
         forgotten: steps => `Deshacer: los primeros ${steps} cambios de este documento no estaban guardados cuando se cerró su pestaña.`,
         undo: 'Deshacer',
         redo: 'Rehacer',
