@@ -32,7 +32,7 @@ test('without power it is off, whatever it said last', () => {
 
 test('one that never answers, and yours: what to do', () => {
     const late = doingText({ ...START, connection: 'silent', isLate: true }, null);
-    expect(late).toMatch(/type GO there; otherwise start it anew under "Robot"/);
+    expect(late).toMatch(/type GO there; otherwise restart it under "Robot"/);
     expect(late).not.toMatch(/flash|port/); // not for the robot in the page
     expect(doingText({ ...START, connection: 'silent', source: 'yours' }, null)).toMatch(/Switch the robot on/);
 });

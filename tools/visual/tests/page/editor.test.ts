@@ -97,7 +97,7 @@ test('a pupil, by the tour: teaches a page by hand, names it, the firmware plays
     const name = pupil.page.getByRole('textbox', { name: 'Name of the motion' });
     await name.fill('hello');
     await name.press('Enter');
-    await said(pupil, 'Once is no waving');
+    await said(pupil, 'One wave is not enough');
     const times = pupil.page.getByRole('spinbutton', { name: 'Times', exact: true });
     await times.fill('3');
     await times.press('Enter');

@@ -38,7 +38,7 @@ test('the hand stays over legs that were let go, and over an arm beside them, un
         await person.button('Hold').click();
         await page
             .getByRole('log', { name: 'Last message' })
-            .filter({ hasText: /^The hand goes on holding the robot/ })
+            .filter({ hasText: /^The legs were limp, so the hand still holds the robot/ })
             .waitFor();
         await twoSeconds(page);
         expect(await doing.textContent()).toContain(HELD);

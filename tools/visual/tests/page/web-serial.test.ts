@@ -188,13 +188,13 @@ test.skipIf(why !== null)(
             await person.doing.filter({ hasText: 'Playing motion 3 (wave)' }).waitFor();
 
             await robot.pull();
-            await person.doing.filter({ hasText: 'The cable is out.' }).waitFor();
+            await person.doing.filter({ hasText: 'The cable is unplugged.' }).waitFor();
             plugInto(folder, await robot.plugIn());
             await person.untilStanding(); // without pressing anything
             await person.button('Bow').click();
             await person.doing.filter({ hasText: 'Playing motion 2 (bow)' }).waitFor();
             await robot.pull();
-            await person.doing.filter({ hasText: 'The cable is out.' }).waitFor();
+            await person.doing.filter({ hasText: 'The cable is unplugged.' }).waitFor();
             await person.press('Robot in this page');
             await person.untilStanding();
         });
@@ -237,7 +237,7 @@ test.skipIf(why !== null)(
                 await person.open('Terminal');
                 await nameAndSave(person, 'salute');
                 await robot.pull();
-                await person.doing.filter({ hasText: 'The cable is out.' }).waitFor();
+                await person.doing.filter({ hasText: 'The cable is unplugged.' }).waitFor();
                 const [before, after] = [readFileSync(join(BUILD, 'motions/motions.bin')), readFileSync(robot.flash).subarray(0xe000)];
                 const pageIn = (image: Buffer, at: number): Buffer => image.subarray(512 * at, 512 * at + 512);
                 const differ = Array.from({ length: 128 }, (_, at) => at).filter(at => !pageIn(before, at).equals(pageIn(after, at)));
@@ -403,7 +403,7 @@ test.skipIf(why !== null)(
             await person.button('Walk').click();
             await person.doing.filter({ hasText: /Playing motion 2[0-9]/ }).waitFor();
             await servos.pull();
-            await person.doing.filter({ hasText: 'The servo adapter is out' }).waitFor();
+            await person.doing.filter({ hasText: 'The servo adapter is unplugged' }).waitFor();
             const sent = servos.frames().length;
             plugInto(folder, await servos.plugIn());
             await person.doing.filter({ hasText: 'The servo adapter is back' }).waitFor();
@@ -421,7 +421,7 @@ test.skipIf(why !== null)(
             await person.page.evaluate(hide, true);
             await person.untilStanding();
             await person.page.evaluate(hide, false);
-            await said.filter({ hasText: 'This page was hidden, so what played was ended softly' }).waitFor();
+            await said.filter({ hasText: 'This page was hidden, so the motion was ended softly' }).waitFor();
             await person.press('Robot in this page');
             await person.untilStanding();
         });

@@ -40,12 +40,12 @@ function fallPlace({ step, motion, seconds }: FallPlace): string {
 }
 
 const errors: Record<RobotErrorCode, string> = {
-    'no-answer': 'The robot did not answer. Is it switched on? If its screen shows a "-", type GO in the terminal.',
+    'no-answer': 'The robot did not answer. Is it switched on? If the terminal shows a "-", type GO there.',
     refused: 'The robot refused:',
     'not-connected': 'No robot is connected. Choose one in the menu.',
     'port-lost': 'The cable was pulled. Plug it in again; the page reconnects by itself.',
     'port-busy': 'The port cannot be opened. Close the other program that uses it, then try again.',
-    'second-tab': 'Another tab of this page drives your servos. Go on there, or close it and choose My servos again.',
+    'second-tab': 'Another tab of this page drives your servos. Go on there, or close it and choose "My servos …" again.',
     'old-browser': 'This browser is too old for My servos. It needs Chromium, Chrome or Edge 137 or later.',
     'no-serial': 'This browser cannot reach a serial port. It needs Web Serial, which Chromium has. The robot in the page works here, too.',
     foreign: 'Something answers there, but it is not Motion512. Flash our firmware: m512 flash edit-cm5.hex',
@@ -53,7 +53,7 @@ const errors: Record<RobotErrorCode, string> = {
         'Motion512 runs on CM-2, CM-2+ and CM-5 only, and this board is another one. Nothing is sent there; choose another port. Its boot loader gives this name:',
     'in-loader': 'The boot loader is waiting. Type GO in the terminal to start the firmware.',
     'no-image': 'The firmware could not be loaded, so the robot goes on as it was. Is this computer online? Then try again.',
-    'was-hidden': 'This page was hidden, so what played was ended softly: a hidden page cannot keep time. Keep it in sight.',
+    'was-hidden': 'This page was hidden, so the motion was ended softly. A hidden page cannot keep time: keep it in sight.',
     cancelled: 'Stopped.',
     'page-changed': 'This motion has changed in the robot since it was read; nothing was written over it. Compare once more. Motion:',
     'page-unsaved': "The motion in Edit's memory has edits that are not saved. Type SAVE or UNDO in the terminal, then try again.",
@@ -61,7 +61,8 @@ const errors: Record<RobotErrorCode, string> = {
         'The robot took this motion but does not have it now. Its flash may be worn out; your motion is safe here. Try again. Motion:',
     'no-backup':
         "The robot's motions could not be saved in this browser (private window, or the disk is full), so nothing was written. Make room, then try again.",
-    'needs-edit': 'The robot runs Play, and only Edit saves motions. Flash it with: m512 flash edit-cm5.hex, then try again. Motions stay.',
+    'needs-edit':
+        'The robot runs Play, and only Edit saves motions. Flash Edit with m512 flash edit-cm5.hex, then try again. Your motions stay.',
     'transfer-busy': 'Not done: motions of the robot are still being read or written. Try again when that has ended.',
     'pages-differ': 'Not played: your robot has another version of this motion. Write it first with "To the robot …", then play it.',
     'damaged-here':
@@ -75,10 +76,10 @@ const connections: Record<ConnectionState, string> = {
     opening: 'Opening the port …',
     asking: 'Asking the robot who it is …',
     ready: 'Connected.',
-    silent: 'The port is open, but no Motion512 answers. Switch the robot on; if its screen shows a "-", type GO in the terminal. An older Play or Edit is flashed anew: m512 flash edit-cm5.hex.',
-    foreign: 'This robot runs another firmware. Flash ours with: m512 flash edit-cm5.hex. The terminal works meanwhile.',
-    'other-board': 'This is no board for Motion512, says its boot loader. Nothing is sent there; the terminal works.',
-    waiting: 'The cable is out. Plug it in again; the page reconnects by itself.',
+    silent: 'The port is open, but no Motion512 answers. Switch the robot on. If the terminal shows a "-", type GO there. If the robot has an older Play or Edit, flash it again: m512 flash edit-cm5.hex',
+    foreign: 'This robot runs another firmware. Flash ours: m512 flash edit-cm5.hex. The terminal works meanwhile.',
+    'other-board': 'This is not a board for Motion512, says its boot loader. Nothing is sent there; the terminal works.',
+    waiting: 'The cable is unplugged. Plug it in again; the page reconnects by itself.',
 };
 
 const refusals: Record<RefusalCode, (words: string) => string> = {
@@ -88,9 +89,9 @@ const refusals: Record<RefusalCode, (words: string) => string> = {
     'page-in-use': words => `There is a motion already. Choose another place, or say that it may be replaced: motion ${words}.`,
     'page-empty': words => `There is nothing in that motion: motion ${words}.`,
     'no-such-step': words => `The motion has no such step: ${words}.`,
-    'steps-full': () => 'A motion holds seven steps. Put the others into another motion and link it as "next".',
+    'steps-full': () => 'A motion holds at most seven steps. Put the others into another motion and link it as "next".',
     'no-room': () => 'There are not enough free motions. Clear some first; nothing was changed.',
-    'bad-name': words => `A name has at most 13 letters, digits and signs of ASCII: ${words}.`,
+    'bad-name': words => `A name has at most 13 characters: letters without accents, digits and signs: ${words}.`,
     'bad-number': words => `A number is out of its range: ${words}.`,
     'no-such-joint': words => `There is no such joint; servo IDs are 0 to 30: ${words}.`,
 };
@@ -245,11 +246,11 @@ const counted: Record<VerdictKind, (count: number) => string> = {
 
 /** For a motion that does not stand in its first pose: the result when it is played after another one. */
 const behind: Record<VerdictKind, (other: string) => string> = {
-    stands: other => `Does not stand in its first pose. Played behind ${other} it stands.`,
-    rises: other => `Does not stand in its first pose. Played behind ${other} it gets to its feet.`,
-    falls: other => `Does not stand in its first pose. Played behind ${other} it stays on the floor.`,
-    low: other => `Does not stand in its first pose. Played behind ${other} it ends low.`,
-    'no-start': other => `Does not stand in its first pose. Played behind ${other} it is not reached.`,
+    stands: other => `Does not stand in its first pose. Played after ${other}, it stands.`,
+    rises: other => `Does not stand in its first pose. Played after ${other}, it gets to its feet.`,
+    falls: other => `Does not stand in its first pose. Played after ${other}, it stays on the floor.`,
+    low: other => `Does not stand in its first pose. Played after ${other}, it ends low.`,
+    'no-start': other => `Does not stand in its first pose. Played after ${other}, it is not reached.`,
 };
 
 const keys: readonly KeyGroup[] = [
@@ -349,8 +350,8 @@ export const EN = {
         noWebGl:
             'This browser draws no 3D picture (WebGL is off). Everything else works; to see the robot, switch WebGL on in the settings, then reload.',
         noWebAssembly:
-            'This browser runs no WebAssembly, of which the robot is made. Switch it on in the settings, or open this page in another browser.',
-        newVersion: 'A new version of this page is there. What you have made is saved.',
+            'This browser runs no WebAssembly, which the robot needs. Switch it on in the settings, or open this page in another browser.',
+        newVersion: 'There is a new version of this page. Your work is saved.',
         reload: 'New version: reload',
         toAreas: 'To the areas',
         tourHint: 'Two minutes to the first motion',
@@ -382,7 +383,7 @@ export const EN = {
         areas: 'Areas',
         titles: areas,
         more: 'More',
-        moreHint: 'Curves, motions, links, checks, the terminal, and what can be done to the robot',
+        moreHint: 'Curves, motions, links, checks, the terminal, and the controls of the robot',
     },
 
     /** The card over the picture on a first visit. */
@@ -429,7 +430,7 @@ export const EN = {
         waits: 'The robot stands and waits.',
         starts: 'The robot is starting …',
         startsNot:
-            'The robot in this page does not answer. If its terminal shows a "-", type GO there; otherwise start it anew under "Robot".',
+            'The robot in this page does not answer. If its terminal shows a "-", type GO there; otherwise restart it under "Robot".',
         searches: 'Looking for your servos …',
         isOff: 'The robot is switched off. Switch it on under "Robot".',
         /** Also while the robot waits, because the user must know that Edit runs. */
@@ -451,24 +452,25 @@ export const EN = {
         connections,
         noPhysics: 'Physics could not be loaded, so the robot cannot fall.',
         noPush: 'Physics could not be loaded, so the robot cannot be pushed. Load the page again to try once more.',
-        adapterOut: 'The servo adapter is out, and nothing plays. Plug it in again.',
+        adapterOut: 'The servo adapter is unplugged, so nothing plays. Plug it in again.',
         adapterBack: 'The servo adapter is back. The servos move again once their torque is switched on: type on in the terminal.',
         noServos:
-            'No servo answers. Is their power on, is the cable of the bus in, and do they talk at 1,000,000 bits a second? Then type @reset in the terminal.',
+            'No servo answers. Is their power on? Is the bus cable plugged in? Do they talk at 1,000,000 bits a second? Check this, then type @reset in the terminal.',
         servosFound: (count: number, missing: readonly number[]) =>
             `${plural(count, 'One servo answers', `${count} servos answer`)}. Nothing moves before you say so.${missing.length > 0 ? ` No answer from ${missing.join(', ')}: not plugged in, or two servos have that number.` : ''}`,
-        servosCrashed: 'The program for your servos has stopped; servos that held go on holding. Choose My servos again.',
-        editNoRemote: 'Edit hears no remote control; Play does. Flash it with: m512 flash play-cm5.hex. Motions stay.',
-        crashed: 'The simulated robot has crashed. Start it anew under "Robot"; what it had saved is still there.',
+        servosCrashed:
+            'The program for your servos has crashed. Servos that held their position still hold it. Choose "My servos …" again.',
+        editNoRemote: 'Edit hears no remote control; Play does. Flash Play: m512 flash play-cm5.hex. Your motions stay.',
+        crashed: 'The simulated robot has crashed. Restart it under "Robot"; what it had saved is still there.',
         notKept:
-            "This browser does not save the robot's memory (private window, or the disk is full). What you save is gone with the page.",
-        second: 'Another tab has this robot, too, so what this one saves is gone when its tab is closed. Documents stay.',
+            "This browser does not save the robot's memory (private window, or the disk is full). What you save is lost when you close the page.",
+        second: 'Another tab has this robot, too. What the robot saves in this tab is lost when you close the tab. Documents stay.',
         isBackedUp: 'All motions of your robot are read, and saved in this browser as a backup.',
         /** kind and words come from the simulator. */
         violation: (kind: string, words: string) =>
-            `The firmware did what no chip allows. Start the robot anew under "Robot". (${kind}: ${words})`,
-        startsEdit: 'The robot in the page starts anew with Edit, the firmware that saves motions.',
-        startsPlay: 'The robot in the page starts anew with Play, the firmware that hears the remote control.',
+            `The firmware did what no chip allows. Restart the robot under "Robot". (${kind}: ${words})`,
+        startsEdit: 'The robot in the page restarts with Edit, the firmware that saves motions.',
+        startsPlay: 'The robot in the page restarts with Play, the firmware that hears the remote control.',
     },
 
     /** The area Robot: controls of the simulated robot. */
@@ -502,7 +504,7 @@ export const EN = {
         freshMeans: 'The robot in the page forgets its motions and settings, as if it were new. Your documents here stay.',
         forget: 'Forget everything',
         law: 'Law of motion',
-        lawHint: 'By which the curves, the picture and physics in Checks play a motion.',
+        lawHint: 'The curves, the picture and physics in Checks play a motion by this law.',
         exact: 'Exact',
         exactHint: 'Every way-point is met, in time',
         classic: 'Classic',
@@ -553,14 +555,14 @@ export const EN = {
         shape: 'How it goes',
         shapes,
         asStored: 'As stored',
-        shaped: 'It takes it with its next step.',
+        shaped: 'Applies from the next step on.',
         shapeNeedsPlay: 'Edit runs, and only Play shapes a motion. A key of the remote brings Play back.',
         wave: 'Wave while walking',
         waveHint: 'The right arm waves, the legs go on',
     },
 
     layers: {
-        purpose: 'A second motion on joints of its own while another one plays, or joints moved by code. Nothing of it is stored.',
+        purpose: 'A second motion on joints of its own while another one plays, or joints moved by code. None of it is stored.',
         state: 'Layers now',
         motion: 'Motion to lay over',
         joints: 'Joints of the layer',
@@ -581,7 +583,7 @@ export const EN = {
         freeHint: 'Back to the motion that plays',
         startPlay: 'Start Play',
         needsPlay: 'Edit runs, and only Play has layers.',
-        needsPlayYours: 'Your robot runs Edit, and only Play has layers. Flash it with: m512 flash play-cm5.hex',
+        needsPlayYours: 'Your robot runs Edit, and only Play has layers. Flash Play: m512 flash play-cm5.hex',
         none: 'No layers.',
         chooseJoint: 'Choose a joint in Curves or in the picture of a step, and move it by code here.',
         laid: (motion: string) => `Laid over: ${motion}.`,
@@ -661,7 +663,8 @@ export const EN = {
         secondTab: (name: string) =>
             `Another tab has this document open, so this one has a copy: ${name}. What you change here is kept in the copy alone.`,
         gone: (name: string) => `${name} is not there any more. Another tab has deleted it.`,
-        forgotten: (steps: number) => `Undo: the first ${steps} steps of this document were not saved when its tab was closed.`,
+        forgotten: (steps: number) =>
+            `Undo: the first ${steps} changes of this document can no longer be undone. The document itself is complete.`,
         undo: 'Undo',
         redo: 'Redo',
         undoes: (edit: string, where: string) => `Undo: ${edit} (${where})`,
@@ -685,7 +688,7 @@ export const EN = {
         play: '▶ Play',
         ofLibrary: 'This motion belongs to the library that the robot came with. Edit a copy of it?',
         editsCopy: 'Edit a copy',
-        editsItself: 'Edit it itself',
+        editsItself: 'Edit the original',
         allUsed: 'All motions are used. Clear one in Motions first.',
         row: 'Steps of the motion',
         empty: 'No step yet. Add the robot as it stands, or drag it in the picture.',
@@ -713,7 +716,7 @@ export const EN = {
         copy: 'Copy',
         copyHint: 'As readable text, for another motion or window',
         paste: 'Paste',
-        pasteHint: 'Behind the chosen step',
+        pasteHint: 'After the chosen step',
         remove: 'Delete',
         removeHint: 'The chosen steps',
         insertKey: 'Insert',
@@ -740,10 +743,10 @@ export const EN = {
         leftLeg: 'Left leg',
         hold: 'Hold',
         add: 'Add step from the robot',
-        handStays: 'The hand goes on holding the robot, whose legs were let go: press "Let go" to see whether it stands, or Play.',
+        handStays: 'The legs were limp, so the hand still holds the robot. Press "Let go" to see whether it stands, or press Play.',
         stiff: 'All joints hold. Let a limb go, move it, hold it, add a step.',
         limpSimulated:
-            'Drag the limb in the picture; it holds when you let go of it. Then add a step. By keyboard: Pose, where the arrows turn its joints.',
+            'Drag the limb in the picture; it holds when you let go of it. Then add a step. By keyboard: in Pose, the arrow keys turn its joints.',
         limpYours:
             'Move the limp limb by hand; the picture follows. Then hold it or add a step. Support the robot: limp legs do not carry it.',
     },
@@ -775,7 +778,7 @@ export const EN = {
             `${servo} ${title}, step ${step}: ${position}, ${degrees}`,
         notFast: 'Every joint can follow.',
         fast: (ids: readonly number[]) =>
-            `Too fast for the servo at this battery (red, dashed): joint ${ids.join(', ')}. Give the step more time.`,
+            `Too fast for the servo at this battery voltage (red, dashed): joint ${ids.join(', ')}. Give the step more time.`,
         follow: 'Servos in physics',
         followHint: 'Thin lines: where the servos are, on a body in physics at 9.6 V',
         stored: 'Dotted: as stored.',
@@ -783,7 +786,7 @@ export const EN = {
         lagsComing: 'Asking physics …',
         lags: (lags: readonly (readonly [joint: number, degrees: number])[]) =>
             `Thin: the servos; behind by up to ${lags.map(([joint, degrees]) => `${Math.round(degrees)}° (joint ${joint})`).join(', ')}.`,
-        noLags: 'Physics cannot tell: the robot does not stand in the first pose, or physics is not there.',
+        noLags: 'Physics cannot tell: the robot does not stand in the first pose, or physics is not loaded.',
     },
 
     motions: {
@@ -796,19 +799,19 @@ export const EN = {
         all: 'All motions',
         used: 'In use',
         changed: 'Not in the robot',
-        nothingFound: 'No motion is called so. Empty the search to see all of them.',
+        nothingFound: 'No motion has this name. Empty the search to see all of them.',
         rename: 'Rename …',
         renameTitle: (motion: string) => `Rename ${motion}`,
         name: 'Name',
-        nameHint: 'At most 13 letters, digits and signs.',
+        nameHint: 'At most 13 characters: letters without accents, digits and signs.',
         transfer: 'Copy or move …',
         transferTitle: 'Copy or move',
         transferTo: (motion: string) => `Copy or move ${motion}`,
         toNumber: 'To number',
         numberHint: 'A number from 1 to 127.',
-        transferAsk: (from: string, to: string) => `What shall become of ${from}, which you put on ${to}?`,
+        transferAsk: (from: string, to: string) => `You put ${from} on ${to}. Copy or move it?`,
         transferReplaces: (from: string, to: string) =>
-            `What shall become of ${from}, which you put on ${to}? ${to} is not empty: it would be replaced. Undo brings it back.`,
+            `You put ${from} on ${to}, which is not empty. Copy and Move replace it; Exchange keeps both. Undo brings it back.`,
         copy: 'Copy',
         move: 'Move',
         swap: 'Exchange',
@@ -838,7 +841,7 @@ export const EN = {
         toItself: (names: readonly string[]) => `${names.join(', ')}: itself`,
         byNumber: 'played by its number',
         isDead: 'nothing to play here',
-        exitsRound: 'exits go round',
+        exitsRound: 'exits go in a circle',
         of: (motion: string) => `Links of ${motion}`,
         leadsHere: 'Leads here',
         noneLeads: 'No motion.',
@@ -848,12 +851,12 @@ export const EN = {
         noTarget: 'none',
         noKey: 'no key',
         ask: 'Link',
-        which: (from: string, to: string) => `Which link of ${from} shall lead to ${to}?`,
+        which: (from: string, to: string) => `Which link of ${from} should lead to ${to}?`,
         trimStays: 'Number 0 is the trim of the robot it was read from. It is never written into another one.',
     },
 
     checks: {
-        purpose: 'Checks: what would not play, what servos or balance would not bear, and what only may surprise.',
+        purpose: 'Checks: what would not play, what is too much for the servos or the balance, and what may surprise you.',
         result: 'Result of the checks',
         findings: 'Findings',
         fault: '⚠ fault',
@@ -861,15 +864,15 @@ export const EN = {
         show: (motion: string) => `Show ${motion}`,
         showStep: (motion: string, step: number) => `Show ${motion}, step ${step}`,
         counted: (faults: number, notes: number) => `${plural(faults, '1 fault', `${faults} faults`)}, ${notes} to know.`,
-        allGood: (count: number) => `${count} motions in use, nothing to complain of.`,
+        allGood: (count: number) => `${plural(count, '1 motion', `${count} motions`)} in use, no faults found.`,
         checking: 'm512 checks too: its program is being loaded (5 MB, once) …',
-        noM512: "m512's checks could not be loaded. What stands here is what the firmware itself and the body say.",
+        noM512: "m512's checks could not be loaded. This list has only what the firmware itself and the body say.",
         pageFaults,
         damaged: (why: string) => `Damaged: ${why}. It is not played. Clear it, or take it from a backup or a file.`,
         tooFast: (step: number | null, joint: string, times: string, volts: number) =>
             `${step === null ? 'The' : `Step ${step}: the`} ${joint} is asked for ${times} times the speed that suits the servo at ${volts} V, and lags behind. Give the step more time.`,
         outOfReach: (step: number | null, joint: string) =>
-            `${step === null ? 'The' : `Step ${step}: the`} ${joint} is turned farther than the body lets it.`,
+            `${step === null ? 'The' : `Step ${step}: the`} ${joint} is turned farther than the body allows.`,
         tipsOver: (step: number | null, mm: number) =>
             `${step === null ? 'Held' : `Step ${step}: held`} like this it tips over: its centre of mass is ${mm} mm outside the soles. In a fast motion, or lying, that may be meant.`,
         exitCircle:
@@ -885,7 +888,7 @@ export const EN = {
         tryAll: 'Try all motions',
         stop: 'Stop trying',
         loading: 'Physics is being loaded …',
-        failed: (why: string) => `Physics could not be loaded, so falls cannot be told. Try again. (${why})`,
+        failed: (why: string) => `Physics could not be loaded, so falls cannot be found. Try again. (${why})`,
         trying: (motion: string, number: number, total: number) => `Trying ${motion}: ${number} of ${total} …`,
         stale: (finding: string) => `Before the last change: ${finding}`,
         notTried: 'No motion has been tried yet.',
@@ -912,7 +915,7 @@ export const EN = {
     compare: {
         title: 'Compare and write',
         purpose:
-            'What differs, motion by motion: strong is what would come, pale what is there now. A backup of the robot is saved before anything is written.',
+            'What differs, motion by motion. Strong: what would come. Pale: what is there now. A backup of the robot is saved before anything is written.',
         with: 'With',
         withLabel: 'Compare with',
         file: 'A file …',
@@ -923,7 +926,7 @@ export const EN = {
         tryAgain: 'Try again',
         readAgain: 'Read the robot again',
         same: 'Nothing differs.',
-        damagedStays: 'This motion is damaged and is not passed on.',
+        damagedStays: 'This motion is damaged and is not copied.',
         wordsComing: 'In words: a moment …',
         noWords: 'The words could not be loaded; the pictures are right.',
         more: (count: number) => `${count} more`,
@@ -957,7 +960,7 @@ export const EN = {
         sendHint: 'A link that holds this motion and those that it leads to',
         reading: (name: string) => `Reading ${name} …`,
         writing: (name: string) => `Making ${name} …`,
-        tooManyBytes: (name: string) => `${name} is larger than 4 MB. No motion file is; it was not read.`,
+        tooManyBytes: (name: string) => `${name} is larger than 4 MB. No motion file is that large; it was not read.`,
         unreadable: (name: string) => `${name} cannot be read. Is it a folder, or was it moved meanwhile? Choose it again.`,
         notRead: (name: string) => `${name} was not read. Nothing has changed.`,
         noPython: (why: string) =>
@@ -966,12 +969,12 @@ export const EN = {
         opened: (count: number, damaged: number) =>
             count === 0
                 ? 'No motions, only the trim of the robot that the file was made on.'
-                : `${plural(count, '1 motion', `${count} motions`)}. Added, they go into free places with what they lead to, and nothing of yours is touched.${damaged > 0 ? ` ${damaged} of them cannot be added: they are damaged.` : ''}`,
+                : `${plural(count, '1 motion', `${count} motions`)}. If you add them, they go into free places, with the motions that they lead to. Nothing of yours is changed.${damaged > 0 ? ` ${damaged} of them cannot be added: they are damaged.` : ''}`,
         noMotions: (name: string) => `${name} holds no motions: all of them are empty. Nothing was changed.`,
         allHere: 'All motions of the file are here already, each at its own number. Nothing was changed.',
         nothingWhole:
             'No motion of the file is whole, so none was added. Open it again and take it as a new document: that keeps damaged ones as they are.',
-        trim: 'When all motions are replaced, number 0 too: the trim of the robot that the file was made on. Leave it out unless that robot is yours.',
+        trim: 'When all motions are replaced, replace number 0 too: the trim of the robot that the file was made on. Tick this only if that robot is yours.',
         add: 'Add to free places',
         addHint: 'Into motions that are empty here; what you have already stays as it is',
         asDocument: 'As a new document',
@@ -1022,7 +1025,7 @@ export const EN = {
         dragBack: 'Drag the hand back up: a wave goes to and fro.',
         addThird: 'Add this pose as the third step.',
         name: 'Give it a name, hello for example, and press Enter.',
-        times: 'Once is no waving: put 3 into the field with the ×, and press Enter.',
+        times: 'One wave is not enough: put 3 into the field with the ×, and press Enter.',
         play: 'Press "Play". The robot starts Edit, its firmware that saves motions, takes the motion and waves three times. That takes a few seconds.',
         sendIt: 'That is your first motion, and it is saved in this browser. Send it to a friend: the link opens this page, and the robot waves. Press ? for all keys.',
     },
