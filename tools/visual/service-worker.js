@@ -13,8 +13,11 @@ const FILES = ['__FILES__'];
 const PREFIX = 'motion512-';
 const CACHE = `${PREFIX}${VERSION}`;
 
+/** The browser may still have the old release's file under a name without a hash: the page, whose scripts the host has no more. */
+const newest = (file) => new Request(file, { cache: file.startsWith('assets/') ? 'default' : 'no-cache' });
+
 self.addEventListener('install', (event) => {
-  event.waitUntil(caches.open(CACHE).then((cache) => cache.addAll(FILES)));
+  event.waitUntil(caches.open(CACHE).then((cache) => cache.addAll(FILES.map(newest))));
 });
 
 self.addEventListener('message', (event) => {
