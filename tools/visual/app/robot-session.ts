@@ -81,6 +81,8 @@ export class RobotSession implements Session {
     private readonly texts = new Listeners<Uint8Array>();
     private readonly stops = new Listeners<void>();
     private lastFrame: RobotState | null = null;
+    /** Shows the asked motion if the robot has not begun in time. */
+    private late: ReturnType<typeof setTimeout> | undefined;
     private readonly messages = new StatusMessages(this.state);
     private readonly sources: RobotSources;
     private readonly arrival: Arrival;
@@ -231,10 +233,11 @@ export class RobotSession implements Session {
         const { format, state } = this.editor;
         const dirty = dirtyPages(state.get(), format);
         const isToWrite = format.reach(state.get().document, page).some(one => dirty.has(one));
-        const late = setTimeout(() => this.preview.playAsked(page), isToWrite ? 0 : SHOWN_MS);
+        clearTimeout(this.late);
+        this.late = setTimeout(() => this.preview.playAsked(page), isToWrite ? 0 : SHOWN_MS);
         await this.act(async () => {
             await this.plays.playEdited(page);
-            clearTimeout(late);
+            clearTimeout(this.late);
             this.preview.showRobot();
         });
     }
@@ -325,6 +328,7 @@ export class RobotSession implements Session {
     }
 
     private dropWaiting(): void {
+        clearTimeout(this.late);
         this.preview.pause();
         this.plays.cancel();
         this.driving.forget();

@@ -44,7 +44,8 @@ export class Status {
     async ask(): Promise<void> {
         clearTimeout(this.timer);
         this.timer = setTimeout(() => void this.ask(), WHERE_MS);
-        if (!this.mayAsk() || this.state.speed === 0) return;
+        const { source, speed } = this.state;
+        if (!this.mayAsk() || (source === 'simulated' && speed === 0)) return; // while its time stands still it does not answer
         const connection = this.parts.connection();
         try {
             const where = await askWhere(connection.requests, { timeoutMs: 3000 });

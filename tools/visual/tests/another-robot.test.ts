@@ -161,3 +161,21 @@ test('a page that is hidden lets go of the stick and of the keys', async () => {
     expect(yours.sent.slice(before)).not.toContain('@drive');
     expect(yours.sent.slice(before)).not.toContain('remote');
 });
+
+test('the time of the robot in the page stands still; yours has its own, and the page sees what it does', async () => {
+    const { session, yours, connect } = await page('play');
+    session.sim.setSpeed(0);
+    await connect();
+    await soon();
+    expect(yours.sent).toContain('@where');
+    expect(session.state.get().where).not.toBeNull();
+});
+
+test('Stop right after Play: the picture does not begin to move when the robot has not begun in time', async () => {
+    const { session } = await page('play');
+    session.editor.setRobot(library.pages); // nothing is to be written: the picture waits a moment for the robot
+    void session.playEdited(2);
+    await session.command('stop');
+    await soon();
+    expect(session.preview.state.get().isRunning).toBe(false);
+});
