@@ -66,6 +66,10 @@ export class SimulatedSource {
     private readonly mayKeep = holdRobot();
     private isSecondShown = false;
     private readonly waiting: ((state: RobotState) => void)[] = [];
+    /** Why it does not run any more; null: it runs. */
+    private stopped: string | null = null;
+    /** Floor and battery as the person has set them. The next robot gets them, too. */
+    private readonly room = new Map<ToSim['kind'], ToSim>();
     connection: Connection | null = null;
 
     constructor(body: Body, events: SourceEvents) {
@@ -135,6 +139,7 @@ export class SimulatedSource {
         this.standing = null;
         this.isInHand = false;
         robot.post({ kind: 'start', module, body: this.body, images, kept });
+        for (const message of this.room.values()) robot.post(message);
         if (!this.isShown) robot.post({ kind: 'speed', speed: 0 });
         this.clock = new TickClock();
         this.connection = new Connection(robot.port, this.clock, {
@@ -146,6 +151,7 @@ export class SimulatedSource {
     }
 
     post(message: ToSim): void {
+        if (message.kind === 'floor' || message.kind === 'battery') this.room.set(message.kind, message);
         this.robot?.post(message);
     }
 
@@ -157,7 +163,7 @@ export class SimulatedSource {
     resume(): void {
         this.isShown = true;
         this.post({ kind: 'speed', speed: 1 });
-        this.events.change({ speed: 1, version: this.connection?.version ?? null, where: null });
+        this.events.change({ speed: 1, version: this.connection?.version ?? null, where: null, stopped: this.stopped });
         if (this.connection) this.events.connection(this.connection.state);
     }
 
@@ -226,7 +232,8 @@ export class SimulatedSource {
                 for (const tell of this.waiting.splice(0)) tell(message.state);
                 return this.isShown ? this.events.frame(message.state) : undefined;
             case 'started':
-                return this.events.change({ faultNames: message.faults, stopped: null });
+                this.stopped = null;
+                return this.events.change(this.isShown ? { faultNames: message.faults, stopped: null } : { faultNames: message.faults });
             case 'physics':
                 return this.events.change(
                     message.error === null
@@ -247,7 +254,8 @@ export class SimulatedSource {
     }
 
     private stop(why: string): void {
-        this.events.change({ stopped: why, doing: { text: why, tone: 'bad' } });
+        this.stopped = why;
+        if (this.isShown) this.events.change({ stopped: why, doing: { text: why, tone: 'bad' } });
     }
 
     private async end(): Promise<void> {
@@ -256,7 +264,8 @@ export class SimulatedSource {
         await this.connection?.close();
         this.connection = null;
         robot?.dispose();
-        this.events.change({ physics: 'loading', speed: 1, version: null, where: null, message: null });
+        this.events.change({ physics: 'loading' });
+        if (this.isShown) this.events.change({ speed: 1, version: null, where: null, message: null });
     }
 
     private async load(): Promise<KeptRobot | null> {

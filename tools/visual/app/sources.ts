@@ -38,8 +38,8 @@ export class RobotSources {
     private readonly servos: ServosSource;
     /** The motion pages in the flash of the robot in the page. */
     private inPage: readonly Uint8Array[] = [];
-    /** State of the robot in the page, restored when it is used again. */
-    private ofPage: Pick<SessionState, 'image' | 'stopped'> = { image: 'play', stopped: null };
+    /** Image of the robot in the page, restored when it is used again. */
+    private imageOfPage: SessionState['image'] = 'play';
     private wasHidden = false;
     /** Counts choices of a robot. The last one counts, even if an earlier one takes longer. */
     private chosen = 0;
@@ -71,7 +71,7 @@ export class RobotSources {
         this.chosen++;
         if (this.isSimulated) return;
         this.parts.left();
-        this.parts.state.set({ source: 'simulated', adapter: null, ...this.ofPage });
+        this.parts.state.set({ source: 'simulated', adapter: null, image: this.imageOfPage });
         void this.yours.close();
         void this.servos.close();
         this.simulated.resume();
@@ -127,8 +127,7 @@ export class RobotSources {
     }
 
     private leave(source: 'yours' | 'servos'): void {
-        const { image, stopped } = this.parts.state.get();
-        if (this.isSimulated) this.ofPage = { image, stopped };
+        if (this.isSimulated) this.imageOfPage = this.parts.state.get().image;
         this.parts.left();
         this.simulated.pause();
         this.parts.state.set({ source, version: null, where: null, pages: [], stopped: null, adapter: null });

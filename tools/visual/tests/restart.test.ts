@@ -7,6 +7,8 @@ import { SimulatedSource } from '../app/simulated-source.ts';
 import type { Body } from '../model/body.ts';
 import { MOTIONS_ADDRESS } from '../sim/board.ts';
 import { SimulatedRobot } from '../sim/robot-client.ts';
+import type { ToSim } from '../sim/messages.ts';
+import type { SessionState } from '../view/session/session.ts';
 import type { KeptRobot } from '../view/robot-store.ts';
 import { NodeWorker } from './node-worker.ts';
 import * as bench from './robot-bench.ts';
@@ -54,12 +56,18 @@ afterEach(() => {
 });
 
 function page() {
-    const seen = { stopped: null as string | null, motions: new Uint8Array(), connections: [] as string[] };
+    const seen = {
+        stopped: null as string | null,
+        motions: new Uint8Array(),
+        connections: [] as string[],
+        changes: [] as Partial<SessionState>[],
+    };
     const source = new SimulatedSource(BODY, {
         frame: () => undefined,
         text: () => undefined,
         connection: state => seen.connections.push(state),
         change: change => {
+            seen.changes.push(change);
             if (change.stopped !== undefined) seen.stopped = change.stopped;
         },
         motions: image => (seen.motions = Uint8Array.from(image)),
@@ -127,4 +135,42 @@ test('a browser that keeps nothing: another image has the motions of the one bef
     browser.keeps = false;
     await source.restart('edit');
     expect(seen.motions[5000]).toBe(0x77);
+});
+
+test('the next robot stands on the floor that the page shows, with its battery', async () => {
+    const { source } = page();
+    const posted: ToSim[] = [];
+    const post = vi.spyOn(SimulatedRobot.prototype, 'post').mockImplementation(message => void posted.push(message));
+    await source.start('play');
+    source.post({ kind: 'floor', floor: { tiltFront: 0.1, tiltLeft: 0, friction: 0.8 } });
+    source.post({ kind: 'floor', floor: { tiltFront: 0.2, tiltLeft: 0, friction: 0.8 } });
+    source.post({ kind: 'battery', volts: 7 });
+    vi.spyOn(SimulatedRobot.prototype, 'memories').mockRejectedValue(new Error('not needed here'));
+    posted.length = 0;
+    await source.restart('edit');
+    const room = posted.filter(({ kind }) => kind === 'floor' || kind === 'battery');
+    expect(room).toEqual([
+        { kind: 'floor', floor: { tiltFront: 0.2, tiltLeft: 0, friction: 0.8 } },
+        { kind: 'battery', volts: 7 },
+    ]);
+    expect(post).toHaveBeenCalled();
+    vi.restoreAllMocks();
+});
+
+test('a restart that ends while another robot is used tells nothing of itself, until it is used again', async () => {
+    const { source, seen } = page();
+    await source.start('play');
+    files.broken = 'edit';
+    seen.changes.length = 0;
+    const restarted = source.restart('edit');
+    source.pause(); // another robot is chosen meanwhile
+    await restarted;
+    await new Promise(resolve => setTimeout(resolve, 3000));
+    const told = seen.changes.flatMap(change => Object.keys(change));
+    expect(told).not.toEqual(expect.arrayContaining(['version']));
+    expect(told).not.toEqual(expect.arrayContaining(['where']));
+    expect(told).not.toEqual(expect.arrayContaining(['stopped']));
+    expect(told).not.toEqual(expect.arrayContaining(['doing']));
+    source.resume();
+    await vi.waitFor(() => expect(seen.stopped).toContain('crashed'), { timeout: 240_000 });
 });
