@@ -41,6 +41,7 @@ export class RobotTransfer implements Transfer {
     /** Aborted when another robot is used. Each transfer holds the signal of the robot that it began with. */
     private robot = new AbortController();
     private under: PageWrite | null = null;
+    private reading = Promise.resolve(BUSY);
     private goesOn: () => Promise<TransferEnd> = () => this.read();
 
     constructor(parts: TransferParts) {
@@ -61,13 +62,16 @@ export class RobotTransfer implements Transfer {
         return phase === 'reading' || phase === 'writing';
     }
 
+    /** Who asks while the pages are being read gets the same ones. */
     read(): Promise<TransferEnd> {
+        if (this.state.get().phase === 'reading') return this.reading;
         if (this.isBusy) return Promise.resolve(BUSY);
         this.goesOn = () => this.read();
-        return this.during('reading', async left => {
+        this.reading = this.during('reading', async left => {
             await this.readRobot(left);
             this.tell(left, { phase: 'idle' });
         });
+        return this.reading;
     }
 
     write(pages: readonly number[]): Promise<TransferEnd> {

@@ -376,6 +376,18 @@ test('one transfer at a time: what is asked beside it is refused by name, and no
     expect(transfer.state.get()).toMatchObject({ phase: 'written', done: pages.length });
 });
 
+test('who compares while the robot is being read sees its pages when they are there; they are read once', async () => {
+    const { bench, connection } = await ready('play', 59);
+    const { transfer, robot } = transferOn(bench, connection, []);
+    const sent = onTheLine(bench, line => line);
+    const arrival = transfer.read();
+    await bench.run(100);
+    const compared = transfer.read().then(end => [end, robot().length]);
+    expect(await bench.until(compared, 60_000)).toEqual([{ isDone: true }, 128]);
+    expect(await arrival).toEqual({ isDone: true });
+    expect(sent.filter(line => line.startsWith('@crcs'))).toHaveLength(1);
+});
+
 test('a framing error in the middle of an answer does not end the talk', async () => {
     const { bench, connection } = await ready('edit', 57);
     const asked = askList(connection.requests);
