@@ -48,7 +48,7 @@ export class MotionTrials implements Trials {
         const { signal } = this.stop;
         this.state.set({ phase: 'loading', done: 0, total: due.length, trouble: null });
         try {
-            const client = await this.ready();
+            const client = await Promise.race([this.ready(), aborted(signal)]); // a stalled network can be stopped, too
             for (const [done, page] of due.entries()) {
                 signal.throwIfAborted();
                 this.state.set({ phase: 'trying', page, done });
@@ -148,8 +148,11 @@ export class MotionTrials implements Trials {
     }
 
     private ready(): Promise<TrialClient> {
-        this.client ??= this.makeClient();
-        return this.client;
+        if (this.client) return this.client;
+        const made = this.makeClient();
+        made.catch(() => this.client === made && (this.client = null)); // the next try loads it again
+        this.client = made;
+        return made;
     }
 
     /** Physics does not work. It is not tried again until a person asks. */
@@ -161,6 +164,11 @@ export class MotionTrials implements Trials {
         );
         this.client = null;
     }
+}
+
+/** Rejects with the signal's reason when it is aborted. */
+function aborted(signal: AbortSignal): Promise<never> {
+    return new Promise((_, reject) => signal.addEventListener('abort', () => reject(signal.reason as Error), { once: true }));
 }
 
 function wordsOf(error: unknown): string {

@@ -83,3 +83,21 @@ test('without physics it says so; poses and curves do not ask for it again and a
     expect(trials.state.get()).toMatchObject({ phase: 'failed', trouble: 'no memory' });
     expect(made).toBe(2);
 });
+
+test('who stops while physics is being loaded need not wait for the network, and may try again at once', async () => {
+    const asked: number[] = [];
+    let arrive = (): void => undefined;
+    const { trials } = await bench(async () => {
+        await new Promise<void>(resolve => (arrive = resolve));
+        return standing(asked)();
+    });
+    const run = trials.run([2]);
+    expect(trials.state.get().phase).toBe('loading');
+    trials.cancel();
+    await run; // the network has stalled
+    expect(trials.state.get()).toMatchObject({ phase: 'idle', trouble: null });
+    const again = trials.run([2]);
+    arrive();
+    await again;
+    expect(asked).toEqual([2]);
+});
