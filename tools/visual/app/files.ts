@@ -13,7 +13,7 @@ import type { ChosenFile, Files, FilesState, LookedAt, SavedFile } from '../view
 import { Store } from '../view/store.ts';
 import type { DocumentEditor } from './editor.ts';
 
-const NOTHING: FilesState = { busy: null, opened: null, tooLarge: null, sent: null, trouble: null };
+const NOTHING: Omit<FilesState, 'busy'> = { opened: null, tooLarge: null, sent: null, trouble: null };
 
 function noPython(error: unknown): string {
     return TEXTS.files.noPython(error instanceof Error ? error.message : String(error));
@@ -36,13 +36,15 @@ export interface FilesParts {
 }
 
 export class DocumentFiles implements Files {
-    readonly state = new Store<FilesState>(NOTHING);
+    readonly state = new Store<FilesState>({ ...NOTHING, busy: null });
     private readonly editor: DocumentEditor;
     readonly formats: FileFormats;
     private last: { readonly name: string; readonly bytes: Uint8Array } | null = null;
 
     private readonly parts: FilesParts;
     private isCancelled = false;
+    /** Counts what is read or written. `busy` describes the last. */
+    private begun = 0;
     private endLook: () => void = () => undefined;
 
     constructor(editor: DocumentEditor, formats: FileFormats, parts: FilesParts) {
@@ -59,11 +61,11 @@ export class DocumentFiles implements Files {
 
     async look(file: ChosenFile): Promise<LookedAt> {
         const cancelled = new Promise<LookedAt>(resolve => (this.endLook = () => resolve({ kind: 'cancelled' })));
-        this.state.set({ busy: TEXTS.files.reading(file.name) });
+        const end = this.begin(TEXTS.files.reading(file.name));
         try {
             return await Promise.race([this.lookAt(file), cancelled]);
         } finally {
-            this.state.set({ busy: null });
+            end();
         }
     }
 
@@ -184,7 +186,7 @@ export class DocumentFiles implements Files {
 
     private async read(name: string, bytes: Uint8Array, leaveOut: boolean): Promise<void> {
         const answer = await this.busy(TEXTS.files.reading(name), () => this.formats.open(name, bytes, leaveOut));
-        if (answer) this.state.set(this.judged(name, answer));
+        if (answer && bytes === this.last?.bytes) this.state.set({ ...NOTHING, ...this.judged(name, answer) }); // else another was chosen
     }
 
     private judged(name: string, answer: Opened | NoRoom | Refused): Partial<FilesState> {
@@ -201,8 +203,8 @@ export class DocumentFiles implements Files {
                 );
                 const damaged = pages.filter(bytes => format.fault(bytes) !== null).length;
                 const hasTrim = !format.isEmpty(this.pageIn(image, 0));
-                if (pages.length === 0 && !hasTrim) return { tooLarge: null, trouble: TEXTS.files.noMotions(name) };
-                return { tooLarge: null, opened: { name, image, notes, losses, count: pages.length, damaged, hasTrim } };
+                if (pages.length === 0 && !hasTrim) return { trouble: TEXTS.files.noMotions(name) };
+                return { opened: { name, image, notes, losses, count: pages.length, damaged, hasTrim } };
             }
             default:
                 return answer satisfies never;
@@ -217,7 +219,8 @@ export class DocumentFiles implements Files {
 
     /** Runs one action. Reports trouble as text and never throws. Null: it failed or was cancelled. */
     private async busy<T>(words: string, action: () => Promise<T>): Promise<T | null> {
-        this.state.set({ ...NOTHING, busy: words });
+        this.state.set(NOTHING);
+        const end = this.begin(words);
         this.isCancelled = false;
         try {
             return await action();
@@ -225,8 +228,15 @@ export class DocumentFiles implements Files {
             if (!this.isCancelled) this.state.set({ trouble: noPython(error) });
             return null;
         } finally {
-            this.state.set({ busy: null });
+            end();
         }
+    }
+
+    /** The returned function ends it. */
+    private begin(words: string): () => void {
+        const mine = ++this.begun;
+        this.state.set({ busy: words });
+        return () => mine === this.begun && this.state.set({ busy: null });
     }
 
     private pageIn(image: Uint8Array, page: number): Uint8Array {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What an opened file does to the document: its motions and the pages they lead to go into free pages, unless the person chooses otherwise.
-import { expect, test } from 'vitest';
+import { expect, test, vi } from 'vitest';
 import { DocumentEditor } from '../app/editor.ts';
 import { DocumentFiles } from '../app/files.ts';
 import type { Body } from '../model/body.ts';
@@ -106,4 +106,22 @@ test('as a new document it is one of its own; replacing takes every page but the
     other.files.replaceAll(false);
     expect(other.editor.page(5).name).toBe('hello');
     expect(format.isEmpty(pageOf(other.editor.state.get().document, WALK))).toBe(true);
+});
+
+test('of two files that are dropped quickly the last is shown, and it can be cancelled until it is read', async () => {
+    const { files } = await opened(new Map());
+    const answers: ((answer: object) => void)[] = [];
+    vi.spyOn(files.formats, 'open').mockImplementation(() => new Promise(resolve => answers.push(resolve as (answer: object) => void)));
+    const file = (name: string) => ({ name, size: 1, arrayBuffer: () => Promise.resolve(new ArrayBuffer(1)) });
+    const image = imageOf(library);
+    const both = [files.choose(file('first.mtn')), files.choose(file('second.mtn'))];
+    await vi.waitFor(() => expect(answers).toHaveLength(2));
+    answers[0]?.({ kind: 'opened', image, notes: [], losses: [] });
+    await both[0];
+    expect(files.state.get()).toMatchObject({ opened: null, busy: TEXTS.files.reading('second.mtn') });
+    files.dismiss(); // a dialog about something else is closed
+    expect(files.state.get().busy).toBe(TEXTS.files.reading('second.mtn'));
+    answers[1]?.({ kind: 'opened', image, notes: [], losses: [] });
+    await both[1];
+    expect(files.state.get()).toMatchObject({ opened: { name: 'second.mtn' }, busy: null });
 });
