@@ -150,7 +150,9 @@ export class MotionTrials implements Trials {
     private ready(): Promise<TrialClient> {
         if (this.client) return this.client;
         const made = this.makeClient();
-        made.catch(() => this.client === made && (this.client = null)); // the next try loads it again
+        made.catch(() => {
+            if (this.client === made) this.client = null; // the next try loads it again
+        });
         this.client = made;
         return made;
     }
