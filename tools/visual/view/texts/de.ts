@@ -36,7 +36,7 @@ const DE: Texts = {
     menu: {
         menu: 'Menü',
         whichRobot: 'Welcher Roboter',
-        robotInPage: 'Roboter auf dieser Seite',
+        robotInPage: 'Roboter auf der Seite',
         yourRobot: 'Dein Roboter …',
         myServos: 'Meine Servos …',
         port: maker => (maker === '' ? 'serieller Anschluss' : `serieller USB-Anschluss (${maker})`),
@@ -197,7 +197,7 @@ const DE: Texts = {
         waits: 'Der Roboter steht und wartet.',
         starts: 'Der Roboter startet …',
         startsNot:
-            'Der Roboter auf dieser Seite antwortet nicht. Zeigt sein Terminal ein „-“, dann gib dort GO ein; sonst starte ihn unter „Roboter“ neu.',
+            'Der Roboter auf der Seite antwortet nicht. Zeigt sein Terminal ein „-“, dann gib dort GO ein; sonst starte ihn unter „Roboter“ neu.',
         searches: 'Deine Servos werden gesucht …',
         isOff: 'Der Roboter ist ausgeschaltet. Schalte ihn unter „Roboter“ ein.',
         editRuns: 'Edit läuft: Sein Bildschirm ist im Terminal.',
@@ -837,7 +837,7 @@ const DE: Texts = {
         rises: at => `Geht ${fallPlace(at)} zu Boden und steht am Ende wieder.`,
         falls: at =>
             `Stürzt ${fallPlace(at)} und bleibt am Boden. Gib dem Schritt mehr Zeit, oder halte das Gewicht über dem Fuß, der trägt.`,
-        low: 'Der Roboter bleibt aufrecht, steht am Ende aber nicht allein auf den Sohlen: Er sitzt, kniet oder lehnt.',
+        low: 'Der Roboter bleibt aufrecht, steht am Ende aber nicht allein auf den Sohlen: Er sitzt, kniet oder lehnt sich an.',
         cannotJudge:
             'Nicht zu beurteilen: In der ersten Pose steht der Roboter nicht. Die Bewegung beginnt im Liegen oder mitten in einem Ablauf.',
         behind: {
@@ -880,7 +880,7 @@ const DE: Texts = {
         takeNamed: motion => `Hierher kopieren: ${motion}`,
         takeCount: count => `${plural(count, '1 Bewegung', `${count} Bewegungen`)} ins Dokument kopieren`,
         writeCount: count => `${plural(count, '1 Bewegung', `${count} Bewegungen`)} in den Roboter schreiben`,
-        robotInPage: 'Der Roboter auf dieser Seite',
+        robotInPage: 'Der Roboter auf der Seite',
         myServos: 'Meine Servos',
         yourRobot: port => `Dein Roboter (${port})`,
         document: name => `${name} (Dokument)`,

@@ -9,7 +9,7 @@ function plural(count: number, one: string, many: string): string {
 }
 
 function fallPlace({ step, motion, seconds }: FallPlace): string {
-    return `en el paso ${step}${motion === null ? '' : ` de ${motion}`} a los ${seconds} s`;
+    return `en el paso ${step}${motion === null ? '' : ` del ${motion}`} a los ${seconds} s`;
 }
 
 const ES: Texts = {
@@ -151,7 +151,7 @@ const ES: Texts = {
             robot: 'Robot',
         },
         more: 'Más',
-        moreHint: 'Curvas, movimientos, enlaces, revisar, el terminal y los controles del robot',
+        moreHint: 'Curvas, movimientos, enlaces, revisión, terminal y controles del robot',
     },
 
     first: {
@@ -203,11 +203,11 @@ const ES: Texts = {
         getUp: 'El robot está en el suelo. Pulsa «Levantarse».',
         held: 'Una mano sujeta el robot.',
         shownOnly: motion => `Solo en la imagen: ${motion}.`,
-        approaches: motion => `Va despacio hacia la primera pose de ${motion}.`,
-        playing: (motion, step) => `Reproduce ${motion}, paso ${step}.`,
-        paused: (motion, step) => `En pausa en ${motion}, paso ${step}.`,
-        plays: motion => `Reproduce ${motion}.`,
-        pauses: motion => `En pausa en ${motion}.`,
+        approaches: motion => `Va despacio hacia la primera pose del ${motion}.`,
+        playing: (motion, step) => `Reproduce el ${motion}, paso ${step}.`,
+        paused: (motion, step) => `En pausa en el ${motion}, paso ${step}.`,
+        plays: motion => `Reproduce el ${motion}.`,
+        pauses: motion => `En pausa en el ${motion}.`,
     },
 
     robot: {
@@ -706,24 +706,24 @@ const ES: Texts = {
         changed: 'No en el robot',
         nothingFound: 'Ningún movimiento se llama así. Vacía la búsqueda para verlos todos.',
         rename: 'Cambiar nombre …',
-        renameTitle: motion => `Cambiar el nombre de ${motion}`,
+        renameTitle: motion => `Cambiar el nombre del ${motion}`,
         name: 'Nombre',
         nameHint: 'Como mucho 13 caracteres: letras sin tilde ni ñ, cifras y signos.',
         transfer: 'Copiar o mover …',
         transferTitle: 'Copiar o mover',
-        transferTo: motion => `Copiar o mover ${motion}`,
+        transferTo: motion => `Copiar o mover el ${motion}`,
         toNumber: 'Al número',
         numberHint: 'Un número del 1 al 127.',
-        transferAsk: (from, to) => `Pones ${from} en ${to}. ¿Copiar o mover?`,
+        transferAsk: (from, to) => `Pones el ${from} en el ${to}. ¿Copiar o mover?`,
         transferReplaces: (from, to) =>
-            `Pones ${from} en ${to}, que no está vacío. «Copiar» y «Mover» lo reemplazan; «Intercambiar» conserva los dos. «Deshacer» lo recupera.`,
+            `Pones el ${from} en el ${to}, que no está vacío. «Copiar» y «Mover» lo reemplazan; «Intercambiar» conserva los dos. «Deshacer» lo recupera.`,
         copy: 'Copiar',
         move: 'Mover',
         swap: 'Intercambiar',
         linksFollow: 'Los enlaces de otros movimientos siguen a lo que se mueve',
         clear: 'Vaciar …',
-        clearTitle: motion => `¿Vaciar ${motion}?`,
-        clearMeans: motion => `Se vaciará ${motion}. Los enlaces de otros movimientos seguirán llevando ahí. «Deshacer» lo recupera.`,
+        clearTitle: motion => `¿Vaciar el ${motion}?`,
+        clearMeans: motion => `Se vaciará el ${motion}. Los enlaces de otros movimientos seguirán llevando ahí. «Deshacer» lo recupera.`,
         clears: 'Vaciar',
         compare: 'Comparar …',
     },
@@ -755,7 +755,7 @@ const ES: Texts = {
         byNumber: 'se reproduce por su número',
         isDead: 'aquí no hay nada que reproducir',
         exitsRound: 'las salidas forman un círculo',
-        of: motion => `Enlaces de ${motion}`,
+        of: motion => `Enlaces del ${motion}`,
         leadsHere: 'Llevan aquí',
         noneLeads: 'Ningún movimiento.',
         leads: (motion, link, key) => `${motion} por ${link}${key === '' ? '' : ` ${key}`}`,
@@ -764,7 +764,7 @@ const ES: Texts = {
         noTarget: 'ninguno',
         noKey: 'ninguna tecla',
         ask: 'Enlazar',
-        which: (from, to) => `¿Qué enlace de ${from} debe llevar a ${to}?`,
+        which: (from, to) => `¿Qué enlace del ${from} debe llevar al ${to}?`,
         trimStays: 'El número 0 es la calibración del robot del que se leyó. Nunca se escribe en otro robot.',
     },
 
@@ -774,8 +774,8 @@ const ES: Texts = {
         findings: 'Hallazgos',
         fault: '⚠ fallo',
         note: 'nota',
-        show: motion => `Mostrar ${motion}`,
-        showStep: (motion, step) => `Mostrar ${motion}, paso ${step}`,
+        show: motion => `Mostrar el ${motion}`,
+        showStep: (motion, step) => `Mostrar el ${motion}, paso ${step}`,
         counted: (faults, notes) => `${plural(faults, '1 fallo', `${faults} fallos`)}, ${plural(notes, '1 nota', `${notes} notas`)}.`,
         allGood: count => `${plural(count, '1 movimiento', `${count} movimientos`)} en uso, sin fallos.`,
         checking: 'm512 también revisa: se está cargando su programa (5 MB, solo una vez) …',
@@ -806,7 +806,7 @@ const ES: Texts = {
         stop: 'Dejar de probar',
         loading: 'Cargando la física …',
         failed: why => `No se pudo cargar la física, así que no se pueden ver las caídas. Inténtalo de nuevo. (${why})`,
-        trying: (motion, number, total) => `Probando ${motion}: ${number} de ${total} …`,
+        trying: (motion, number, total) => `Probando el ${motion}: ${number} de ${total} …`,
         stale: finding => `Antes del último cambio: ${finding}`,
         notTried: 'Aún no se ha probado ningún movimiento.',
         counted: {
@@ -822,14 +822,14 @@ const ES: Texts = {
         stands: seconds => `Queda de pie: reproducido durante ${seconds} s.`,
         rises: at => `Va al suelo ${fallPlace(at)}, y al final está de pie.`,
         falls: at => `Se cae ${fallPlace(at)}, y se queda en el suelo. Da más tiempo al paso, o mantén el peso sobre el pie de apoyo.`,
-        low: 'Sigue erguido, pero no acaba solo sobre las suelas: se sienta, se arrodilla o se apoya.',
+        low: 'Sigue erguido, pero no acaba solo sobre las suelas: está sentado, arrodillado o apoyado en algo.',
         cannotJudge: 'No se puede juzgar: no se tiene de pie en su primera pose. Empieza tumbado, o en medio de un movimiento.',
         behind: {
-            stands: other => `No se tiene de pie en su primera pose. Reproducido después de ${other}, queda de pie.`,
-            rises: other => `No se tiene de pie en su primera pose. Reproducido después de ${other}, se levanta.`,
-            falls: other => `No se tiene de pie en su primera pose. Reproducido después de ${other}, se queda en el suelo.`,
-            low: other => `No se tiene de pie en su primera pose. Reproducido después de ${other}, no acaba de pie.`,
-            'no-start': other => `No se tiene de pie en su primera pose. Reproducido después de ${other}, no se llega a él.`,
+            stands: other => `No se tiene de pie en su primera pose. Reproducido después del ${other}, queda de pie.`,
+            rises: other => `No se tiene de pie en su primera pose. Reproducido después del ${other}, se levanta.`,
+            falls: other => `No se tiene de pie en su primera pose. Reproducido después del ${other}, se queda en el suelo.`,
+            low: other => `No se tiene de pie en su primera pose. Reproducido después del ${other}, no acaba de pie.`,
+            'no-start': other => `No se tiene de pie en su primera pose. Reproducido después del ${other}, no se llega a él.`,
         },
         touch: (steps, a, b, mm) => {
             const where =
@@ -861,7 +861,7 @@ const ES: Texts = {
         takeRobots: 'Tomar el del robot',
         takeRobotsNamed: motion => `Tomar el del robot: ${motion}`,
         take: 'Copiar aquí',
-        takeNamed: motion => `Copiar aquí ${motion}`,
+        takeNamed: motion => `Copiar aquí el ${motion}`,
         takeCount: count => `Copiar ${plural(count, '1 movimiento', `${count} movimientos`)} al documento`,
         writeCount: count => `Escribir ${plural(count, '1 movimiento', `${count} movimientos`)} en el robot`,
         robotInPage: 'El robot de esta página',

@@ -37,7 +37,7 @@ const JA: Texts = {
         myServos: '自分のサーボ …',
         port: maker => (maker === '' ? 'シリアルポート' : `USB シリアルポート（${maker}）`),
         licences: 'ライセンス',
-        theme: 'ライト／ダーク',
+        theme: '明るい／暗い',
         language: '言語',
         translation: 'この翻訳は母語話者の確認を受けていません。修正を歓迎します。',
     },
@@ -431,7 +431,7 @@ const JA: Texts = {
         shaped: '次のステップから反映されます。',
         shapeNeedsPlay: 'Edit が動作中です。動きを変えられるのは Play だけです。リモコンのキーを押すと Play に戻ります。',
         wave: '歩きながら手を振る',
-        waveHint: '右手を振りながら、脚は歩き続けます',
+        waveHint: '右手を振り、脚は歩き続けます',
     },
 
     layers: {
