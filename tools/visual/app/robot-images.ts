@@ -38,7 +38,7 @@ export class RobotImages {
         const { robot, fail } = this.parts;
         await robot()
             .forget(this.state.image)
-            .catch((cause: unknown) => fail(new RobotError('no-image', '', { cause })));
+            .catch((cause: unknown) => fail(refusal(cause)));
     }
 
     /** Only Edit saves pages. The robot restarts with Edit, stands up, and keeps Edit until somebody drives it. */
@@ -89,7 +89,7 @@ export class RobotImages {
             await robot().restart(image);
         } catch (cause) {
             if (state.get().image === image) state.set({ image: before });
-            throw new RobotError('no-image', '', { cause });
+            throw refusal(cause);
         }
     }
 
@@ -108,4 +108,9 @@ export class RobotImages {
             );
         });
     }
+}
+
+/** My servos name what is wrong themselves. */
+function refusal(cause: unknown): RobotError {
+    return cause instanceof RobotError ? cause : new RobotError('no-image', '', { cause });
 }

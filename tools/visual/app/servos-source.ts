@@ -57,7 +57,10 @@ export class ServosSource {
         return this.inTurn(async () => {
             this.release ??= await holdServos(); // two tabs would overwrite each other's memories
             if (!this.release) throw new RobotError('second-tab');
-            await this.begin(image);
+            await this.begin(image).catch((error: unknown) => {
+                this.letGo();
+                throw error;
+            });
         });
     }
 
@@ -87,9 +90,13 @@ export class ServosSource {
     close(): Promise<void> {
         return this.inTurn(async () => {
             await this.end();
-            this.release?.();
-            this.release = null;
+            this.letGo();
         });
+    }
+
+    private letGo(): void {
+        this.release?.();
+        this.release = null;
     }
 
     private inTurn(work: () => Promise<void>): Promise<void> {
