@@ -14,31 +14,9 @@ import { startPageAddress } from './texts/languages.ts';
 import { TEXTS } from './texts/texts.ts';
 import { WaveButton } from './wave-button.ts';
 import { KeyList } from './key-list.ts';
+import { buttonOf } from './remote-keys.ts';
 import './remote-pad.css';
 
-const KEYS: Readonly<Record<string, RemoteButton>> = {
-    ArrowUp: 'up',
-    ArrowDown: 'down',
-    ArrowLeft: 'left',
-    ArrowRight: 'right',
-    KeyW: 'up',
-    KeyS: 'down',
-    KeyA: 'left',
-    KeyD: 'right',
-    Digit1: 'b1',
-    Digit2: 'b2',
-    Digit3: 'b3',
-    Digit4: 'b4',
-    Digit5: 'b5',
-    Digit6: 'b6',
-    Numpad1: 'b1',
-    Numpad2: 'b2',
-    Numpad3: 'b3',
-    Numpad4: 'b4',
-    Numpad5: 'b5',
-    Numpad6: 'b6',
-    Space: 'b6',
-};
 /** Button indexes of the standard gamepad layout: directions at 12..15, face buttons at 0..3, left shoulder at 4, start at 9. */
 const PAD: readonly (readonly [number, RemoteButton])[] = [
     [12, 'up'],
@@ -145,11 +123,12 @@ export class RemotePad extends HTMLElement {
     }
 
     private key(event: KeyboardEvent): void {
-        const name = KEYS[event.code];
+        if (event.key === 'Meta') return this.letGo(); // while Cmd is held, macOS reports no key that is released
+        const name = buttonOf(event);
         const target = event.target instanceof HTMLElement ? event.target : null;
         const isElsewhere =
             target?.closest('input, select, textarea, summary, terminal-pane, [role="tablist"]') !== null && target !== null;
-        if (!name || event.ctrlKey || event.altKey || event.metaKey || (event.type === 'keydown' && event.shiftKey)) return; // Shift and arrows: camera
+        if (!name) return;
         if (event.type === 'keydown' && this.session.state.get().tab !== 'remote') return; // in other areas the arrows edit
         if (event.type === 'keydown' && name !== 'b6' && document.querySelector('dialog[open]')) return; // in dialogs the arrows scroll
         if (event.type === 'keydown' && (isElsewhere || (event.code === 'Space' && target?.closest('button') && !this.isPlaying))) return; // stops a moving robot

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// The keyboard as a remote: which key is which button.
+
+import type { RemoteButton } from '../robot/remote.ts';
+
+const KEYS: Readonly<Record<string, RemoteButton>> = {
+    ArrowUp: 'up',
+    ArrowDown: 'down',
+    ArrowLeft: 'left',
+    ArrowRight: 'right',
+    KeyW: 'up',
+    KeyS: 'down',
+    KeyA: 'left',
+    KeyD: 'right',
+    Digit1: 'b1',
+    Digit2: 'b2',
+    Digit3: 'b3',
+    Digit4: 'b4',
+    Digit5: 'b5',
+    Digit6: 'b6',
+    Numpad1: 'b1',
+    Numpad2: 'b2',
+    Numpad3: 'b3',
+    Numpad4: 'b4',
+    Numpad5: 'b5',
+    Numpad6: 'b6',
+    Space: 'b6',
+};
+
+type Key = Pick<KeyboardEvent, 'type' | 'code' | 'ctrlKey' | 'altKey' | 'metaKey' | 'shiftKey'>;
+
+/** undefined: the key is not for the remote: with Shift it moves the camera, with the others it is the browser's. A key that is released
+ *  always counts, or the robot would walk on when Ctrl was pressed meanwhile. */
+export function buttonOf(key: Key): RemoteButton | undefined {
+    const isOther = key.ctrlKey || key.altKey || key.metaKey || key.shiftKey;
+    return key.type === 'keydown' && isOther ? undefined : KEYS[key.code];
+}
