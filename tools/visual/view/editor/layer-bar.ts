@@ -120,7 +120,7 @@ export class LayerBar extends HTMLElement {
                     : [],
             ),
         );
-        if (kept) this.page.value = kept;
+        if ([...this.page.options].some(({ value }) => value === kept)) this.page.value = kept;
     }
 
     /** Shows the first of the chosen joints; the field starts at its zero position. */
@@ -151,7 +151,7 @@ export class LayerBar extends HTMLElement {
 
     private lay(): void {
         const joints = this.joints.value === 'chosen' ? this.chosen.map(({ servo }) => servo) : [];
-        void this.session.overlay({ kind: 'layer', page: Number(this.page.value), joints });
+        if (this.page.value !== '') void this.session.overlay({ kind: 'layer', page: Number(this.page.value), joints });
     }
 
     private aim(): void {

@@ -57,8 +57,7 @@ export class PageActions {
     async transfer(from: number, to: number): Promise<void> {
         if (from === to) return;
         const { editor } = this;
-        const { document } = editor.state.get();
-        const isFree = document.pages[to] === undefined || this.isEmpty(to);
+        const isFree = editor.state.get().document.pages[to] === undefined || this.isEmpty(to);
         const follow = make('input', { type: 'checkbox', checked: true });
         const { motions } = TEXTS;
         const question = isFree ? motions.transferAsk : motions.transferReplaces;
@@ -68,6 +67,7 @@ export class PageActions {
             [[motions.copy, 'copy'], [motions.move, 'move'], ...(isFree ? [] : [[motions.swap, 'swap'] as const])],
             make('label', {}, follow, motions.linksFollow),
         );
+        const { document } = editor.state.get(); // it may have changed while the question was open
         const options = { linksFollow: follow.checked, replace: true };
         const edit = {
             copy: () => editor.edits.copyPage(document, from, to, options),

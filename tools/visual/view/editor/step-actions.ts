@@ -59,7 +59,9 @@ export class StepActions extends HTMLElement {
     /** Handles a key of the row of steps. true: it was an action's key. */
     key(event: KeyboardEvent): boolean {
         if (event.ctrlKey || event.metaKey || event.altKey) return false;
-        const action = this.actions.find(({ key }) => key === event.key);
+        const letter = event.shiftKey ? event.key.toUpperCase() : event.key.toLowerCase(); // Caps Lock is no Shift
+        const pressed = event.key.length === 1 ? letter : event.key;
+        const action = this.actions.find(({ key }) => key === pressed);
         const button = action && this.buttons.get(action);
         if (!button || button.disabled) return false;
         action.run();
@@ -68,13 +70,15 @@ export class StepActions extends HTMLElement {
 
     /** Clipboard events, unlike navigator.clipboard, need no permission. */
     onCopy(event: ClipboardEvent): void {
-        event.clipboardData?.setData('text/plain', this.text());
+        const text = this.text();
+        if (text === '') return; // the page has no steps: the clipboard keeps what it has
+        event.clipboardData?.setData('text/plain', text);
         event.preventDefault();
     }
 
     onCut(event: ClipboardEvent): void {
         this.onCopy(event);
-        this.deleteSteps();
+        if (event.defaultPrevented) this.deleteSteps();
     }
 
     onPaste(event: ClipboardEvent): void {
