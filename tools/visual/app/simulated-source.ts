@@ -68,8 +68,8 @@ export class SimulatedSource {
     private readonly waiting: ((state: RobotState) => void)[] = [];
     /** Why it does not run any more; null: it runs. */
     private stopped: string | null = null;
-    /** Floor and battery as the person has set them. The next robot gets them, too. */
-    private readonly room = new Map<ToSim['kind'], ToSim>();
+    /** Floor, battery and faults as the person has set them. The next robot gets them, too. */
+    private readonly room = new Map<string, ToSim>();
     connection: Connection | null = null;
 
     constructor(body: Body, events: SourceEvents) {
@@ -152,6 +152,7 @@ export class SimulatedSource {
 
     post(message: ToSim): void {
         if (message.kind === 'floor' || message.kind === 'battery') this.room.set(message.kind, message);
+        if (message.kind === 'fault') this.room.set(`${message.servo} ${message.fault}`, message);
         this.robot?.post(message);
     }
 

@@ -137,7 +137,7 @@ test('a browser that keeps nothing: another image has the motions of the one bef
     expect(seen.motions[5000]).toBe(0x77);
 });
 
-test('the next robot stands on the floor that the page shows, with its battery', async () => {
+test('the next robot stands on the floor that the page shows, with its battery and its faults', async () => {
     const { source } = page();
     const posted: ToSim[] = [];
     const post = vi.spyOn(SimulatedRobot.prototype, 'post').mockImplementation(message => void posted.push(message));
@@ -145,13 +145,17 @@ test('the next robot stands on the floor that the page shows, with its battery',
     source.post({ kind: 'floor', floor: { tiltFront: 0.1, tiltLeft: 0, friction: 0.8 } });
     source.post({ kind: 'floor', floor: { tiltFront: 0.2, tiltLeft: 0, friction: 0.8 } });
     source.post({ kind: 'battery', volts: 7 });
+    source.post({ kind: 'fault', servo: 3, fault: 0, answers: -1 });
+    source.post({ kind: 'fault', servo: 3, fault: 1, answers: 0 });
     vi.spyOn(SimulatedRobot.prototype, 'memories').mockRejectedValue(new Error('not needed here'));
     posted.length = 0;
     await source.restart('edit');
-    const room = posted.filter(({ kind }) => kind === 'floor' || kind === 'battery');
+    const room = posted.filter(({ kind }) => ['floor', 'battery', 'fault'].includes(kind));
     expect(room).toEqual([
         { kind: 'floor', floor: { tiltFront: 0.2, tiltLeft: 0, friction: 0.8 } },
         { kind: 'battery', volts: 7 },
+        { kind: 'fault', servo: 3, fault: 0, answers: -1 },
+        { kind: 'fault', servo: 3, fault: 1, answers: 0 },
     ]);
     expect(post).toHaveBeenCalled();
     vi.restoreAllMocks();
