@@ -105,8 +105,13 @@ export class Driving {
     /** Edit would take a packet for typed letters. */
     private send(packet: Uint8Array): void {
         const { messages, simulated } = this.parts;
-        if (this.isSimulated && this.hears) simulated.post({ kind: 'bytes', sender: 'remote', bytes: packet });
-        else if (!this.isSimulated && this.state.version?.image !== 'edit') void this.parts.connection().write(packet).catch(messages.fail);
+        if (this.state.source === 'yours' ? this.isYoursWithEdit : !this.hears) return;
+        if (this.isSimulated) simulated.post({ kind: 'bytes', sender: 'remote', bytes: packet });
+        else void this.write(packet).catch(messages.fail);
+    }
+
+    private async write(packet: Uint8Array): Promise<void> {
+        await this.parts.connection().write(packet);
     }
 
     private get isYoursWithEdit(): boolean {

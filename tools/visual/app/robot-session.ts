@@ -300,7 +300,11 @@ export class RobotSession implements Session {
     }
 
     type(bytes: Uint8Array): void {
-        void this.connection.write(bytes).catch(this.messages.fail);
+        void this.write(bytes).catch(this.messages.fail);
+    }
+
+    private async write(bytes: Uint8Array): Promise<void> {
+        await this.connection.write(bytes);
     }
 
     takeNewVersion(): void {

@@ -3,6 +3,7 @@
 import { expect, test, vi } from 'vitest';
 import { Driving } from '../app/driving.ts';
 import { StatusMessages } from '../app/status-messages.ts';
+import type { Connection } from '../robot/connection.ts';
 import { remotePacket } from '../robot/remote.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
@@ -23,6 +24,7 @@ function driven(start: Partial<SessionState>, isHeld = false) {
     vi.useFakeTimers();
     const state = new Store<SessionState>({ ...PLAYS, ...start });
     const sent: Uint8Array[] = [];
+    const written: Uint8Array[] = [];
     const simulated = { isHeld, post: (message: { kind: string; bytes?: Uint8Array }) => void (message.bytes && sent.push(message.bytes)) };
     let stand = (): void => undefined;
     let refuse = (_: Error): void => undefined;
@@ -39,14 +41,15 @@ function driven(start: Partial<SessionState>, isHeld = false) {
         messages,
         simulated,
         connection: () => {
-            throw new RobotError('not-connected');
+            if (state.get().connection !== 'ready') throw new RobotError('not-connected');
+            return { write: async (packet: Uint8Array) => void written.push(packet) } as unknown as Connection;
         },
         becomeDriven,
     });
     const press = (...buttons: RemoteButton[]): void => driving.remote(new Set(buttons));
-    const becomes = async (): Promise<void> => {
+    const becomes = async (change: Partial<SessionState> = {}): Promise<void> => {
         simulated.isHeld = false;
-        state.set(PLAYS);
+        state.set({ ...PLAYS, ...change });
         stand();
         await vi.advanceTimersByTimeAsync(0);
     };
@@ -56,6 +59,7 @@ function driven(start: Partial<SessionState>, isHeld = false) {
         becomes,
         forget,
         sent,
+        written,
         refuse: (error: Error) => refuse(error),
         asked: () => asked,
         message: () => state.get().message,
@@ -82,6 +86,17 @@ test.each([
     await vi.advanceTimersByTimeAsync(500);
     expect(sent).toEqual([remotePacket([]), remotePacket(['up']), remotePacket([])]);
     expect(asked()).toBe(1);
+});
+
+test('My servos start anew: a key is kept without a word until the program runs, then sent', async () => {
+    const { press, becomes, message, asked, written } = driven({ source: 'servos', connection: 'closed', version: null });
+    press('up');
+    press();
+    await vi.advanceTimersByTimeAsync(500);
+    expect([asked(), message(), written]).toEqual([1, null, []]);
+    await becomes({ source: 'servos' });
+    await vi.advanceTimersByTimeAsync(500);
+    expect(written).toEqual([remotePacket([]), remotePacket(['up']), remotePacket([])]);
 });
 
 test('the last of several keys counts; one that is still held goes on by itself', async () => {
