@@ -4,7 +4,7 @@
 
 import { handLimb, footLimb } from '../../model/ik.ts';
 import type { Body } from '../../model/body.ts';
-import type { Session } from '../session/session.ts';
+import type { Session, SessionState } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
 import { stillTaught } from './editing.ts';
@@ -37,6 +37,7 @@ export class TeachBar extends HTMLElement {
     private readonly hold = make('button', { onclick: () => void this.holdAll() }, TEXTS.teach.hold);
     private readonly hint = make('p', { class: 'hint', role: 'status', 'aria-label': TEXTS.teach.state });
     private limp: readonly number[] = [];
+    private source: SessionState['source'] = 'simulated';
     /** This bar made the simulated hand hold the body. */
     private isCarrying = false;
     /** Legs were released meanwhile. */
@@ -53,7 +54,7 @@ export class TeachBar extends HTMLElement {
         this.replaceChildren(make('h2', {}, TEXTS.teach.title), row, make('div', { class: 'row' }, this.hold, this.adds), this.hint);
         this.disposals.push(
             this.editing.watch(() => this.render()),
-            this.session.state.watch(() => this.render()),
+            this.session.state.watch(({ source }) => (source === this.source ? this.render() : this.leave(source))),
             this.session.editor.state.watch(() => this.render()),
             this.session.onFrame(({ servos }) => {
                 const limp = servos.filter(servo => !servo.torque).map(servo => servo.id);
@@ -75,6 +76,13 @@ export class TeachBar extends HTMLElement {
         this.limp = limp;
         if (still.size === taught.size) this.render();
         else this.editing.set({ taught: still });
+    }
+
+    /** Another robot is used: nothing of it was released. */
+    private leave(source: SessionState['source']): void {
+        this.source = source;
+        this.isCarrying = this.mustCarry = false;
+        this.editing.set({ taught: new Set() });
     }
 
     private render(): void {
