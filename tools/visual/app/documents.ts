@@ -76,7 +76,8 @@ export class KeptDocuments implements Documents {
         const [newest] = [...kept.documents].sort(NEWEST_FIRST);
         this.state.set({ documents: kept.documents.map(entryOf) });
         if (!newest) return this.create(first.name, first);
-        await this.inTurn(() => this.take(newest));
+        await this.inTurn(() => this.take(newest.id));
+        if (this.state.get().openId === '') await this.create(first.name, first); // another tab has just deleted it
     }
 
     /** The new document is open when this returns, so the next edit belongs to it. The promise only waits for the lock. */
@@ -104,9 +105,7 @@ export class KeptDocuments implements Documents {
     open(id: string): Promise<void> {
         const mine = ++this.chosen;
         return this.inTurn(async () => {
-            if (mine !== this.chosen || id === this.state.get().openId) return;
-            const kept = await this.find(id);
-            if (kept && mine === this.chosen) await this.take(kept);
+            if (mine === this.chosen && id !== this.state.get().openId) await this.take(id);
         });
     }
 
@@ -121,7 +120,7 @@ export class KeptDocuments implements Documents {
         this.drop(openId);
         const { documents } = await this.load(); // another tab may have removed some as well
         const [next] = documents.filter(({ id }) => id !== openId).sort(NEWEST_FIRST);
-        if (next) await this.inTurn(async () => (mine === this.chosen ? this.take(next) : undefined));
+        if (next) await this.inTurn(async () => (mine === this.chosen ? this.take(next.id) : undefined));
         else if (mine === this.chosen) await this.create(TEXTS.document.mine);
         this.newest.delete(openId);
         await this.parts.storage.removeDocument(openId).catch((error: unknown) => this.parts.failed(error));
@@ -170,24 +169,26 @@ export class KeptDocuments implements Documents {
     }
 
     /** Opens a stored document with its history, or a copy if another tab has it open. */
-    private async take(kept: KeptDocument): Promise<void> {
-        const document = documentFrom(kept.image, kept.name);
+    private async take(id: string): Promise<void> {
         const mine = this.chosen;
-        const release = await this.parts.hold(kept.id);
-        if (!release && mine === this.chosen) {
+        const release = await this.parts.hold(id);
+        const kept = await this.find(id); // now that nobody else stores it
+        if (!kept || mine !== this.chosen) return release?.();
+        const document = documentFrom(kept.image, kept.name);
+        if (!release) {
             const name = copyName(
                 kept.name,
                 this.state.get().documents.map(one => one.name),
                 TEXTS.document.copyWord,
             );
             this.parts.copied(name);
-            const id = this.begin(name, document);
+            const copy = this.begin(name, document);
             this.isUntouched = true;
-            return this.holdNew(id);
+            return this.holdNew(copy);
         }
-        const steps = await this.parts.storage.readSteps(kept.id).catch(() => []); // the history is then lost, and the page says so
-        if (!release || mine !== this.chosen) return release?.();
-        this.show(kept.id, restored(document, kept.position ?? 0, steps), release);
+        const steps = await this.parts.storage.readSteps(id).catch(() => []); // the history is then lost, and the page says so
+        if (mine !== this.chosen) return release();
+        this.show(id, restored(document, kept.position ?? 0, steps), release);
     }
 
     private show(id: string, { document, history, log }: Edited & { readonly log: HistoryLog }, release = HOLDS_NOTHING): void {

@@ -381,6 +381,23 @@ test('whatever is opened quickly, the last is shown and held, and no other, even
     expect([...held]).toEqual([documents.state.get().openId]);
 });
 
+test('an edit that another tab stores just before it closes is in the document that is opened here', async () => {
+    const disk = new PassingStorage();
+    const first = await openTab(disk);
+    const bows = first.documents.state.get().openId;
+    let isClosing = false;
+    const hold: Hold = id => {
+        if (isClosing && id === bows) first.editor.dispatch(first.editor.edits.rename(now(first.editor), 2, 'curtsy')); // its last edit
+        return Promise.resolve(isClosing || id !== bows ? () => undefined : null);
+    };
+    const second = await openTab(disk, { hold });
+    await second.documents.create('Dances');
+    isClosing = true;
+    await second.documents.open(bows);
+    expect(second.editor.page(2).name).toBe('curtsy');
+    expect(second.editor.state.get().history.done).toHaveLength(1);
+});
+
 test('a document that another tab has deleted is told of, and is no document to go back to', async () => {
     const disk = new PassingStorage();
     const { editor, documents, gone } = await openTab(disk);
