@@ -29,8 +29,10 @@ export class PageVersion {
 
     /** Replaces this page with the newer version. */
     take(): void {
+        const waiting = this.registration?.waiting;
+        if (!waiting) return window.location.reload(); // it has taken over already: another tab asked for it
         navigator.serviceWorker.addEventListener('controllerchange', () => window.location.reload());
-        this.registration?.waiting?.postMessage('take-over');
+        waiting.postMessage('take-over');
     }
 
     private follow(worker: ServiceWorker | null): void {
