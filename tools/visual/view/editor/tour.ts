@@ -27,6 +27,7 @@ export class TourCard extends HTMLElement {
     onSend: () => void = () => undefined;
     private readonly stops = tourStops();
     private at = -1;
+    private isBack = false;
     private robot: RobotState | null = null;
     private armBefore: readonly number[] = [];
     private readonly heading = make('h2', {});
@@ -46,7 +47,7 @@ export class TourCard extends HTMLElement {
             make(
                 'div',
                 { class: 'row' },
-                make('button', { class: 'back', onclick: () => this.go(this.at - 1) }, TEXTS.tour.back),
+                make('button', { class: 'back', onclick: () => this.go(this.at - 1, true) }, TEXTS.tour.back),
                 this.send,
                 this.next,
                 make('span', { class: 'space' }),
@@ -90,7 +91,9 @@ export class TourCard extends HTMLElement {
         this.at = -1;
     }
 
-    private go(to: number): void {
+    /** isBack: stays there although its goal is reached, until that changes or the user goes on. */
+    private go(to: number, isBack = false): void {
+        this.isBack = isBack;
         if (to >= this.stops.length) return this.end();
         this.at = Math.max(0, to);
         this.armBefore = this.arm();
@@ -116,7 +119,9 @@ export class TourCard extends HTMLElement {
 
     private look(): void {
         if (this.hidden || !this.stop) return;
-        if (this.isReached(this.stop)) this.go(this.at + 1);
+        const isReached = this.isReached(this.stop);
+        this.isBack &&= isReached;
+        if (isReached && !this.isBack) this.go(this.at + 1);
         else this.showRing();
     }
 
