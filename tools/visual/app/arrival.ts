@@ -13,6 +13,9 @@ import type { Status } from './status.ts';
 import type { StatusMessages } from './status-messages.ts';
 import type { RobotTransfer } from './transfer.ts';
 
+/** Why your robot was not read: the person knows, or the connection says it. */
+const UNTOLD: readonly RobotError['code'][] = ['cancelled', 'port-lost', 'not-connected', 'transfer-busy'];
+
 export interface ArrivalParts {
     readonly state: Store<SessionState>;
     readonly messages: StatusMessages;
@@ -58,7 +61,8 @@ export class Arrival {
     /** Reads your robot's pages and keeps them as a backup once the robot is known, without asking the person. */
     private async learnYours(): Promise<void> {
         const { state, messages, editor, transfer } = this.parts;
-        if (!(await transfer.read()).isDone) return;
+        const end = await transfer.read();
+        if (!end.isDone) return UNTOLD.includes(end.error.code) ? undefined : messages.fail(end.error);
         const pages = editor.state.get().robot.filter(bytes => bytes !== null);
         try {
             await transfer.keep(pages);

@@ -49,3 +49,25 @@ test('a robot whose backup could not be stored is not said to be backed up', asy
     await new Promise(resolve => setTimeout(resolve));
     expect(say).not.toHaveBeenCalled();
 });
+
+test.each([
+    ['foreign', 1], // a damaged answer
+    ['cancelled', 0], // by the person, or another robot was chosen
+    ['port-lost', 0], // the connection says it
+    ['transfer-busy', 0], // the person is writing it
+] as const)('your robot could not be read, %s: told %i times, because it has no backup', async (code, times) => {
+    const [fail, say, keep] = [vi.fn(), vi.fn(), vi.fn()];
+    const nothing = (): void => undefined;
+    const arrival = new Arrival({
+        state: new Store({ source: 'yours' } as SessionState),
+        messages: { fail, say },
+        status: { tell: nothing, look: nothing, ask: nothing },
+        sources: { isSimulated: false, connection: { version: { image: 'edit' }, requests: { ask: () => Promise.resolve('') } } },
+        editor: { state: new Store({ robot: [] }) },
+        transfer: { read: () => Promise.resolve({ isDone: false, error: new RobotError(code) }), keep },
+    } as unknown as ConstructorParameters<typeof Arrival>[0]);
+    arrival.connectionChanged('ready');
+    await new Promise(resolve => setTimeout(resolve, 10));
+    expect(fail).toHaveBeenCalledTimes(times);
+    expect([say, keep].map(one => one.mock.calls)).toEqual([[], []]);
+});
