@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Header for the edited page: choose, rename, create and play it.
 
+import { pageOf } from '../../model/document.ts';
 import { PAGE_COUNT } from '../../model/motion.ts';
 import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import { TEXTS } from '../texts/texts.ts';
+
+/** Library pages that the user wants to edit directly, not as copies: in every area, but not in another document. */
+const AGREED = new WeakSet<Uint8Array>();
 
 export class PageHead extends HTMLElement {
     session!: Session; // set before it is connected
@@ -21,8 +25,6 @@ export class PageHead extends HTMLElement {
     });
     private readonly play = make('button', { onclick: event => this.playPressed(event) }, TEXTS.steps.play);
     private readonly library = make('div', { class: 'library', role: 'status' });
-    /** Library pages that the user wants to edit directly, not as copies. */
-    private readonly agreed = new Set<number>();
     private shown: readonly Uint8Array[] | null = null;
     private readonly disposals: (() => void)[] = [];
 
@@ -65,7 +67,7 @@ export class PageHead extends HTMLElement {
         } = editor.state.get();
         if (this.shown !== pages) this.list(pages);
         this.choice.value = String(page);
-        this.library.classList.toggle('away', this.agreed.has(page) || !editor.isOfLibrary(page));
+        this.library.classList.toggle('away', AGREED.has(pageOf(editor.state.get().document, page)) || !editor.isOfLibrary(page));
         if (document.activeElement !== this.name) this.name.value = editor.page(page).name;
         this.play.disabled = editor.page(page).steps.length === 0;
         this.play.classList.toggle('primary', !this.play.disabled);
@@ -95,7 +97,8 @@ export class PageHead extends HTMLElement {
     }
 
     private agree(): void {
-        this.agreed.add(this.session.editor.state.get().page);
+        const { document: motions, page } = this.session.editor.state.get();
+        AGREED.add(pageOf(motions, page));
         this.render();
         this.choice.focus();
     }
