@@ -215,7 +215,8 @@ export class StepRow extends HTMLElement {
             if (!chosen.delete(index)) chosen.add(index);
             if (chosen.size === 0) chosen.add(index);
         }
-        this.session.editor.select({ step: index, steps: chosen });
+        const [nearest = index] = [...chosen].sort((a, b) => Math.abs(a - index) - Math.abs(b - index));
+        this.session.editor.select({ step: nearest, steps: chosen }); // a step that is chosen no more is not edited either
     }
 
     private key(event: KeyboardEvent, index: number): void {
