@@ -8,6 +8,7 @@ import { imageOf, pageOf } from '../../model/document.ts';
 import type { MotionDocument } from '../../model/document.ts';
 import type { Finding } from '../../model/file-formats.ts';
 import { NOMINAL_VOLTS } from '../../model/motion.ts';
+import type { Law } from '../../model/motion.ts';
 import type { Session, Tab } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import type { PageTrial } from '../session/trials.ts';
@@ -39,7 +40,9 @@ export class ChecksPane extends HTMLElement {
     session!: Session; // set before it is connected
     private readonly summary = make('p', { class: 'summary', role: 'status', 'aria-label': TEXTS.checks.result });
     private readonly list = make('ul', { 'aria-label': TEXTS.checks.findings });
-    private readonly byPage = new WeakMap<Uint8Array, readonly PageFinding[]>();
+    /** The law of the findings. */
+    private law: Law | null = null;
+    private byPage = new WeakMap<Uint8Array, readonly PageFinding[]>();
     private shown: MotionDocument | null = null;
     /** The document to check next, or checked last. */
     private due: MotionDocument | null = null;
@@ -66,14 +69,22 @@ export class ChecksPane extends HTMLElement {
     }
 
     private later(): void {
-        const { document, gesture } = this.session.editor.state.get();
+        const { document, gesture, law } = this.session.editor.state.get();
         if (this.session.state.get().tab !== 'checks' || gesture) return;
-        if (document === this.shown) this.render(); // a change of law makes trials stale
+        if (law !== this.law) this.forget(law);
+        if (document === this.shown) this.render();
         if (document === this.due) return; // state changes of the robot must not delay the check
         clearTimeout(this.timer);
         this.due = document;
         if (document === this.shown) return;
         this.timer = setTimeout(() => void this.look(document), this.shown === null ? 0 : WAIT_MS);
+    }
+
+    /** Another law moves the joints at other speeds. */
+    private forget(law: Law): void {
+        this.law = law;
+        this.byPage = new WeakMap();
+        this.shown = this.due = null;
     }
 
     private async look(document: MotionDocument): Promise<void> {
