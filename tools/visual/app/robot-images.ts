@@ -102,10 +102,11 @@ export class RobotImages {
                 queueMicrotask(() => unwatch());
                 action();
             };
-            unwatch = this.parts.state.watch(
-                ({ source, connection, version, image, physics }) =>
-                    connection === 'ready' && version?.image === image && (source !== 'simulated' || physics !== 'loading') && end(resolve),
-            );
+            unwatch = this.parts.state.watch(({ source, connection, version, image, physics, stopped }) => {
+                const isThere = connection === 'ready' && version?.image === image && (source !== 'simulated' || physics !== 'loading');
+                if (stopped !== null) end(() => reject(new RobotError('no-answer')));
+                else if (isThere) end(resolve);
+            });
         });
     }
 }

@@ -138,6 +138,8 @@ export class SimulatedSource {
         this.events.motions(kept ? motionsIn(kept) : images.motions);
         this.standing = null;
         this.isInHand = false;
+        this.stopped = null;
+        if (this.isShown) this.events.change({ stopped: null });
         robot.post({ kind: 'start', module, body: this.body, images, kept });
         for (const message of this.room.values()) robot.post(message);
         if (!this.isShown) robot.post({ kind: 'speed', speed: 0 });
@@ -233,8 +235,7 @@ export class SimulatedSource {
                 for (const tell of this.waiting.splice(0)) tell(message.state);
                 return this.isShown ? this.events.frame(message.state) : undefined;
             case 'started':
-                this.stopped = null;
-                return this.events.change(this.isShown ? { faultNames: message.faults, stopped: null } : { faultNames: message.faults });
+                return this.events.change({ faultNames: message.faults });
             case 'physics':
                 return this.events.change(
                     message.error === null

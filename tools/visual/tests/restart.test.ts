@@ -122,7 +122,9 @@ test('after a crash the next robot starts, with what was kept', async () => {
     await source.start('edit');
     await vi.waitFor(() => expect(seen.stopped).toContain('crashed'), { timeout: 240_000 });
     await source.restart('play');
-    await vi.waitFor(() => expect(seen.stopped).toBeNull(), { timeout: 240_000 });
+    expect(seen.stopped).toBeNull(); // by then, so that who waits for the new robot does not see the old one's end
+    await vi.waitFor(() => expect(seen.changes.some(({ faultNames }) => faultNames)).toBe(true), { timeout: 240_000 }); // it has started
+    expect(seen.stopped).toBeNull();
     expect(seen.motions.every(byte => byte === 0x5a)).toBe(true);
 });
 

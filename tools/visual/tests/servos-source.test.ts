@@ -2,13 +2,8 @@
 // My servos, as the page chooses them: what one tab does not use, another one may.
 import { readFile } from 'node:fs/promises';
 import { afterEach, expect, test, vi } from 'vitest';
-import { RobotImages } from '../app/robot-images.ts';
 import { ServosSource } from '../app/servos-source.ts';
 import type { Body } from '../model/body.ts';
-import type { PageFormat } from '../model/page-format.ts';
-import { RobotError } from '../robot/robot-error.ts';
-import type { SessionState } from '../view/session/session.ts';
-import { Store } from '../view/store.ts';
 
 vi.mock('../app/assets.ts', () => ({
     servosModule: () => Promise.resolve(null),
@@ -52,22 +47,4 @@ test('a tab whose adapter could not be opened does not keep My servos from anoth
     await source.choose();
     await expect(source.start('play')).rejects.toMatchObject({ code: 'port-busy' });
     await vi.waitFor(() => expect([...held]).toEqual([]));
-});
-
-test('the adapter is out when another image is to run: the page says that, not that the firmware could not be loaded', async () => {
-    const state = new Store({ image: 'play' } as SessionState);
-    const out = new RobotError('port-busy', 'there is no such port');
-    const robot = { restart: () => Promise.reject(out), forget: () => Promise.reject(out), prepare: vi.fn(), connection: null };
-    const told: unknown[] = [];
-    const images = new RobotImages({
-        state,
-        format: {} as PageFormat,
-        robot: () => robot,
-        say: () => undefined,
-        fail: error => told.push(error),
-    });
-    images.run('edit');
-    await images.forget();
-    expect(told).toEqual([out, out]);
-    expect(state.get().image).toBe('play');
 });

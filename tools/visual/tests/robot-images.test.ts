@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Another image for the robot in the page or for My servos, when something goes wrong meanwhile.
+import { expect, test, vi } from 'vitest';
+import { RobotImages } from '../app/robot-images.ts';
+import type { PageFormat } from '../model/page-format.ts';
+import { RobotError } from '../robot/robot-error.ts';
+import type { SessionState } from '../view/session/session.ts';
+import { Store } from '../view/store.ts';
+
+test('the adapter is out when another image is to run: the page says that, not that the firmware could not be loaded', async () => {
+    const state = new Store({ image: 'play' } as SessionState);
+    const out = new RobotError('port-busy', 'there is no such port');
+    const robot = { restart: () => Promise.reject(out), forget: () => Promise.reject(out), prepare: vi.fn(), connection: null };
+    const told: unknown[] = [];
+    const images = new RobotImages({
+        state,
+        format: {} as PageFormat,
+        robot: () => robot,
+        say: () => undefined,
+        fail: error => told.push(error),
+    });
+    images.run('edit');
+    await images.forget();
+    expect(told).toEqual([out, out]);
+    expect(state.get().image).toBe('play');
+});
+
+test('a robot that crashes as it starts is not waited for', async () => {
+    const state = new Store({ source: 'simulated', image: 'play', connection: 'asking', version: null, stopped: null } as SessionState);
+    const robot = { restart: () => Promise.resolve(), forget: vi.fn(), prepare: vi.fn(), connection: null };
+    const images = new RobotImages({
+        state,
+        format: {} as PageFormat,
+        robot: () => robot,
+        say: () => undefined,
+        fail: () => undefined,
+    });
+    const becomes = expect(images.becomeEdit()).rejects.toMatchObject({ code: 'no-answer' });
+    await Promise.resolve();
+    state.set({ stopped: 'crashed' });
+    await becomes;
+    expect(robot.prepare).not.toHaveBeenCalled();
+}, 2000);
