@@ -48,6 +48,7 @@ export class PoseLayer {
     private readonly ghosts = new Map<GhostName, RobotFigure>();
     private readonly colour = new LineBasicMaterial();
     private readonly ground = new LineLoop(new BufferGeometry(), this.colour);
+    private corners = 0;
     private readonly plumb = new Line(new BufferGeometry(), this.colour);
     private readonly spot = new Mesh(new CircleGeometry(0.007, 24), new MeshBasicMaterial());
 
@@ -99,6 +100,11 @@ export class PoseLayer {
         const colour = balance.margin < 0 ? COLOURS.bad : balance.margin < NEAR_M ? COLOURS.near : COLOURS.good;
         this.colour.color.setHex(colour);
         this.spot.material.color.setHex(colour);
+        if (this.corners !== balance.polygon.length) {
+            this.corners = balance.polygon.length;
+            this.ground.geometry.dispose(); // three never changes the number of its points
+            this.ground.geometry = new BufferGeometry();
+        }
         this.ground.geometry.setFromPoints(balance.polygon.map(([px, py]) => new Vector3(px, py, FLOOR_M)));
         this.plumb.geometry.setFromPoints([new Vector3(x, y, z), new Vector3(x, y, FLOOR_M)]);
         this.spot.position.set(x, y, FLOOR_M);
