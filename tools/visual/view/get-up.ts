@@ -30,8 +30,9 @@ export class GetUp {
     look(isMoving: boolean, trunk: Place, hasFallen: boolean): void {
         const hasEnded = this.wasMoving && !isMoving;
         this.wasMoving = isMoving;
+        if (!isMoving && !hasFallen) return this.stop(); // also if it was refused and a hand has put it on its feet
         if (this.tries === 0 || !hasEnded) return;
-        if (!hasFallen || this.tries === MOST_TRIES) return this.stop();
+        if (this.tries === MOST_TRIES) return this.stop();
         this.tries++;
         this.play(liesOnFace(trunk) ? 'face' : 'back');
     }
