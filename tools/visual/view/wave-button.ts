@@ -29,6 +29,7 @@ export class WaveButton extends HTMLElement {
     private render(state: SessionState): void {
         this.hidden = this.pageOf(state) === undefined;
         this.button.disabled = state.connection !== 'ready' || state.version?.image !== 'play';
+        this.isWanted &&= state.isPowered; // else it would wave over the first motion after it is switched on
         if (!this.isWanted || state.where?.state !== 'playing') return;
         this.isWanted = false;
         this.wave();
