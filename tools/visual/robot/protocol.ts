@@ -3,6 +3,7 @@
 // does not follow the protocol.
 
 import { PAGE_BYTES } from '../model/motion.ts';
+import type { Shape } from '../model/motion.ts';
 import type { RequestOptions, Requests } from './requests.ts';
 import { RobotError } from './robot-error.ts';
 
@@ -28,6 +29,8 @@ export interface Where {
     readonly batteryVolts: number;
     /** Bit per servo ID. */
     readonly faulty: number;
+    /** Shape of the plays, in percent. null: Edit has none, or its amplitudes differ by joint. */
+    readonly shape: Shape | null;
     /** All fields by name: later versions report more. */
     readonly fields: ReadonlyMap<string, string>;
 }
@@ -83,6 +86,13 @@ export async function askVersion(requests: Requests, options?: RequestOptions): 
     };
 }
 
+/** An amplitude of more than three digits is a list, one of each joint. */
+function shapeOf(values: ReadonlyMap<string, string>): Shape | null {
+    const [rate, amplitude, blend] = ['rate', 'amplitude', 'blend'].map(name => values.get(name));
+    if (!rate || !amplitude || !blend || amplitude.length > 3) return null;
+    return { rate: Number(rate), amplitude: Number(amplitude), blend: Number(blend) };
+}
+
 export async function askWhere(requests: Requests, options?: RequestOptions): Promise<Where> {
     const answer = await requests.ask('@where', options);
     const values = fields(answer);
@@ -97,6 +107,7 @@ export async function askWhere(requests: Requests, options?: RequestOptions): Pr
         code: number('code'),
         batteryVolts: number('dv') / 10,
         faulty: Number.parseInt(values.get('faulty') ?? '0', 16),
+        shape: shapeOf(values),
         fields: values,
     };
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Requests to the real firmware on the simulated board, in simulated time. The bytes are split at random.
 import { afterEach, expect, test } from 'vitest';
+import type { Shape } from '../model/motion.ts';
 import { Connection } from '../robot/connection.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
 import {
@@ -305,13 +306,12 @@ test('a play is shaped, and shaped back', async () => {
     await bench.until(setRate(requests, 150));
     await bench.until(setBlend(requests, -20));
     await bench.until(setAmplitude(requests, 80));
-    const shape = async (): Promise<(string | undefined)[]> => {
-        const { fields } = await bench.until(askWhere(requests));
-        return ['rate', 'blend', 'amplitude'].map(name => fields.get(name));
-    };
-    expect(await shape()).toEqual(['150', '-20', '80']);
+    const shape = async (): Promise<Shape | null> => (await bench.until(askWhere(requests))).shape;
+    expect(await shape()).toEqual({ rate: 150, blend: -20, amplitude: 80 });
+    await bench.until(requests.ask('@amplitude 120 1 2'));
+    expect(await shape()).toBeNull(); // not one value
     await bench.until(resetShape(requests));
-    expect(await shape()).toEqual(['100', '0', '100']);
+    expect(await shape()).toEqual({ rate: 100, blend: 0, amplitude: 100 });
 });
 
 test('beside a play: a page laid over the walk, a joint aimed, one swung, all given back; what cannot be is refused and changes nothing', async () => {

@@ -74,6 +74,10 @@ test('menus, Ctrl+A, F6, a joint spoken, double clicks on "Add step" and Play, a
     await message.filter({ hasText: 'Physics could not be loaded, so the robot cannot be pushed.' }).waitFor();
     await person.button('Factory fresh').click();
     await page.getByRole('dialog', { name: 'Factory fresh?' }).getByRole('button', { name: 'Cancel' }).click();
+    await person.open('Remote');
+    const speed = page.getByRole('slider', { name: 'Speed' });
+    await speed.fill('150');
+    await person.open('Robot');
     await person.button('Power off').click();
     await person.doing.filter({ hasText: /^The robot is switched off/ }).waitFor();
     // A request to a robot that is off is dropped, or the robot would walk when it is switched on.
@@ -81,6 +85,8 @@ test('menus, Ctrl+A, F6, a joint spoken, double clicks on "Add step" and Play, a
     await message.filter({ hasText: 'The robot is switched off' }).waitFor();
     await person.button('Power on').click();
     await person.untilStanding();
+    await person.open('Remote');
+    await expect.poll(() => speed.inputValue()).toBe('100'); // the robot's own value again
     await person.leave();
 });
 

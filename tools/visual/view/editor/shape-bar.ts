@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Speed, amplitude and turn of the current play. They are sent to the robot while Play runs, and drawn in the curves.
+// Speed, amplitude and turn of the current play. They are sent to the robot while Play runs, and drawn in the curves. A robot that starts or is
+// connected has values of its own, which are shown then.
 
 import { AS_STORED, SHAPE_RANGES } from '../../model/motion.ts';
 import type { Shape } from '../../model/motion.ts';
-import type { Session } from '../session/session.ts';
+import type { Session, SessionState } from '../session/session.ts';
 import { define, make, setText } from '../element.ts';
 import type { Store } from '../store.ts';
 import { TEXTS } from '../texts/texts.ts';
@@ -16,6 +17,8 @@ export class ShapeBar extends HTMLElement {
     session!: Session; // these are set before it is connected
     shape!: Store<Shape>;
     private readonly hint = make('p', { class: 'hint' });
+    /** The start or connection whose values were taken. */
+    private taken: SessionState['version'] = null;
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
@@ -24,11 +27,14 @@ export class ShapeBar extends HTMLElement {
             ...SLIDERS.map(name => this.slider(name)),
             make('div', { class: 'row' }, make('button', { onclick: () => this.set(AS_STORED, true) }, TEXTS.remote.asStored), this.hint),
         );
-        this.disposals.push(
-            this.session.state.watch(({ version }) =>
-                setText(this.hint, version === null || version.image === 'play' ? TEXTS.remote.shaped : TEXTS.remote.shapeNeedsPlay),
-            ),
-        );
+        this.disposals.push(this.session.state.watch(state => this.take(state)));
+    }
+
+    private take({ version, where }: SessionState): void {
+        setText(this.hint, version === null || version.image === 'play' ? TEXTS.remote.shaped : TEXTS.remote.shapeNeedsPlay);
+        if (!where?.shape || version === this.taken) return;
+        this.taken = version;
+        this.shape.set(where.shape);
     }
 
     disconnectedCallback(): void {
