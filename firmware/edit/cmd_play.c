@@ -121,7 +121,9 @@ void cmd_play_tell_again(void)
     if (the_dialog.mode == DIALOG_LINE && the_dialog.shell.length == 0) {
         dialog_end_line();
     }
-    the_dialog.faults_due = the_dialog.mode == DIALOG_TABLE;
+    if (the_dialog.mode == DIALOG_TABLE) {
+        the_dialog.faults_due = true;
+    }
 }
 
 static void tell_end(const performer_event_t *event)

@@ -29,7 +29,8 @@ TALKS_INTO_FRAMES = {"late", "late-2"}  # such an answer may spoil a frame on th
 LAST_STEP_MAX = 2  # before it stops
 POSE_ERROR_MAX = 4
 OUT_MS = 50  # from the message to the last goal that may still have been in transit
-SAMPLE = 12  # number of states in a sample
+SAMPLE = 12  # number of states in a sample, besides those that have been broken
+BROKE = ("edit.walk.limp/two-talkers@8+blocked@8",)  # the news came as the row's time was over, and Edit forgot it
 PASSING = {"blink", "late", "late-2"}  # a servo with one of these may answer again by itself
 SITUATIONS = {
     f"{image}.{state}": (robot, words)
@@ -286,7 +287,7 @@ def run(options):
         laid = [name for name in names if name.startswith("play.layer")]
         others = [name for name in names if name not in laid]
         chance = random.Random(options.seed)
-        names = sorted(chance.sample(others, SAMPLE) + chance.sample(laid, 2))
+        names = sorted({*chance.sample(others, SAMPLE), *chance.sample(laid, 2), *BROKE})
     kept = proof.Kept("faults", options.keep and not options.sample)
     results = dict(zip(names, kept.each(work, names, "states", options.jobs)))
     kept.finish()

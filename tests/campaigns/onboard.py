@@ -21,7 +21,7 @@ class OnBoard:
     """A board with Play, and a body on its servos. Has the interface of quick.Quick, for trial.watch()."""
 
     def __init__(self, image, physics, models=None, firmware="play-cm5.hex", seed=1):
-        self.physics, self._code, self._stopped = physics, None, False
+        self.physics, self._code, self._said = physics, None, b""
         self.board = Board(images=[firmware], motions=image, seed=seed)
         for servo in physics.robot.servos:
             self.board.servos.add(servo, (models or {}).get(servo, "ax12"))
@@ -47,7 +47,7 @@ class OnBoard:
         """Starts the page; returns when the approach is over."""
         self.board.send(f"play {page}\r")
         self.board.expect("Playing page", ms=APPROACH_MS)
-        self._playing = True
+        self._playing, self._said = True, b""
 
     def keys(self, code):
         if code == STOP:
@@ -62,8 +62,8 @@ class OnBoard:
                 self.board.rc(self._code)
                 self._code = self._code or None  # a release is sent once
             self.board.run(ticks=min(ticks, KEYS_EVERY_TICKS))
-        said = self.board.take()
-        self._playing = self._playing and b"Ended after" not in said and b"Stopped after" not in said
+        self._said += self.board.take()  # a line may come in two pieces
+        self._playing = self._playing and b"Ended after" not in self._said and b"Stopped after" not in self._said
         return self._playing
 
     def loads(self):
