@@ -30,8 +30,10 @@ const KEYS: Readonly<Record<string, RemoteButton>> = {
 type Key = Pick<KeyboardEvent, 'type' | 'code' | 'ctrlKey' | 'altKey' | 'metaKey' | 'shiftKey'>;
 
 /** undefined: the key is not for the remote: with Shift it moves the camera, with the others it is the browser's. A key that is released
- *  always counts, or the robot would walk on when Ctrl was pressed meanwhile. */
-export function buttonOf(key: Key): RemoteButton | undefined {
-    const isOther = key.ctrlKey || key.altKey || key.metaKey || key.shiftKey;
-    return key.type === 'keydown' && isOther ? undefined : KEYS[key.code];
+ *  counts whatever else is held, or the robot would walk on when Ctrl was pressed meanwhile; but only if the remote has it, or the space bar
+ *  would press no button of the page. */
+export function buttonOf(key: Key, held: ReadonlySet<RemoteButton>): RemoteButton | undefined {
+    const button = KEYS[key.code];
+    if (key.type === 'keyup') return button && held.has(button) ? button : undefined;
+    return key.ctrlKey || key.altKey || key.metaKey || key.shiftKey ? undefined : button;
 }

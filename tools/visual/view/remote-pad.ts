@@ -124,7 +124,7 @@ export class RemotePad extends HTMLElement {
 
     private key(event: KeyboardEvent): void {
         if (event.key === 'Meta') return this.letGo(); // while Cmd is held, macOS reports no key that is released
-        const name = buttonOf(event);
+        const name = buttonOf(event, this.held.keys);
         const target = event.target instanceof HTMLElement ? event.target : null;
         const isElsewhere =
             target?.closest('input, select, textarea, summary, terminal-pane, [role="tablist"]') !== null && target !== null;

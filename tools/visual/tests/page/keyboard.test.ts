@@ -53,7 +53,8 @@ test('a pupil: walks, looks round, pushes it over, gets up; teaches a page, name
     await keys.enter('Right arm');
     const teaching = page.getByRole('status', { name: 'Teaching' });
     await teaching.filter({ hasText: 'Drag the limb' }).waitFor();
-    await keys.enter('Hold');
+    await keys.to('Hold');
+    await keys.press('Space'); // presses a button as Enter does
     await teaching.filter({ hasText: 'All joints hold.' }).waitFor();
     await keys.enter('Add step from the robot');
     await expect.poll(() => steps(pupil).count()).toBe(1);
