@@ -13,24 +13,11 @@ import type { Store } from './store.ts';
 import { startPageAddress } from './texts/languages.ts';
 import { TEXTS } from './texts/texts.ts';
 import { WaveButton } from './wave-button.ts';
+import { GamePad } from './game-pad.ts';
 import { KeyList } from './key-list.ts';
 import { buttonOf } from './remote-keys.ts';
 import './remote-pad.css';
 
-/** Button indexes of the standard gamepad layout: directions at 12..15, face buttons at 0..3, left shoulder at 4, start at 9. */
-const PAD: readonly (readonly [number, RemoteButton])[] = [
-    [12, 'up'],
-    [13, 'down'],
-    [14, 'left'],
-    [15, 'right'],
-    [0, 'b6'],
-    [1, 'b2'],
-    [2, 'b3'],
-    [3, 'b4'],
-    [4, 'b1'],
-    [9, 'b5'],
-];
-const STICK_REST = 0.25;
 const BUTTONS: readonly (readonly [RemoteButton, string])[] = [
     ['up', '▲'],
     ['left', '◀'],
@@ -47,6 +34,7 @@ const BUTTONS: readonly (readonly [RemoteButton, string])[] = [
 export class RemotePad extends HTMLElement {
     session!: Session; // these are set before it is connected
     shape!: Store<Shape>;
+    private readonly pad = new GamePad();
     private readonly held = { screen: new Set<RemoteButton>(), keys: new Set<RemoteButton>(), pad: new Set<RemoteButton>() };
     private readonly buttons = new Map<RemoteButton, HTMLButtonElement>();
     private readonly keyList = new KeyList();
@@ -130,7 +118,7 @@ export class RemotePad extends HTMLElement {
             target?.closest('input, select, textarea, summary, terminal-pane, [role="tablist"]') !== null && target !== null;
         if (!name) return;
         if (event.type === 'keydown' && this.session.state.get().tab !== 'remote') return; // in other areas the arrows edit
-        if (event.type === 'keydown' && name !== 'b6' && document.querySelector('dialog[open]')) return; // in dialogs the arrows scroll
+        if (event.type === 'keydown' && name !== 'b6' && isInDialog()) return; // in dialogs the arrows scroll
         if (event.type === 'keydown' && (isElsewhere || (event.code === 'Space' && target?.closest('button') && !this.isPlaying))) return; // stops a moving robot
         event.preventDefault();
         this.change('keys', name, event.type === 'keydown');
@@ -143,11 +131,9 @@ export class RemotePad extends HTMLElement {
 
     /** null: it is disconnected; all its buttons are released. */
     private readPad(pad: Gamepad | null): void {
-        const [x = 0, y = 0] = pad?.axes ?? [];
-        const now = PAD.filter(([index]) => pad?.buttons[index]?.pressed).map(([, name]) => name);
-        this.session.drive(Math.hypot(x, y) < STICK_REST ? null : { x, y: -y });
-        this.held.pad.clear();
-        for (const name of now) this.held.pad.add(name);
+        const { buttons, stick } = this.pad.read(pad, document.hasFocus() && !isInDialog());
+        this.session.drive(stick);
+        this.held.pad = new Set(buttons);
         this.tell();
     }
 
@@ -172,6 +158,10 @@ export class RemotePad extends HTMLElement {
         this.keyList.light(this.session.editor.format.remoteCode(wordOf(all)));
         this.session.remote(all);
     }
+}
+
+function isInDialog(): boolean {
+    return document.querySelector('dialog[open]') !== null;
 }
 
 define('remote-pad', RemotePad);

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// A gamepad while a dialog is open or another window has the focus.
+import { expect, test } from 'vitest';
+import { GamePad } from '../view/game-pad.ts';
+
+const NOTHING = { buttons: [], stick: null };
+
+/** A pad with these buttons pressed and its stick this far to the right. */
+function pad(pressed: readonly number[], right = 0) {
+    return { axes: [right, 0], buttons: Array.from({ length: 16 }, (_, i) => ({ pressed: pressed.includes(i) })) };
+}
+
+test('buttons and stick drive; a pad that is unplugged lets go', () => {
+    const one = new GamePad();
+    expect(one.read(pad([12, 1], 0.5), true)).toEqual({ buttons: ['up', 'b2'], stick: { x: 0.5, y: -0 } });
+    expect(one.read(pad([], 0.2), true)).toEqual(NOTHING);
+    expect(one.read(null, true)).toEqual(NOTHING);
+});
+
+test('in a dialog and in a window without the focus it only stops; what is still pushed afterwards drives only when all was let go', () => {
+    const one = new GamePad();
+    expect(one.read(pad([12], 1), false)).toEqual(NOTHING);
+    expect(one.read(pad([0, 12], 1), false)).toEqual({ buttons: ['b6'], stick: null });
+    expect(one.read(pad([12], 1), true)).toEqual(NOTHING);
+    expect(one.read(pad([12]), true)).toEqual(NOTHING);
+    one.read(pad([]), true);
+    expect(one.read(pad([12], 1), true)).toEqual({ buttons: ['up'], stick: { x: 1, y: -0 } });
+});

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// A gamepad as a remote: its buttons, and its stick, which drives.
+
+import type { RemoteButton } from '../robot/remote.ts';
+
+/** Button indexes of the standard gamepad layout: directions at 12..15, face buttons at 0..3, left shoulder at 4, start at 9. */
+const BUTTONS: readonly (readonly [number, RemoteButton])[] = [
+    [12, 'up'],
+    [13, 'down'],
+    [14, 'left'],
+    [15, 'right'],
+    [0, 'b6'],
+    [1, 'b2'],
+    [2, 'b3'],
+    [3, 'b4'],
+    [4, 'b1'],
+    [9, 'b5'],
+];
+const STICK_REST = 0.25;
+
+export interface PadInput {
+    readonly buttons: readonly RemoteButton[];
+    /** x to the right, y ahead; null: released. */
+    readonly stick: { readonly x: number; readonly y: number } | null;
+}
+
+export class GamePad {
+    /** What was pushed while the pad was for something else drives only when all was let go. */
+    private mustRest = false;
+
+    /** pad: null if there is none. drives: false while the pad is for a dialog or for another window; then it only stops the robot. */
+    read(pad: (Pick<Gamepad, 'axes'> & { readonly buttons: readonly Pick<GamepadButton, 'pressed'>[] }) | null, drives: boolean): PadInput {
+        const [x = 0, y = 0] = pad?.axes ?? [];
+        const buttons = BUTTONS.filter(([index]) => pad?.buttons[index]?.pressed).map(([, name]) => name);
+        const stick = Math.hypot(x, y) < STICK_REST ? null : { x, y: -y };
+        this.mustRest = (buttons.length > 0 || stick !== null) && (this.mustRest || !drives);
+        return this.mustRest ? { buttons: buttons.filter(name => name === 'b6'), stick: null } : { buttons, stick };
+    }
+}
