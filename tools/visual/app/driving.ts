@@ -31,6 +31,7 @@ export class Driving {
     /** The keys pressed last while the robot could not receive them. */
     private wish: ReadonlySet<RemoteButton> | null = null;
     private isBecoming = false;
+    private isPushed = false;
 
     constructor(parts: DrivingParts) {
         this.parts = parts;
@@ -38,9 +39,7 @@ export class Driving {
     }
 
     remote(held: ReadonlySet<RemoteButton>): void {
-        if (held.size > 0 && this.isSimulated && !this.state.isPowered) this.parts.messages.complain(TEXTS.status.isOff, 'robot');
-        else if (held.size > 0 && this.state.source !== 'yours' && !this.hears) this.keep(held);
-        if (held.size > 0 && this.isYoursWithEdit) this.parts.messages.complain(TEXTS.robot.editNoRemote, 'robot');
+        if (held.size > 0) this.prepare(held);
         this.keys.hold(held);
     }
 
@@ -57,7 +56,16 @@ export class Driving {
     }
 
     drive(stick: Stick | null): void {
+        if (stick && !this.isPushed) this.prepare(new Set()); // a stick that is still pushed then drives by itself
+        this.isPushed = stick !== null;
         this.stick.set(stick);
+    }
+
+    /** Makes the robot one that can be driven, or says why it cannot. held: the keys to send then. */
+    private prepare(held: ReadonlySet<RemoteButton>): void {
+        if (this.isOff) this.parts.messages.complain(TEXTS.status.isOff, 'robot');
+        else if (this.isYoursWithEdit) this.parts.messages.complain(TEXTS.robot.editNoRemote, 'robot');
+        else if (this.state.source !== 'yours' && !this.hears) this.keep(held);
     }
 
     /** The robot runs Play and is on its feet. */
@@ -98,7 +106,8 @@ export class Driving {
     }
 
     private walkPage(): number | null {
-        const { version, pages } = this.state;
+        const { source, version, pages } = this.state;
+        if (this.isOff || (source !== 'yours' && !this.hears)) return null;
         return version?.image === 'play' ? (pages.find(page => page.name === 'walk')?.page ?? null) : null;
     }
 
@@ -116,6 +125,10 @@ export class Driving {
 
     private get isYoursWithEdit(): boolean {
         return this.state.source === 'yours' && this.state.version?.image === 'edit';
+    }
+
+    private get isOff(): boolean {
+        return this.isSimulated && !this.state.isPowered;
     }
 
     private get isSimulated(): boolean {

@@ -25,6 +25,7 @@ function driven(start: Partial<SessionState>, isHeld = false) {
     const state = new Store<SessionState>({ ...PLAYS, ...start });
     const sent: Uint8Array[] = [];
     const written: Uint8Array[] = [];
+    const asks: string[] = [];
     const simulated = { isHeld, post: (message: { kind: string; bytes?: Uint8Array }) => void (message.bytes && sent.push(message.bytes)) };
     let stand = (): void => undefined;
     let refuse = (_: Error): void => undefined;
@@ -42,7 +43,10 @@ function driven(start: Partial<SessionState>, isHeld = false) {
         simulated,
         connection: () => {
             if (state.get().connection !== 'ready') throw new RobotError('not-connected');
-            return { write: async (packet: Uint8Array) => void written.push(packet) } as unknown as Connection;
+            return {
+                write: async (packet: Uint8Array) => void written.push(packet),
+                requests: { ask: async (text: string) => void asks.push(text.split(' ', 1)[0] ?? '') },
+            } as unknown as Connection;
         },
         becomeDriven,
     });
@@ -56,9 +60,17 @@ function driven(start: Partial<SessionState>, isHeld = false) {
     const forget = (): void => driving.forget();
     return {
         press,
+        /** The page reads a gamepad at every picture. */
+        push: async (pictures: number): Promise<void> => {
+            for (let i = 0; i < pictures; i++) {
+                driving.drive({ x: 0, y: 1 });
+                await vi.advanceTimersByTimeAsync(16);
+            }
+        },
         becomes,
         forget,
         sent,
+        asks,
         written,
         refuse: (error: Error) => refuse(error),
         asked: () => asked,
@@ -127,4 +139,28 @@ test('when the robot refuses, the key is dropped with a word', async () => {
     await vi.advanceTimersByTimeAsync(1000);
     expect(sent).toEqual([]);
     expect(message()?.text).toMatch(/edits that are not saved/);
+});
+
+test.each([
+    ['while a hand stands it up', {}, true],
+    ['while it runs Edit', { image: 'edit', version: { image: 'edit' } }, false],
+] as const)('a stick that is pushed %s drives when the robot can do it, not before', async (_, start, isHeld) => {
+    const pages = [{ page: 20, steps: 4, name: 'walk', fault: '' }];
+    const { push, becomes, asks, asked } = driven({ pages, ...start } as unknown as Partial<SessionState>, isHeld);
+    await push(60);
+    expect([asked(), asks]).toEqual([1, []]);
+    await becomes({ pages });
+    await push(60);
+    expect(asks.slice(0, 2)).toEqual(['@play', '@drive']);
+    expect(asked()).toBe(1);
+});
+
+test.each([
+    ['a robot that is off', { isPowered: false }, 'off'],
+    ['your robot with Edit', { source: 'yours', version: { image: 'edit' } }, 'Edit'],
+] as const)('a stick that is pushed at %s is answered with a sentence', async (_, start, word) => {
+    const { push, asks, asked, message } = driven(start as unknown as Partial<SessionState>);
+    await push(60);
+    expect([asked(), asks]).toEqual([0, []]);
+    expect(message()?.text).toContain(word);
 });
