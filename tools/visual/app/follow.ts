@@ -16,6 +16,7 @@ export class Follow {
     private readonly clock: Clock;
     private readonly fail: (error: unknown) => void;
     private wanted: readonly (number | null)[] | null = null;
+    private ended: () => void = () => undefined;
     private isRunning = false;
 
     constructor(connection: () => Pick<Connection, 'requests'>, fail: (error: unknown) => void, clock: Clock = wallClock) {
@@ -28,9 +29,11 @@ export class Follow {
         return this.wanted !== null;
     }
 
-    /** Servo units by ID. null stops following, but a movement that has begun is finished. */
-    set(positions: readonly (number | null)[] | null): void {
+    /** Servo units by ID. null stops following, but a movement that has begun is finished. ended: called when a request fails, which ends
+     *  it, too. */
+    set(positions: readonly (number | null)[] | null, ended: () => void = () => undefined): void {
         this.wanted = positions;
+        this.ended = ended;
         if (positions && !this.isRunning) void this.run();
     }
 
@@ -45,6 +48,7 @@ export class Follow {
             }
         } catch (error) {
             this.wanted = null;
+            this.ended();
             this.fail(error);
         } finally {
             this.isRunning = false;

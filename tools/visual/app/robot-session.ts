@@ -278,8 +278,8 @@ export class RobotSession implements Session {
         return this.act(() => setTorque(this.connection.requests, on, servos));
     }
 
-    follow(positions: readonly (number | null)[] | null): void {
-        this.follower.set(positions);
+    follow(positions: readonly (number | null)[] | null, ended?: () => void): void {
+        this.follower.set(positions, ended);
     }
 
     say(message: Notice): void {

@@ -46,7 +46,7 @@ test('many poses in a hurry: the last one counts, slowly', async () => {
     await connection.close();
 });
 
-test('a limp joint stays limp; a limp robot is left alone, and it is said', async () => {
+test('a limp joint stays limp; a limp robot is left alone, it is said, and it follows no more', async () => {
     const { bench, connection } = await ready(62);
     const failed: unknown[] = [];
     const follow = new Follow(
@@ -62,8 +62,10 @@ test('a limp joint stays limp; a limp robot is left alone, and it is said', asyn
     expect(Math.abs((pose.find(({ id }) => id === 5)?.position ?? 0) - 600)).toBeLessThan(5);
     expect(failed).toEqual([]);
     await bench.until(setTorque(connection.requests, false));
-    follow.set(poseWith({ 5: 500 }));
+    let ends = 0;
+    follow.set(poseWith({ 5: 500 }), () => ends++);
     await bench.run(1500);
     expect(failed).toEqual([expect.objectContaining({ code: 'refused' })]);
+    expect([ends, follow.isOn]).toEqual([1, false]); // the box is no longer ticked, so that the next edit moves nothing
     await connection.close();
 });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Live follow: the robot moves slowly to the chosen step. Off by default, and switched off when the taught limbs change, the robot is
-// stopped, or the connection ends: a robot that is plugged in again must not move by itself.
+// Live follow: the robot moves slowly to the chosen step. Off by default, and switched off when the taught limbs change, the robot is stopped
+// or refuses, or the connection ends: a robot that is plugged in again must not move by itself.
 
 import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
@@ -22,7 +22,7 @@ export class FollowBar extends HTMLElement {
             this.editing.watch(() => this.render()),
             this.session.editor.state.watch(() => this.render()),
             this.session.state.watch(() => this.render()),
-            this.session.onStop(() => this.editing.set({ follow: false })),
+            this.session.onStop(() => this.end()),
         );
     }
 
@@ -38,11 +38,15 @@ export class FollowBar extends HTMLElement {
         const { editor } = this.session;
         const { page, step } = editor.state.get();
         this.box.disabled = connection !== 'ready';
-        if (follow && this.box.disabled) return this.editing.set({ follow: false }); // this renders again
+        if (follow && this.box.disabled) return this.end(); // this renders again
         const shall = follow && isEditing(tab) && editor.page(page).steps.length > 0;
         if (!shall && !this.isFollowing) return;
         this.isFollowing = shall;
-        this.session.follow(shall ? editor.poseAfter(page, step) : null);
+        this.session.follow(shall ? editor.poseAfter(page, step) : null, () => this.end());
+    }
+
+    private end(): void {
+        this.editing.set({ follow: false });
     }
 }
 

@@ -135,8 +135,9 @@ export interface Session {
     shape(shape: Shape): Promise<void>;
     /** Starts, changes or ends what runs in parallel to a play. Only for Play. */
     overlay(what: Overlay): Promise<void>;
-    /** Makes the robot move slowly to this pose and keep following (servo units by ID; null: this joint stays). null: ends it. */
-    follow(positions: readonly (number | null)[] | null): void;
+    /** Makes the robot move slowly to this pose and keep following (servo units by ID; null: this joint stays). null: ends it.
+     *  ended: called when the robot refuses or does not answer, which ends it and has been reported. */
+    follow(positions: readonly (number | null)[] | null, ended?: () => void): void;
     /** Shows a message in the status bar. */
     say(notice: Notice): void;
     remote(held: ReadonlySet<RemoteButton>): void;
