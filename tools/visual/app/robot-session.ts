@@ -43,6 +43,8 @@ import { StatusMessages } from './status-messages.ts';
 
 /** A robot that already has the motion plays it within this time, so no preview is needed. */
 const SHOWN_MS = 160;
+/** Eleven seconds of a line of 57,600 baud. What is longer was not meant for the terminal, and nothing else would be heard meanwhile. */
+const MOST_TYPED = 65_536;
 
 /** The state when the page opens. */
 const startState = (): SessionState => ({
@@ -300,6 +302,7 @@ export class RobotSession implements Session {
     }
 
     type(bytes: Uint8Array): void {
+        if (bytes.length > MOST_TYPED) return this.messages.complain(TEXTS.terminal.tooLong, 'robot');
         void this.write(bytes).catch(this.messages.fail);
     }
 

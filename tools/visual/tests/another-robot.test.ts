@@ -179,3 +179,14 @@ test('Stop right after Play: the picture does not begin to move when the robot h
     await soon();
     expect(session.preview.state.get().isRunning).toBe(false);
 });
+
+test('a paste of a whole file reaches no robot, and it is said', async () => {
+    const { session, inPage } = await page('play');
+    const before = inPage.sent.length;
+    session.type(new Uint8Array(65_537).fill(0x41));
+    await soon();
+    expect(inPage.sent.slice(before)).not.toContain('remote');
+    expect(session.state.get().message?.text).toMatch(/longer than 64 KB/);
+    session.type(new Uint8Array(65_536).fill(0x41));
+    await vi.waitFor(() => expect(inPage.sent).toContain('remote'));
+});

@@ -979,7 +979,11 @@ const DE: Texts = {
         sendIt: 'Das ist deine erste Bewegung, und sie ist in diesem Browser gespeichert. Sende sie an Freunde: Der Link öffnet diese Seite, und der Roboter winkt. Drücke ?, um alle Tasten zu sehen.',
     },
 
-    terminal: { terminal: 'Terminal des Roboters', fullScreen: 'Vollbild' },
+    terminal: {
+        terminal: 'Terminal des Roboters',
+        fullScreen: 'Vollbild',
+        tooLong: 'Der Text ist länger als 64 KB. Er wurde nicht an den Roboter gesendet. Füge ihn in Teilen ein.',
+    },
 
     start: {
         title: 'Motion512: zehn Bewegungen',

@@ -1030,7 +1030,11 @@ export const EN = {
         sendIt: 'That is your first motion, and it is saved in this browser. Send it to a friend: the link opens this page, and the robot waves. Press ? for all keys.',
     },
 
-    terminal: { terminal: 'Terminal of the robot', fullScreen: 'Full screen' },
+    terminal: {
+        terminal: 'Terminal of the robot',
+        fullScreen: 'Full screen',
+        tooLong: 'That text is longer than 64 KB. It was not sent to the robot. Paste it in parts.',
+    },
 
     /** The start page, motions.html. */
     start: {

@@ -962,7 +962,11 @@ const ES: Texts = {
         sendIt: 'Este es tu primer movimiento, y está guardado en este navegador. Envíalo a un amigo: el enlace abre esta página, y el robot saluda. Pulsa ? para ver todas las teclas.',
     },
 
-    terminal: { terminal: 'Terminal del robot', fullScreen: 'Pantalla completa' },
+    terminal: {
+        terminal: 'Terminal del robot',
+        fullScreen: 'Pantalla completa',
+        tooLong: 'El texto ocupa más de 64 KB. No se ha enviado al robot. Pégalo por partes.',
+    },
 
     start: {
         title: 'Motion512: diez movimientos',

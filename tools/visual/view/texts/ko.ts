@@ -930,7 +930,11 @@ const KO: Texts = {
         sendIt: '이것이 첫 동작이며, 이 브라우저에 저장되어 있습니다. 친구에게 보내세요. 링크를 열면 이 페이지에서 로봇이 손을 흔듭니다. ?를 누르면 모든 키가 보입니다.',
     },
 
-    terminal: { terminal: '로봇의 터미널', fullScreen: '전체 화면' },
+    terminal: {
+        terminal: '로봇의 터미널',
+        fullScreen: '전체 화면',
+        tooLong: '텍스트가 64 KB보다 커서 로봇에 보내지 않았습니다. 나누어 붙여넣으세요.',
+    },
 
     start: {
         title: 'Motion512: 동작 10개',
