@@ -53,7 +53,8 @@ export class DocumentFiles implements Files {
         this.parts = parts;
     }
 
-    async choose(file: ChosenFile): Promise<void> {
+    async choose(file: ChosenFile, ...others: readonly ChosenFile[]): Promise<void> {
+        if (others.length > 0) return this.state.set({ ...NOTHING, trouble: TEXTS.files.oneOnly(others.length + 1) });
         const bytes = await bytesOf(file);
         if (typeof bytes === 'string') return this.state.set({ ...NOTHING, trouble: bytes });
         await this.open(file.name, bytes);

@@ -125,3 +125,10 @@ test('of two files that are dropped quickly the last is shown, and it can be can
     await both[1];
     expect(files.state.get()).toMatchObject({ opened: { name: 'second.mtn' }, busy: null });
 });
+
+test('several files dropped at once: none is opened, and it is said', async () => {
+    const { files } = await opened(new Map());
+    const one = { name: 'a.mtn', size: 0, arrayBuffer: () => Promise.resolve(new ArrayBuffer(0)) };
+    await files.choose(one, { ...one, name: 'b.mtn' });
+    expect(files.state.get()).toMatchObject({ opened: null, trouble: TEXTS.files.oneOnly(2) });
+});

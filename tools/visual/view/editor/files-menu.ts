@@ -66,20 +66,16 @@ export class FilesMenu extends HTMLElement {
     }
 
     private async dropped(event: DragEvent): Promise<void> {
-        const file = event.dataTransfer?.files[0];
+        const [file, ...others] = event.dataTransfer?.files ?? [];
         if (!file || !this.isFile(event)) return;
         event.preventDefault();
-        await this.read(file);
+        await this.session.files.choose(file, ...others);
     }
 
     private chosen(): void {
         const file = this.chooser.files?.[0];
         this.chooser.value = ''; // allows choosing the same file again
-        if (file) void this.read(file);
-    }
-
-    private async read(file: File): Promise<void> {
-        await this.session.files.choose(file);
+        if (file) void this.session.files.choose(file);
     }
 
     private async save(suffix: Suffix): Promise<void> {

@@ -55,8 +55,8 @@ export interface Files {
     /** m512 for queries that change nothing: contents of a file, differences of two images, faults of one. */
     readonly formats: FileFormats;
     readonly state: Store<FilesState>;
-    /** Opens a file unless it is larger than any motion file can be. */
-    choose(file: ChosenFile): Promise<void>;
+    /** Opens a file unless it is larger than any motion file can be. Several are refused: each is looked at before anything is imported. */
+    choose(file: ChosenFile, ...others: readonly ChosenFile[]): Promise<void>;
     open(name: string, bytes: Uint8Array): Promise<void>;
     /** Reads a file only to view it; of the state only `busy` changes. */
     look(file: ChosenFile): Promise<LookedAt>;

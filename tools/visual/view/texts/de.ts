@@ -910,6 +910,7 @@ const DE: Texts = {
         sendHint: 'Ein Link, der diese Bewegung enthält und die, zu denen sie führt',
         reading: name => `${name} wird gelesen …`,
         writing: name => `${name} wird erzeugt …`,
+        oneOnly: count => `Das sind ${count} Dateien. Zieh sie nacheinander hierher; keine davon wurde geöffnet.`,
         tooManyBytes: name => `${name} ist größer als 4 MB. So groß ist keine Bewegungsdatei; sie wurde nicht gelesen.`,
         unreadable: name =>
             `${name} ist nicht lesbar. Ist das ein Ordner, oder wurde die Datei inzwischen verschoben? Wähle sie noch einmal.`,

@@ -960,6 +960,7 @@ export const EN = {
         sendHint: 'A link that holds this motion and those that it leads to',
         reading: (name: string) => `Reading ${name} …`,
         writing: (name: string) => `Making ${name} …`,
+        oneOnly: (count: number) => `These are ${count} files. Drop them one after the other; none of them was opened.`,
         tooManyBytes: (name: string) => `${name} is larger than 4 MB. No motion file is that large; it was not read.`,
         unreadable: (name: string) => `${name} cannot be read. Is it a folder, or was it moved meanwhile? Choose it again.`,
         notRead: (name: string) => `${name} was not read. Nothing has changed.`,

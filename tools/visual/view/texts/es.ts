@@ -894,6 +894,7 @@ const ES: Texts = {
         sendHint: 'Un enlace que contiene este movimiento y aquellos a los que lleva',
         reading: name => `Leyendo ${name} …`,
         writing: name => `Creando ${name} …`,
+        oneOnly: count => `Son ${count} archivos. Arrástralos uno tras otro; no se ha abierto ninguno.`,
         tooManyBytes: name => `${name} ocupa más de 4 MB. Ningún archivo de movimientos es tan grande; no se ha leído.`,
         unreadable: name => `${name} no se puede leer. ¿Es una carpeta, o se ha movido entretanto? Elígelo otra vez.`,
         notRead: name => `No se ha leído ${name}. No ha cambiado nada.`,

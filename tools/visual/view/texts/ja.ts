@@ -894,6 +894,7 @@ const JA: Texts = {
         sendHint: 'このモーションと、その先のモーションを含むリンク',
         reading: name => `${name} を読み込んでいます …`,
         writing: name => `${name} を作っています …`,
+        oneOnly: count => `ファイルが ${count} 個あります。1 個ずつドロップしてください。どれも開いていません。`,
         tooManyBytes: name => `${name} は 4 MB を超えています。それほど大きいモーションファイルはないので、読み込みませんでした。`,
         unreadable: name => `${name} を読めません。フォルダーか、移動されたファイルかもしれません。もう一度選んでください。`,
         notRead: name => `${name} は読み込みませんでした。何も変わっていません。`,

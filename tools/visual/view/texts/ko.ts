@@ -863,6 +863,7 @@ const KO: Texts = {
         sendHint: '이 동작과 이어지는 동작이 담긴 링크',
         reading: name => `${name} 읽는 중 …`,
         writing: name => `${name} 만드는 중 …`,
+        oneOnly: count => `파일이 ${count}개입니다. 하나씩 끌어다 놓으세요. 아무것도 열지 않았습니다.`,
         tooManyBytes: name => `${name}: 4 MB보다 큽니다. 그렇게 큰 동작 파일은 없으므로 읽지 않았습니다.`,
         unreadable: name => `${name}: 읽을 수 없습니다. 폴더이거나 그사이 옮겨진 파일일 수 있습니다. 다시 고르세요.`,
         notRead: name => `${name}: 읽지 않았습니다. 바뀐 것은 없습니다.`,
