@@ -38,10 +38,13 @@ async function activate() {
 
 self.addEventListener('activate', (event) => event.waitUntil(activate()));
 
+/** What is kept for a request: the page has two names. A host may redirect from one to the other, so only one is asked for. */
+const nameOf = (request) => (request.url.split(/[?#]/, 1)[0] === `${self.registration.scope}index.html` ? self.registration.scope : request);
+
 async function answer(request) {
   const others = (await ours()).filter((name) => name !== CACHE).reverse();
   for (const name of [CACHE, ...others]) {
-    const kept = await (await caches.open(name)).match(request, { ignoreVary: true, ignoreSearch: true });
+    const kept = await (await caches.open(name)).match(nameOf(request), { ignoreVary: true, ignoreSearch: true });
     if (kept) return kept;
   }
   return fetch(request);
