@@ -39,6 +39,8 @@ export interface Grab {
 const HERE: Place = { pos: [0, 0, 0], quat: [1, 0, 0, 0] };
 const SIDES: readonly Side[] = ['right', 'left'];
 const REACHED_M = 0.0005;
+/** The trunk stops within 1/128 of its way where the legs end. */
+const HALVINGS = 8;
 const LOWER = { stepM: 0.004, mostM: 0.04 };
 
 /** The part that a shape of the body belongs to. */
@@ -130,14 +132,18 @@ function onFeet(body: Body, start: Angles, trunk: Place, feet: ReadonlyMap<Side,
     return { angles, off };
 }
 
-/** Both feet keep place and orientation. If the trunk cannot move all the way, it moves the largest share that both legs reach. */
+/** Both feet keep place and orientation. If the trunk cannot move all the way, it goes as far as both legs reach. */
 function movedTrunk(body: Body, held: Grab, by: Vector): Angles {
     const feet = new Map(SIDES.map(side => [side, held.places.get(`${side}_foot`) ?? HERE]));
-    for (const share of [1, 0.75, 0.5, 0.25]) {
-        const found = onFeet(body, held.angles, { pos: add(held.trunk.pos, scale(by, share)), quat: held.trunk.quat }, feet);
-        if (found.off < REACHED_M) return found.angles;
+    let angles = held.angles;
+    let [near, share, far] = [0, 1, 1];
+    for (let round = 0; round < HALVINGS && near < 1; round++) {
+        const found = onFeet(body, angles, { pos: add(held.trunk.pos, scale(by, share)), quat: held.trunk.quat }, feet);
+        if (found.off < REACHED_M) [angles, near] = [found.angles, share];
+        else far = share;
+        share = (near + far) / 2;
     }
-    return held.angles;
+    return angles;
 }
 
 /** Puts both soles flat on the floor under an upright trunk. The feet keep their position seen from above and their heading. The trunk is

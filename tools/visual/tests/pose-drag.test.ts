@@ -7,7 +7,7 @@ import { angleIn, placeLinks } from '../model/body.ts';
 import type { Angles, Body } from '../model/body.ts';
 import { dragged, flattened, grab, partOf } from '../model/pose-drag.ts';
 import type { Grab } from '../model/pose-drag.ts';
-import { add, length, rotate, subtract, turn } from '../model/space.ts';
+import { add, length, rotate, scale, subtract, turn } from '../model/space.ts';
 import type { Place, Vector } from '../model/space.ts';
 import { present } from './present.ts';
 import { randomNumbers } from './robot-bench.ts';
@@ -93,6 +93,24 @@ test('the trunk moves over feet that stay, and stops where the legs end', () => 
         if (by[2] < 0.1)
             expect(subtract(present(after.get('trunk')).pos, present(before.get('trunk')).pos)).toEqual(by.map(v => expect.closeTo(v, 3)));
     }
+});
+
+test.each([
+    ['down', [0, 0, -1]],
+    ['up', [0, 0, 1]],
+    ['ahead', [1, 0, 0]],
+] as const)('the trunk dragged %s farther and farther: it never goes back', (_, way) => {
+    const held = grab(body, 'chest', 'trunk', [0.02, 0, 0], READY, STANCE);
+    const along = (m: number): number => {
+        const after = placesOf(dragged(body, held, add(held.world, scale(way, m)), true), held);
+        const moved = subtract(present(after.get('trunk')).pos, present(held.places.get('trunk')).pos);
+        return moved[0] * way[0] + moved[1] * way[1] + moved[2] * way[2];
+    };
+    const moved = Array.from({ length: 25 }, (__, i) => along(0.02 * i));
+    const most = Math.max(...moved);
+    expect(most).toBeGreaterThan(0.003);
+    for (const [i, m] of moved.entries()) if (i > 0) expect(m, `${20 * i} mm`).toBeGreaterThan((moved[i - 1] ?? 0) - 0.006);
+    expect(moved.at(-1)).toBeGreaterThan(most - 0.006);
 });
 
 test('both feet flat: whatever the ankles did, the soles lie on the floor', () => {
