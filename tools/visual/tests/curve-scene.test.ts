@@ -4,8 +4,9 @@ import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import { DocumentEditor } from '../app/editor.ts';
 import type { Body } from '../model/body.ts';
-import { AS_STORED, JOINTS } from '../model/motion.ts';
+import { AS_STORED, JOINTS, TICKS_PER_SECOND } from '../model/motion.ts';
 import type { Shape } from '../model/motion.ts';
+import { CurveFrame, drawCurves } from '../view/editor/curve-picture.ts';
 import { curveScene } from '../view/editor/curve-scene.ts';
 import { libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
 
@@ -55,4 +56,21 @@ test('a drag keeps the edges that it began with; a page without action has no sc
     expect(curveScene(editor, { shape: AS_STORED, volts: 9.6, edges })).toMatchObject(edges);
     editor.select({ page: 100 });
     expect(curveScene(editor, { shape: AS_STORED, volts: 9.6, edges: null })).toBeNull();
+});
+
+test.each([1, 6, 28, 112])('the times of a motion of %i s do not run into each other, on a narrow screen either', seconds => {
+    editor.select({ page: 3, joints: new Set([ELBOW]) });
+    const scene = { ...sceneOf({}), followed: null, degrees: null, ticks: seconds * TICKS_PER_SECOND };
+    const drawn: { readonly text: string; readonly x: number }[] = [];
+    const fillText = (text: string, x: number): void => void drawn.push({ text, x });
+    const measureText = (text: string) => ({ width: 7 * text.length });
+    const context = new Proxy({ fillText, measureText } as unknown as CanvasRenderingContext2D, {
+        get: (known, name) => Reflect.get(known, name) ?? (() => undefined),
+    });
+    const colours = { line: '', faint: '', fast: '', grid: '', text: '', ground: '', chosen: [''] };
+    drawCurves(context, new CurveFrame(scene, 320, 200), scene, colours);
+    const times = drawn.filter(({ text }) => text.endsWith(' s'));
+    expect(times.length).toBeGreaterThan(2);
+    for (const [i, { text, x }] of times.slice(0, -1).entries())
+        expect(times[i + 1]?.x, text).toBeGreaterThanOrEqual(x + measureText(text).width);
 });

@@ -47,6 +47,9 @@ export interface CurveColours {
 }
 
 const POINT = 6; // pixels
+const SECOND_TEXT = 40; // pixels of a time and the gap beside it
+/** Seconds between two times on the axis. */
+const SECONDS = [0.5, 1, 2, 5, 10, 20];
 const EDGE = { left: 34, right: 40, top: 8, bottom: 18 };
 
 /** Converts between ticks, positions and CSS pixels. */
@@ -149,7 +152,9 @@ function drawGrid(
         if (degrees) context.fillText(`${Math.round(degrees(position))}°`, frame.width - EDGE.right + 8, frame.y(position) + 4);
     }
     const seconds = ticks / TICKS_PER_SECOND;
-    for (let second = 0; second <= seconds; second += seconds > 6 ? 1 : 0.5) secondText(context, frame, second);
+    const room = (frame.x(ticks) - frame.x(0)) / seconds;
+    const between = SECONDS.find(some => some * room >= SECOND_TEXT) ?? Infinity;
+    for (let second = 0; second <= seconds; second += between) secondText(context, frame, second);
 }
 
 /** Below the axis, never cut off by the edge. */
