@@ -17,6 +17,8 @@ export class KeyList extends HTMLElement {
     private readonly list = make('ul');
     private shown = '';
     private pages: unknown = null;
+    /** Code of the held keys; 0: none. */
+    private held = 0;
 
     connectedCallback(): void {
         this.replaceChildren(this.heading, this.list);
@@ -30,6 +32,7 @@ export class KeyList extends HTMLElement {
 
     /** code: of the held keys; 0: none. */
     light(code: number): void {
+        this.held = code;
         for (const item of this.list.children) item.classList.toggle('lit', code !== 0 && item.getAttribute('data-code') === String(code));
     }
 
@@ -48,6 +51,7 @@ export class KeyList extends HTMLElement {
         this.heading.textContent = targets.length === 0 ? '' : page > 0 ? TEXTS.remote.leadsOn(page, name) : TEXTS.remote.keysStart;
         this.classList.toggle('playing', page > 0);
         this.list.replaceChildren(...targets.map(target => this.item(target)));
+        this.light(this.held); // the key that has started this page is still held
     }
 
     private item({ kind, code, page, name }: KeyTarget): HTMLLIElement {
