@@ -58,11 +58,12 @@ export function grab(body: Body, shape: string | null, link: string, point: Vect
     const part = partOf(body, shape, link);
     const trunk = trunkOn(body, stance.keep, angles, stance.at);
     const places = placeLinks(body, trunk, angleIn(angles));
-    const other: Side = stance.keep === 'right' ? 'left' : 'right';
-    const isKept = part.kind === 'foot' && part.side === stance.keep;
-    const kept = isKept ? { keep: other, at: places.get(`${other}_foot`) ?? HERE } : stance;
+    if (part.kind === 'foot' && part.side === stance.keep) {
+        const keep: Side = stance.keep === 'right' ? 'left' : 'right';
+        return grab(body, shape, link, point, angles, { keep, at: places.get(`${keep}_foot`) ?? HERE });
+    }
     const place = places.get(link) ?? HERE;
-    return { part, link, point, world: add(place.pos, rotate(place.quat, point)), angles, stance: kept, trunk, places };
+    return { part, link, point, world: add(place.pos, rotate(place.quat, point)), angles, stance, trunk, places };
 }
 
 /** The angles that bring the point as near to `target` (room coordinates) as the joints allow. soleFlat: a foot keeps its sole parallel to

@@ -77,6 +77,15 @@ test('a foot moves with its sole flat while the other one stays; the kept foot c
     }
 });
 
+test('the foot that the robot stands on, taken while the other one is in the air and tilted: it is dragged as the figure then stands', () => {
+    const raised = new Map(READY).set(12, 0.8).set(14, -1.2).set(16, 0.1);
+    const held = grab(body, 'right_sole', 'right_foot', [0.03, 0, -0.03], raised, STANCE);
+    expect(held.world).toEqual(pointOf(raised, held));
+    const angles = dragged(body, held, add(held.world, [0, 0, 0.02]), true);
+    const after = placesOf(angles, held);
+    expect(rotate(present(after.get('right_foot')).quat, [0, 0, 1])[2]).toBeCloseTo(1, 4);
+});
+
 test('the trunk moves over feet that stay, and stops where the legs end', () => {
     const held = grab(body, 'chest', 'trunk', [0.02, 0, 0], READY, STANCE);
     const before = placesOf(READY, held);
