@@ -100,12 +100,13 @@ export class TeachBar extends HTMLElement {
      *  robot, and limp legs do not carry it. */
     private async toggle(group: LimbGroup): Promise<void> {
         const { taught } = this.editing.get();
-        const { mustCarry } = this;
+        const { mustCarry, source } = this;
         const isTaught = group.servos.every(servo => taught.has(servo));
         this.editing.set({ mode: 'hand', follow: false });
         this.mark(group, !isTaught);
         if (!isTaught && this.session.state.get().source === 'simulated') this.carry(group);
         const isDone = await this.session.setTorque(isTaught, group.servos);
+        if (source !== this.source) return; // another robot is used by now
         if (!isDone) this.mark(group, isTaught);
         if (!isDone && !isTaught) this.mustCarry = mustCarry;
         if (isTaught === isDone) this.letStand();
@@ -125,8 +126,11 @@ export class TeachBar extends HTMLElement {
 
     private async holdAll(): Promise<void> {
         const { taught } = this.editing.get();
+        const { source } = this;
         this.editing.set({ taught: new Set() });
-        if (await this.session.setTorque(true, this.limp)) this.letStand();
+        const isDone = await this.session.setTorque(true, this.limp);
+        if (source !== this.source) return;
+        if (isDone) this.letStand();
         else this.editing.set({ taught });
     }
 
