@@ -184,7 +184,7 @@ export class PagesPane extends HTMLElement {
                     x: () => this.actions.take(this.current),
                     v: () => this.actions.putTaken(this.current),
                 }),
-            }[event.key];
+            }[event.key.length === 1 ? event.key.toLowerCase() : event.key]; // with Caps Lock, too
         if (!action) return;
         event.preventDefault();
         void action();
