@@ -55,7 +55,8 @@ export class Arrival {
 
     /** The connection state already shows that a robot was lost or restarted. It is asked again when it answers. */
     private readonly fail = (error: unknown): void => {
-        if (!(error instanceof RobotError && error.code === 'not-connected')) this.parts.messages.fail(error);
+        const isRestart = error instanceof RobotError && (error.code === 'not-connected' || error.code === 'cancelled');
+        if (!isRestart) this.parts.messages.fail(error);
     };
 
     /** Reads your robot's pages and keeps them as a backup once the robot is known, without asking the person. */

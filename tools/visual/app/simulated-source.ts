@@ -6,6 +6,7 @@ import { Connection } from '../robot/connection.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
 import type { Where } from '../robot/protocol.ts';
 import { askWhere, command, play } from '../robot/protocol.ts';
+import { RobotError } from '../robot/robot-error.ts';
 import type { RobotState } from '../robot/robot-state.ts';
 import { MOTIONS_ADDRESS } from '../sim/board.ts';
 import type { Images } from '../sim/machine.ts';
@@ -66,6 +67,8 @@ export class SimulatedSource {
     private readonly mayKeep = holdRobot();
     private isSecondShown = false;
     private readonly waiting: ((state: RobotState) => void)[] = [];
+    /** Tells who waits for the robot to stand up that it never will. */
+    private giveUp: (why: RobotError) => void = () => undefined;
     /** Why it does not run any more; null: it runs. */
     private stopped: string | null = null;
     /** Floor, battery and faults as the person has set them. The next robot gets them, too. */
@@ -176,10 +179,12 @@ export class SimulatedSource {
     }
 
     /** Does what a person does before a motion: holds the robot, lets it take its standing pose, lets go. Does nothing if no hand holds the
-     *  robot. Rejects with RobotError if the robot refuses; the hand has then let go as well. */
+     *  robot. Rejects with RobotError if the robot refuses (the hand has then let go as well), restarts or crashes. */
     prepare(): Promise<void> {
         if (this.standing) return this.standing;
-        const standing: Promise<void> = this.stand().finally(() => {
+        if (this.stopped !== null) return Promise.reject(new RobotError('no-answer'));
+        const isGone = new Promise<never>((_, reject) => (this.giveUp = reject)); // its time stands still then
+        const standing: Promise<void> = Promise.race([this.stand(), isGone]).finally(() => {
             if (this.standing === standing) this.standing = null; // a new robot has its own
         });
         this.standing = standing;
@@ -257,12 +262,15 @@ export class SimulatedSource {
 
     private stop(why: string): void {
         this.stopped = why;
+        this.giveUp(new RobotError('no-answer'));
         if (this.isShown) this.events.change({ stopped: why, doing: { text: why, tone: 'bad' } });
     }
 
     private async end(): Promise<void> {
         const robot = this.robot;
         this.robot = null;
+        this.waiting.length = 0;
+        this.giveUp(new RobotError('cancelled'));
         await this.connection?.close();
         this.connection = null;
         robot?.dispose();

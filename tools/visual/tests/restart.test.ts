@@ -180,3 +180,20 @@ test('a restart that ends while another robot is used tells nothing of itself, u
     source.resume();
     await vi.waitFor(() => expect(seen.stopped).toContain('crashed'), { timeout: 240_000 });
 });
+
+test('who waits for the robot to stand up does not wait for one that was restarted or has crashed', async () => {
+    const { source, seen } = page();
+    const post = vi.spyOn(SimulatedRobot.prototype, 'post').mockReturnValue(undefined); // it never answers
+    await source.start('play');
+    const standing = source.prepare();
+    vi.spyOn(SimulatedRobot.prototype, 'memories').mockRejectedValue(new Error('not needed here'));
+    files.broken = 'edit';
+    post.mockRestore();
+    void source.restart('edit');
+    await expect(standing).rejects.toMatchObject({ code: 'cancelled' });
+    await vi.waitFor(() => expect(seen.changes.some(({ physics }) => physics === 'off')).toBe(true));
+    const next = source.prepare();
+    await expect(next).rejects.toMatchObject({ code: 'no-answer' });
+    await expect(source.prepare()).rejects.toMatchObject({ code: 'no-answer' });
+    vi.restoreAllMocks();
+}, 60_000);
