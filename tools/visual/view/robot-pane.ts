@@ -66,7 +66,9 @@ export class RobotPane extends HTMLElement {
     }
 
     private render(state: SessionState): void {
-        this.classList.toggle('off', state.source !== 'simulated');
+        const isOff = state.source !== 'simulated';
+        this.classList.toggle('off', isOff);
+        for (const section of this.querySelectorAll<HTMLElement>('.sections > section')) section.inert = isOff; // for the keyboard, too
         for (const [speed, button] of this.speeds) button.setAttribute('aria-pressed', String(speed === state.speed));
     }
 
