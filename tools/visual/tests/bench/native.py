@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """How much faster than the robot the native board walks, without a body and with MuJoCo: the yardstick for the page's."""
 
-import os
 import pathlib
 import time
 
@@ -10,7 +9,7 @@ from body.physics import Physics
 from cm5sim import Board
 
 SECONDS = 20
-motions = (pathlib.Path(os.environ["M512_BUILD"]) / "motions" / "motions.bin").read_bytes()
+motions = (pathlib.Path(__file__).resolve().parents[4] / "build" / "motions" / "motions.bin").read_bytes()
 
 
 def walk(with_body):
