@@ -12,6 +12,9 @@ import type { Backup, DocumentStorage, KeptDocument } from '../view/document-sto
 import type { Documents, DocumentsState } from '../view/session/documents.ts';
 import { Store } from '../view/store.ts';
 import { TEXTS } from '../view/texts/texts.ts';
+import { HOLDS_NOTHING } from './hold-document.ts';
+import type { Release } from './hold-document.ts';
+import { Turns } from './turns.ts';
 
 /** The view of the open document. */
 export interface Shown {
@@ -20,8 +23,6 @@ export interface Shown {
     rename(name: string): void;
     edited(): Edited;
 }
-
-export type Release = () => void;
 
 /** Locks a document for this tab until the returned function is called. null: it is locked already. */
 export type Hold = (id: string) => Promise<Release | null>;
@@ -43,7 +44,6 @@ export interface DocumentsParts {
     readonly failed: (error: unknown) => void;
 }
 
-const HOLDS_NOTHING: Release = () => undefined;
 const NEWEST_FIRST = (a: { savedMs: number }, b: { savedMs: number }): number => b.savedMs - a.savedMs;
 
 export class KeptDocuments implements Documents {
@@ -61,7 +61,7 @@ export class KeptDocuments implements Documents {
     /** Lock of the open document. */
     private release = HOLDS_NOTHING;
     /** What is opened takes its lock one after the other. Nobody gets a lock twice, not even this tab. */
-    private turn: Promise<void> = Promise.resolve();
+    private readonly turns = new Turns();
 
     constructor(shown: Shown, parts: DocumentsParts) {
         this.shown = shown;
@@ -76,7 +76,7 @@ export class KeptDocuments implements Documents {
         const [newest] = [...kept.documents].sort(NEWEST_FIRST);
         this.state.set({ documents: kept.documents.map(entryOf) });
         if (!newest) return this.create(first.name, first);
-        await this.inTurn(() => this.take(newest.id));
+        await this.turns.run(() => this.take(newest.id));
         if (this.state.get().openId === '') await this.create(first.name, first); // another tab has just deleted it
     }
 
@@ -84,7 +84,7 @@ export class KeptDocuments implements Documents {
     create(name: string, from?: MotionDocument): Promise<void> {
         const id = this.begin(name, from ?? this.parts.empty);
         this.keep();
-        return this.inTurn(() => this.holdNew(id));
+        return this.turns.run(() => this.holdNew(id));
     }
 
     private async holdNew(id: string): Promise<void> {
@@ -104,7 +104,7 @@ export class KeptDocuments implements Documents {
 
     open(id: string): Promise<void> {
         const mine = ++this.chosen;
-        return this.inTurn(async () => {
+        return this.turns.run(async () => {
             if (mine === this.chosen && id !== this.state.get().openId) await this.take(id);
         });
     }
@@ -120,7 +120,7 @@ export class KeptDocuments implements Documents {
         this.drop(openId);
         const { documents } = await this.load(); // another tab may have removed some as well
         const [next] = documents.filter(({ id }) => id !== openId).sort(NEWEST_FIRST);
-        if (next) await this.inTurn(async () => (mine === this.chosen ? this.take(next.id) : undefined));
+        if (next) await this.turns.run(async () => (mine === this.chosen ? this.take(next.id) : undefined));
         else if (mine === this.chosen) await this.create(TEXTS.document.mine);
         this.newest.delete(openId);
         await this.parts.storage.removeDocument(openId).catch((error: unknown) => this.parts.failed(error));
@@ -203,12 +203,6 @@ export class KeptDocuments implements Documents {
 
     private drop(id: string): void {
         this.state.set({ documents: this.state.get().documents.filter(one => one.id !== id) });
-    }
-
-    private inTurn(action: () => Promise<void>): Promise<void> {
-        const done = this.turn.then(action);
-        this.turn = done.catch(() => undefined); // the caller gets the error
-        return done;
     }
 
     private async load(): ReturnType<DocumentStorage['load']> {

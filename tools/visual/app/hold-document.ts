@@ -5,9 +5,9 @@
 /** How long the previous page may hold its lock while the page reloads. */
 const RELOAD_MS = 1000;
 
-type Release = () => void;
+export type Release = () => void;
 
-const HOLDS_NOTHING: Release = () => undefined;
+export const HOLDS_NOTHING: Release = () => undefined;
 
 /** Locks a document until the returned function is called. null: it is locked already. */
 export function holdDocument(id: string): Promise<Release | null> {

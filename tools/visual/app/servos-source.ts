@@ -14,8 +14,10 @@ import { TEXTS } from '../view/texts/texts.ts';
 import { motionLibrary, servosModule } from './assets.ts';
 import { FollowedRobot } from './followed-robot.ts';
 import { holdServos } from './hold-document.ts';
+import type { Release } from './hold-document.ts';
 import { rememberAdapter, withPort } from './serial-ports.ts';
 import type { SourceEvents } from './simulated-source.ts';
+import { Turns } from './turns.ts';
 
 /** Time limit for the robot to come to a stop before the program is ended. */
 const STAND_MS = 5000;
@@ -26,9 +28,9 @@ export class ServosSource {
     private chosen: { readonly hint: PortHint; readonly name: string } | null = null;
     private client: ServosClient | null = null;
     private image: ImageName = 'play';
-    private turn: Promise<void> = Promise.resolve();
+    private readonly turns = new Turns();
     /** Lets another tab use the memories. null: this tab does not use them. */
-    private release: (() => void) | null = null;
+    private release: Release | null = null;
 
     constructor(body: Body, events: SourceEvents, mayAsk: () => boolean) {
         this.events = events;
@@ -54,7 +56,7 @@ export class ServosSource {
 
     /** Resolves when the adapter is open and the program runs; call connect() then. Rejects with RobotError, and nothing runs. */
     start(image: ImageName): Promise<void> {
-        return this.inTurn(async () => {
+        return this.turns.run(async () => {
             this.release ??= await holdServos(); // two tabs would overwrite each other's memories
             if (!this.release) throw new RobotError('second-tab');
             await this.begin(image).catch((error: unknown) => {
@@ -71,12 +73,12 @@ export class ServosSource {
 
     /** Stops the robot and starts another program on the same servos. The memories are kept. */
     restart(image: ImageName): Promise<void> {
-        return this.inTurn(() => this.again(image));
+        return this.turns.run(() => this.again(image));
     }
 
     /** Like restart(), but with the memories of a new robot. */
     forget(image: ImageName): Promise<void> {
-        return this.inTurn(async () => {
+        return this.turns.run(async () => {
             await this.again(image, () => forgetServos().catch(() => this.say(TEXTS.robot.notKept, 'bad')));
         });
     }
@@ -88,7 +90,7 @@ export class ServosSource {
 
     /** Stops movement. Servos that hold their pose keep holding it. */
     close(): Promise<void> {
-        return this.inTurn(async () => {
+        return this.turns.run(async () => {
             await this.end();
             this.letGo();
         });
@@ -97,12 +99,6 @@ export class ServosSource {
     private letGo(): void {
         this.release?.();
         this.release = null;
-    }
-
-    private inTurn(work: () => Promise<void>): Promise<void> {
-        const done = this.turn.then(work);
-        this.turn = done.catch(() => undefined); // the caller gets the error
-        return done;
     }
 
     private async again(image: ImageName, meanwhile: () => Promise<void> = () => Promise.resolve()): Promise<void> {

@@ -20,6 +20,7 @@ import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
 import { holdRobot } from './hold-document.ts';
 import { boardModule, motionLibrary, physics, robotImages } from './assets.ts';
 import { TickClock } from './tick-clock.ts';
+import { Turns } from './turns.ts';
 
 const KEY = 'cm5';
 /** The page of the motion library that takes the robot to its standing pose. */
@@ -58,7 +59,8 @@ export class SimulatedSource {
     private readonly body: Body;
     private readonly events: SourceEvents;
     private robot: SimulatedRobot | null = null;
-    private turn: Promise<void> = Promise.resolve();
+    /** One robot at a time: the second of two quick requests waits for the first. */
+    private readonly turns = new Turns();
     private isShown = true;
     private standing: Promise<void> | null = null;
     private isInHand = false;
@@ -82,7 +84,7 @@ export class SimulatedSource {
 
     /** Starts the first robot. */
     start(image: ImageName): Promise<void> {
-        return this.inTurn(async () => {
+        return this.turns.run(async () => {
             const [parts, kept] = await Promise.all([this.parts(image), this.load()]);
             this.begin(parts, kept);
         });
@@ -91,7 +93,7 @@ export class SimulatedSource {
     /** Restarts the robot with this image. Its memories are kept. Rejects if the image cannot be had; the robot then keeps running as
      *  before. */
     restart(image: ImageName): Promise<void> {
-        return this.inTurn(async () => {
+        return this.turns.run(async () => {
             const parts = await this.parts(image);
             const kept = await this.memories();
             await this.end();
@@ -101,20 +103,13 @@ export class SimulatedSource {
 
     /** Starts a factory-new robot. Rejects as restart() does. */
     forget(image: ImageName): Promise<void> {
-        return this.inTurn(async () => {
+        return this.turns.run(async () => {
             const parts = await this.parts(image);
             await this.end();
             if (await this.mayKeep)
                 await forgetRobot(KEY).catch(() => this.events.change({ message: { text: TEXTS.robot.notKept, tone: 'bad' } }));
             this.begin(parts, null);
         });
-    }
-
-    /** One robot at a time: the second of two quick requests waits for the first. */
-    private inTurn(action: () => Promise<void>): Promise<void> {
-        const done = this.turn.then(action);
-        this.turn = done.catch(() => undefined); // the caller gets the error
-        return done;
     }
 
     private async parts(image: ImageName): Promise<Parts> {

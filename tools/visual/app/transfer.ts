@@ -17,6 +17,7 @@ import type { Requests } from '../robot/requests.ts';
 import { errorText } from '../view/texts/robot.ts';
 import type { Transfer, TransferEnd, TransferState } from '../view/session/transfer.ts';
 import { Store } from '../view/store.ts';
+import { aborted } from './aborted.ts';
 
 export interface TransferParts {
     readonly format: PageFormat;
@@ -82,7 +83,7 @@ export class RobotTransfer implements Transfer {
             this.during('writing', async left => {
                 await this.orStopped(this.parts.becomeEdit());
                 const write = this.under ?? (await this.begin(document, pages, left));
-                stay(left);
+                left.throwIfAborted();
                 this.under = write;
                 await this.run(write, left);
                 this.tell(left, { phase: 'written' });
@@ -95,15 +96,15 @@ export class RobotTransfer implements Transfer {
     }
 
     cancel(): void {
-        this.stop.abort();
+        this.stop.abort(new RobotError('cancelled'));
     }
 
     /** Another robot is used from now on. A transfer with the one before ends and cannot be continued, or its pages would be written into
      *  the next robot. */
     leave(): void {
-        this.robot.abort();
+        this.robot.abort(new RobotError('cancelled'));
         this.robot = new AbortController();
-        this.stop.abort();
+        this.stop.abort(new RobotError('cancelled'));
         this.under = null;
         this.goesOn = () => this.read();
         this.state.set(IDLE);
@@ -146,7 +147,7 @@ export class RobotTransfer implements Transfer {
     }
 
     private async readRobot(left: AbortSignal): Promise<Uint8Array[]> {
-        stay(left);
+        left.throwIfAborted();
         const { format } = this.parts;
         const document = this.parts.document();
         const known = this.parts.robot();
@@ -161,7 +162,7 @@ export class RobotTransfer implements Transfer {
             signal: this.stop.signal,
             progress: (done, total) => this.tell(left, { done, total }),
         });
-        stay(left);
+        left.throwIfAborted();
         this.parts.setRobot(pages);
         return pages;
     }
@@ -180,14 +181,4 @@ export class RobotTransfer implements Transfer {
             return { isDone: false, error };
         }
     }
-}
-
-/** Rejects with RobotError cancelled when the signal is aborted. */
-function aborted(signal: AbortSignal): Promise<never> {
-    return new Promise((_, reject) => signal.addEventListener('abort', () => reject(new RobotError('cancelled')), { once: true }));
-}
-
-/** Throws if another robot is used by now. */
-function stay(left: AbortSignal): void {
-    if (left.aborted) throw new RobotError('cancelled');
 }

@@ -9,6 +9,7 @@ import type { StepTouch, Touch, TrialRecord, TrialRequest } from '../model/trial
 import type { TrialClient } from '../sim/trial-client.ts';
 import { Store } from '../view/store.ts';
 import type { Trials, TrialsState } from '../view/session/trials.ts';
+import { aborted } from './aborted.ts';
 import type { DocumentEditor } from './editor.ts';
 
 /** A looping motion is stopped after this: 6 s. */
@@ -166,11 +167,6 @@ export class MotionTrials implements Trials {
         );
         this.client = null;
     }
-}
-
-/** Rejects with the signal's reason when it is aborted. */
-function aborted(signal: AbortSignal): Promise<never> {
-    return new Promise((_, reject) => signal.addEventListener('abort', () => reject(signal.reason as Error), { once: true }));
 }
 
 function wordsOf(error: unknown): string {

@@ -74,11 +74,8 @@ test('a cable pulled while four pages are written: each is told as old or new, "
 test('a cable pulled during live follow ends it: the robot does not move by itself when it is connected again', async () => {
     const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
     const { page } = person;
-    const follow = page.getByRole('checkbox', { name: /^The robot follows/ });
     await person.untilStanding();
-    await person.open('Steps');
-    await page.getByRole('combobox', { name: 'Motion', exact: true }).selectOption('3');
-    await follow.check();
+    const follow = await person.follow();
     await page.locator('app-shell').evaluate(shell => (shell as unknown as Shell).session.sources.simulated.connection.port.unplug());
     await expect.poll(() => follow.isChecked()).toBe(false);
     await person.untilStanding(); // it connects again

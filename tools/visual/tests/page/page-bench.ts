@@ -6,7 +6,7 @@ import { spawn } from 'node:child_process';
 import type { ChildProcess } from 'node:child_process';
 import { existsSync } from 'node:fs';
 import { chromium } from 'playwright-core';
-import type { Browser, BrowserContext, ConsoleMessage, Page } from 'playwright-core';
+import type { Browser, BrowserContext, ConsoleMessage, Locator, Page } from 'playwright-core';
 
 export const BROWSER = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
 /** Without a graphics chip WebGL is drawn by software. The page is then composed without WebGL: composing with it takes 0.2 s per frame,
@@ -195,6 +195,15 @@ export class Visitor {
         await this.openMenu();
         await this.button(name).click();
         await this.closeMenu();
+    }
+
+    /** Ticks live follow in Steps, with a motion that has steps. Returns its box. */
+    async follow(): Promise<Locator> {
+        await this.open('Steps');
+        await this.page.getByRole('combobox', { name: 'Motion', exact: true }).selectOption('3');
+        const box = this.page.getByRole('checkbox', { name: /^The robot follows/ });
+        await box.check();
+        return box;
     }
 
     /** Opens "More" if this area has no tab yet. */

@@ -75,11 +75,8 @@ test('the space bar stops Edit, and Edit goes on; no key drives the robot from a
 test('Stop ends live follow: nothing that is edited then moves the robot', async () => {
     const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
     const { page } = person;
-    const follow = page.getByRole('checkbox', { name: /^The robot follows/ });
     await person.untilStanding();
-    await person.open('Steps');
-    await page.getByRole('combobox', { name: 'Motion', exact: true }).selectOption('3');
-    await follow.check();
+    const follow = await person.follow();
     await page.locator('#area-steps').getByRole('button', { name: 'Stop' }).click();
     await expect.poll(() => follow.isChecked()).toBe(false);
     await person.leave();

@@ -104,7 +104,7 @@ export class TeachBar extends HTMLElement {
         const isTaught = group.servos.every(servo => taught.has(servo));
         this.editing.set({ mode: 'hand', follow: false });
         this.mark(group, !isTaught);
-        if (!isTaught && this.session.state.get().source === 'simulated') this.carry(group);
+        if (!isTaught && source === 'simulated') this.carry(group);
         const isDone = await this.session.setTorque(isTaught, group.servos);
         if (source !== this.source) return; // another robot is used by now
         if (!isDone) this.mark(group, isTaught);

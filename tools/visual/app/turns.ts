@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// Actions that must not overlap: each begins when the one before it has ended.
+
+export class Turns {
+    private last: Promise<void> = Promise.resolve();
+
+    /** Runs the action after those before it, whether they succeed or fail. Rejects as the action does. */
+    run(action: () => Promise<void>): Promise<void> {
+        const done = this.last.then(action);
+        this.last = done.catch(() => undefined); // the caller gets the error
+        return done;
+    }
+}
