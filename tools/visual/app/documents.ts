@@ -215,14 +215,20 @@ export class KeptDocuments implements Documents {
         }
     }
 
+    /** undefined: it is not stored any more or could not be read, which has been reported. */
     private async find(id: string): Promise<KeptDocument | undefined> {
-        const found = (await this.load()).documents.find(kept => kept.id === id);
-        const entry = this.state.get().documents.find(one => one.id === id);
-        if (!found && entry) {
-            this.drop(id);
-            this.parts.gone(entry.name);
+        try {
+            const found = await this.parts.storage.readDocument(id);
+            const entry = this.state.get().documents.find(one => one.id === id);
+            if (!found && entry) {
+                this.drop(id);
+                this.parts.gone(entry.name);
+            }
+            return found;
+        } catch (error) {
+            this.parts.failed(error); // it may still be there, so it stays in the list
+            return undefined;
         }
-        return found;
     }
 
     private follow(put: Promise<void>): void {

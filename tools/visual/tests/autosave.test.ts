@@ -350,7 +350,7 @@ test('whatever is opened quickly, the last is shown and held, and no other, even
     const dances = documents.state.get().openId;
     await documents.create('Kicks');
     const kicks = documents.state.get().openId;
-    for (const call of ['load', 'readSteps'] as const)
+    for (const call of ['readDocument', 'readSteps'] as const)
         for (const [first, then] of [
             [bows, dances],
             [bows, bows], // twice the same
@@ -416,6 +416,19 @@ test('a document that another tab has deleted is told of, and is no document to 
     const kept = (await disk.load()).documents;
     expect(kept.map(one => one.id)).toEqual([documents.state.get().openId]);
     expect(kept).toHaveLength(1);
+});
+
+test('a document that could not be read is not said to be deleted, and stays in the list', async () => {
+    const disk = new PassingStorage();
+    const { editor, documents, failures, gone } = await openTab(disk);
+    const [mine] = documents.state.get().documents;
+    await documents.create('Dances');
+    vi.spyOn(disk, 'readDocument').mockRejectedValueOnce(new Error('UnknownError'));
+    await documents.open(mine?.id ?? '');
+    expect([failures.length, gone]).toEqual([1, []]);
+    expect(now(editor).name).toBe('Dances');
+    await documents.open(mine?.id ?? '');
+    expect(now(editor).name).toBe('My motions');
 });
 
 test('a disk that is full is told of, and the work goes on', async () => {

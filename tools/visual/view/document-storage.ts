@@ -35,6 +35,8 @@ export interface Kept {
 
 export interface DocumentStorage {
     load(): Promise<Kept>;
+    /** undefined: it is not stored, or unreadable. */
+    readDocument(id: string): Promise<KeptDocument | undefined>;
     /** Stores the document and the changes to its history in one transaction. */
     putDocument(document: KeptDocument, steps: StepsChange): Promise<void>;
     /** The stored steps of a document's history, in any order. */
@@ -120,6 +122,11 @@ export class BrowserStorage implements DocumentStorage {
         return sortKept(documents ?? [], backups ?? []);
     }
 
+    async readDocument(id: string): Promise<KeptDocument | undefined> {
+        const asked = this.database.transaction(DOCUMENTS).objectStore(DOCUMENTS).get(id) as IDBRequest<unknown>;
+        return sortKept([await done(asked)], []).documents[0];
+    }
+
     putDocument(document: KeptDocument, { dropBefore, dropFrom, add }: StepsChange): Promise<void> {
         return this.write(store => {
             store(DOCUMENTS).put(document);
@@ -168,6 +175,10 @@ export class PassingStorage implements DocumentStorage {
 
     load(): Promise<Kept> {
         return Promise.resolve(sortKept([...this.documents.values()], [...this.backups.values()]));
+    }
+
+    readDocument(id: string): Promise<KeptDocument | undefined> {
+        return Promise.resolve(this.documents.get(id));
     }
 
     putDocument(document: KeptDocument, { dropBefore, dropFrom, add }: StepsChange): Promise<void> {
