@@ -29,6 +29,11 @@ export interface RobotForPages {
     becomeEdit(): Promise<void>;
 }
 
+/** Not crypto.randomUUID(), which is missing over plain http from another machine. */
+function newId(): string {
+    return Array.from(crypto.getRandomValues(new Uint8Array(16)), byte => byte.toString(16).padStart(2, '0')).join('');
+}
+
 export function makeDocuments(
     editor: DocumentEditor,
     { storage, isKept }: ChosenStorage,
@@ -46,7 +51,7 @@ export function makeDocuments(
         hold: holdDocument,
         empty: emptyDocument(editor.format, ''),
         nowMs: () => Date.now(),
-        newId: () => crypto.randomUUID(),
+        newId,
     });
 }
 

@@ -5,6 +5,7 @@ import { SUFFIXES } from '../../model/file-formats.ts';
 import type { Suffix } from '../../model/file-formats.ts';
 import type { Session } from '../session/session.ts';
 import { onChoice } from '../choice.ts';
+import { copyText } from '../clipboard.ts';
 import { define, make } from '../element.ts';
 import type { FilesState } from '../session/files.ts';
 import { TEXTS } from '../texts/texts.ts';
@@ -97,10 +98,7 @@ export class FilesMenu extends HTMLElement {
         const hash = await this.session.files.link();
         if (hash === null) return;
         const address = addressOf(hash);
-        const isCopied = await navigator.clipboard.writeText(address).then(
-            () => true,
-            () => false,
-        );
+        const isCopied = await copyText(address);
         const field = make('input', { type: 'text', readonly: true, value: address, 'aria-label': TEXTS.files.link });
         this.show(
             TEXTS.files.linkTitle,

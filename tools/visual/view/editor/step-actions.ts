@@ -5,6 +5,7 @@ import { stepsFromText, stepsToText } from '../../model/step-text.ts';
 import { easyStep, robotPositions } from './editing.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
 import type { Session } from '../session/session.ts';
+import { copyText } from '../clipboard.ts';
 import { define, make } from '../element.ts';
 import { TEXTS } from '../texts/texts.ts';
 
@@ -163,12 +164,8 @@ export class StepActions extends HTMLElement {
     }
 
     private async copy(): Promise<void> {
-        try {
-            await navigator.clipboard.writeText(this.text());
-            this.session.say({ text: TEXTS.steps.copied, tone: 'good' });
-        } catch {
-            this.session.say({ text: TEXTS.steps.noClipboard, tone: 'bad' }); // the browser denies access
-        }
+        const isCopied = await copyText(this.text());
+        this.session.say(isCopied ? { text: TEXTS.steps.copied, tone: 'good' } : { text: TEXTS.steps.noClipboard, tone: 'bad' });
     }
 
     private async paste(): Promise<void> {

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The page over plain http from another machine, as a school may offer it: the browser lacks locks, the clipboard and crypto.randomUUID there.
+import { readFileSync } from 'node:fs';
+import { afterEach, beforeEach, expect, test, vi } from 'vitest';
+import { makeDocuments } from '../app/document-parts.ts';
+import { DocumentEditor } from '../app/editor.ts';
+import type { Body } from '../model/body.ts';
+import { copyText } from '../view/clipboard.ts';
+import { PassingStorage } from '../view/document-storage.ts';
+import { libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
+
+const body = JSON.parse(readFileSync(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
+
+beforeEach(() => {
+    const { crypto } = globalThis;
+    vi.stubGlobal('crypto', { getRandomValues: (bytes: Uint8Array<ArrayBuffer>) => crypto.getRandomValues(bytes) });
+    vi.stubGlobal('navigator', {});
+});
+afterEach(() => {
+    vi.unstubAllGlobals();
+});
+
+test('the first document opens, and the next one is another', async () => {
+    const { format } = await makeFormat();
+    const library = await libraryDocument();
+    const parts = { format, player: await makeMotion(), document: library };
+    const editor = new DocumentEditor(body, parts, { changed: () => undefined, refused: () => undefined, opened: () => undefined });
+    const events = { failed: vi.fn(), copied: vi.fn(), gone: vi.fn() };
+    const documents = makeDocuments(editor, { storage: new PassingStorage(), isKept: true }, events);
+    await documents.start(library);
+    const first = documents.state.get().openId;
+    await documents.create('another');
+    expect(first).not.toBe('');
+    expect(documents.state.get().documents.map(({ id }) => id)).toEqual([first, documents.state.get().openId]);
+    expect(documents.state.get().openId).not.toBe(first);
+});
+
+test('who sends a link is shown it, although it cannot be copied', async () => {
+    expect(await copyText('a link')).toBe(false);
+});
+
+test('a browser with a clipboard has it copied, unless it refuses', async () => {
+    const writeText = vi.fn().mockResolvedValueOnce(undefined).mockRejectedValueOnce(new DOMException('', 'NotAllowedError'));
+    vi.stubGlobal('navigator', { clipboard: { writeText } });
+    expect([await copyText('a link'), await copyText('a link')]).toEqual([true, false]);
+    expect(writeText).toHaveBeenCalledWith('a link');
+});
