@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Keys of the remote, pressed and released with others.
+// Keys of the remote: pressed and released with others, and while something else has the focus.
 import { expect, test } from 'vitest';
 import type { RemoteButton } from '../robot/remote.ts';
-import { buttonOf } from '../view/remote-keys.ts';
+import { buttonOf, isForFocus } from '../view/remote-keys.ts';
 
 const NONE = { ctrlKey: false, altKey: false, metaKey: false, shiftKey: false };
 
@@ -21,4 +21,28 @@ test('with Ctrl, Alt, Cmd or Shift a key is not for the remote; released it coun
 test('a key that the remote does not hold is released for the page: the space bar presses the button with the focus', () => {
     expect(buttonOf({ ...NONE, type: 'keyup', code: 'Space' }, NOTHING)).toBeUndefined();
     expect(buttonOf({ ...NONE, type: 'keyup', code: 'Space' }, HELD)).toBe('b6');
+});
+
+/** What has the focus matches these selectors. */
+function at(...matched: string[]): Pick<Element, 'closest'> {
+    return { closest: (selectors: string) => (selectors.split(', ').some(one => matched.includes(one)) ? {} : null) as Element | null };
+}
+
+const SLIDER = at('input');
+const FIELD = at('input', 'input:not([type="range"])');
+const LIST = at('select');
+const BUTTON = at('button');
+
+test('a robot that moves is stopped by the space bar after the speed was set by a slider or a motion chosen in a list', () => {
+    for (const focus of [null, SLIDER, LIST, BUTTON, at('button', '[role="tablist"]')])
+        expect(isForFocus('Space', focus, true)).toBe(false);
+    for (const focus of [FIELD, at('terminal-pane')]) expect(isForFocus('Space', focus, true)).toBe(true);
+    for (const focus of [LIST, BUTTON]) expect(isForFocus('Space', focus, false)).toBe(true);
+});
+
+test('a slider has its arrows, and the other keys drive', () => {
+    for (const code of ['KeyW', 'Digit6', 'Space']) expect(isForFocus(code, SLIDER, false), code).toBe(false);
+    expect(isForFocus('ArrowUp', SLIDER, true)).toBe(true);
+    for (const focus of [FIELD, LIST]) expect(isForFocus('Digit6', focus, true)).toBe(true);
+    for (const focus of [null, BUTTON]) expect(isForFocus('ArrowUp', focus, false)).toBe(false);
 });

@@ -37,3 +37,13 @@ export function buttonOf(key: Key, held: ReadonlySet<RemoteButton>): RemoteButto
     if (key.type === 'keyup') return button && held.has(button) ? button : undefined;
     return key.ctrlKey || key.altKey || key.metaKey || key.shiftKey ? undefined : button;
 }
+
+/** A key that is pressed is for what has the focus: letters for a field, arrows for a slider, the space bar for a button. But the space bar
+ *  stops a robot that moves, whatever has the focus, except a field. */
+export function isForFocus(code: string, focus: Pick<Element, 'closest'> | null, isMoving: boolean): boolean {
+    const isAt = (selectors: string): boolean => focus !== null && focus.closest(selectors) !== null;
+    if (isAt('input:not([type="range"]), textarea, terminal-pane')) return true;
+    if (code === 'Space' && isMoving) return false;
+    if (isAt('select, summary, [role="tablist"]')) return true;
+    return code === 'Space' ? isAt('button') : code.startsWith('Arrow') && isAt('input');
+}

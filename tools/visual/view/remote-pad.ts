@@ -15,7 +15,7 @@ import { TEXTS } from './texts/texts.ts';
 import { WaveButton } from './wave-button.ts';
 import { GamePad } from './game-pad.ts';
 import { KeyList } from './key-list.ts';
-import { buttonOf } from './remote-keys.ts';
+import { buttonOf, isForFocus } from './remote-keys.ts';
 import './remote-pad.css';
 
 const BUTTONS: readonly (readonly [RemoteButton, string])[] = [
@@ -113,13 +113,11 @@ export class RemotePad extends HTMLElement {
     private key(event: KeyboardEvent): void {
         if (event.key === 'Meta') return this.letGo(); // while Cmd is held, macOS reports no key that is released
         const name = buttonOf(event, this.held.keys);
-        const target = event.target instanceof HTMLElement ? event.target : null;
-        const isElsewhere =
-            target?.closest('input, select, textarea, summary, terminal-pane, [role="tablist"]') !== null && target !== null;
         if (!name) return;
         if (event.type === 'keydown' && this.session.state.get().tab !== 'remote') return; // in other areas the arrows edit
         if (event.type === 'keydown' && name !== 'b6' && isInDialog()) return; // in dialogs the arrows scroll
-        if (event.type === 'keydown' && (isElsewhere || (event.code === 'Space' && target?.closest('button') && !this.isPlaying))) return; // stops a moving robot
+        const focus = event.target instanceof Element ? event.target : null;
+        if (event.type === 'keydown' && isForFocus(event.code, focus, this.isPlaying)) return;
         event.preventDefault();
         this.change('keys', name, event.type === 'keydown');
     }
