@@ -66,11 +66,13 @@ export class RemotePad extends HTMLElement {
     private button(name: RemoteButton, sign: string, title: string): HTMLButtonElement {
         const button = make('button', { class: `key ${name}`, 'aria-label': title, title }, sign);
         const hold = (event: PointerEvent): void => {
+            if (event.button !== 0) return;
             button.setPointerCapture(event.pointerId);
             this.change('screen', name, true);
         };
         button.addEventListener('pointerdown', hold);
         for (const end of ['pointerup', 'pointercancel'] as const) button.addEventListener(end, () => this.change('screen', name, false));
+        button.addEventListener('contextmenu', event => event.preventDefault()); // the menu would take the release
         button.addEventListener('keydown', event => event.key === 'Enter' && this.change('screen', name, true));
         button.addEventListener('keyup', event => event.key === 'Enter' && this.change('screen', name, false));
         button.addEventListener('blur', () => this.change('screen', name, false));
