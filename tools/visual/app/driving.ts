@@ -30,7 +30,8 @@ export class Driving {
     private readonly stick: StickDrive;
     /** The keys pressed last while the robot could not receive them. */
     private wish: ReadonlySet<RemoteButton> | null = null;
-    private isBecoming = false;
+    /** Who waits until the robot in use can be driven; null: nobody. */
+    private becoming: symbol | null = null;
     private isPushed = false;
 
     constructor(parts: DrivingParts) {
@@ -55,6 +56,12 @@ export class Driving {
         if (this.keys.isHeld) this.keys.hold(new Set());
     }
 
+    /** Another robot is used from now on. It does not wait for the one before. */
+    leave(): void {
+        this.becoming = null;
+        this.letGo();
+    }
+
     drive(stick: Stick | null): void {
         if (stick && !this.isPushed) this.prepare(new Set()); // a stick that is still pushed then drives by itself
         this.isPushed = stick !== null;
@@ -77,18 +84,23 @@ export class Driving {
 
     private keep(held: ReadonlySet<RemoteButton>): void {
         this.wish = new Set(held);
-        if (this.isBecoming) return;
-        this.isBecoming = true;
-        this.parts
-            .becomeDriven()
-            .then(
-                () => this.carryOut(),
-                (error: unknown) => {
-                    this.wish = null;
-                    this.parts.messages.fail(error);
-                },
-            )
-            .finally(() => (this.isBecoming = false));
+        if (this.becoming) return;
+        const mine = Symbol('becoming');
+        this.becoming = mine;
+        const end = (action: () => void): void => {
+            if (mine !== this.becoming) return;
+            this.becoming = null;
+            action();
+        };
+        this.parts.becomeDriven().then(
+            () => end(() => this.carryOut()),
+            (error: unknown) => end(() => this.refuse(error)),
+        );
+    }
+
+    private refuse(error: unknown): void {
+        this.wish = null;
+        this.parts.messages.fail(error);
     }
 
     /** Play ignores a button that is already down when it starts (firmware/common/REMOTE.md), so all buttons are released first. A key that

@@ -345,7 +345,7 @@ export class RobotSession implements Session {
     /** What was asked of one robot must not move or change the next one. */
     private leaveRobot(): void {
         this.dropWaiting();
-        this.driving.letGo();
+        this.driving.leave();
         this.transfer.leave();
     }
 

@@ -69,10 +69,16 @@ function driven(start: Partial<SessionState>, isHeld = false) {
         },
         becomes,
         forget,
+        leave: (change: Partial<SessionState>): void => {
+            driving.leave();
+            state.set(change);
+        },
         sent,
         asks,
         written,
         refuse: (error: Error) => refuse(error),
+        /** How the robot that is asked for now would refuse. */
+        refusal: () => refuse,
         asked: () => asked,
         message: () => state.get().message,
     };
@@ -109,6 +115,23 @@ test('My servos start anew: a key is kept without a word until the program runs,
     await becomes({ source: 'servos' });
     await vi.advanceTimersByTimeAsync(500);
     expect(written).toEqual([remotePacket([]), remotePacket(['up']), remotePacket([])]);
+});
+
+test('My servos, chosen while the robot in the page stands up: a key for them does not wait for that robot, which stands still now', async () => {
+    const { press, leave, refusal, becomes, asked, message, sent, written } = driven({}, true);
+    press('up');
+    press();
+    const refuseInPage = refusal();
+    leave({ source: 'servos', connection: 'closed', version: null });
+    press('left');
+    press();
+    expect(asked()).toBe(2);
+    await becomes({ source: 'servos' });
+    await vi.advanceTimersByTimeAsync(500);
+    expect(written).toEqual([remotePacket([]), remotePacket(['left']), remotePacket([])]);
+    refuseInPage(new RobotError('no-answer'));
+    await vi.advanceTimersByTimeAsync(0);
+    expect([message(), sent]).toEqual([null, []]);
 });
 
 test('the last of several keys counts; one that is still held goes on by itself', async () => {
