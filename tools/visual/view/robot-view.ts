@@ -13,6 +13,7 @@ import type { Editing } from './editor/editing.ts';
 import { PoseTool } from './editor/pose-tool.ts';
 import { define, make, setText } from './element.ts';
 import { Fingers } from './fingers.ts';
+import { keyOf } from './key-of.ts';
 import { PictureQuality } from './picture-quality.ts';
 import { RobotScene } from './robot-scene.ts';
 import type { Picked } from './robot-scene.ts';
@@ -336,9 +337,10 @@ export class RobotView extends HTMLElement {
 
     private key(event: KeyboardEvent): void {
         if (event.ctrlKey || event.altKey || event.metaKey) return;
+        const push = ({ p: 1, P: -1 } as const)[keyOf(event)];
         if (this.pose?.isPosing && this.pose.key(event)) event.preventDefault();
         else if (event.key === 'Escape') this.release(false);
-        else if (event.key.toLowerCase() === 'p' && !this.pose?.isPosing) pushRobot(this.session, event.shiftKey ? -1 : 1);
+        else if (push && !this.pose?.isPosing) pushRobot(this.session, push);
         else this.lookByKey(event);
     }
 

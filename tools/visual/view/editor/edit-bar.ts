@@ -8,6 +8,7 @@ import type { EditorState } from '../../model/editor-state.ts';
 import type { Session } from '../session/session.ts';
 import type { DocumentsState } from '../session/documents.ts';
 import { onChoice } from '../choice.ts';
+import { keyOf } from '../key-of.ts';
 import { define, isTyping, make } from '../element.ts';
 import { ask, askText } from './ask-dialog.ts';
 import { editText, savingText } from '../texts/editor.ts';
@@ -130,11 +131,11 @@ export class EditBar extends HTMLElement {
     private key(event: KeyboardEvent): void {
         const isInDialog = event.target instanceof Element && event.target.closest('dialog') !== null;
         if (!(event.ctrlKey || event.metaKey) || event.altKey || isTyping(event) || isInDialog || this.closest('[hidden]')) return;
-        const key = event.key.toLowerCase();
-        if (key !== 'z' && key !== 'y') return;
+        const { editor } = this.session;
+        const action = { z: () => editor.undo(), Z: () => editor.redo(), y: () => editor.redo() }[keyOf(event)];
+        if (!action) return;
         event.preventDefault();
-        if (key === 'y' || event.shiftKey) this.session.editor.redo();
-        else this.session.editor.undo();
+        action();
     }
 }
 

@@ -7,6 +7,7 @@ import type { EditorState } from '../../model/editor-state.ts';
 import { PAGE_COUNT } from '../../model/motion.ts';
 import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
+import { keyOf } from '../key-of.ts';
 import { PageCard } from './page-card.ts';
 import { PageActions } from './page-actions.ts';
 import { TEXTS } from '../texts/texts.ts';
@@ -184,7 +185,7 @@ export class PagesPane extends HTMLElement {
                     x: () => this.actions.take(this.current),
                     v: () => this.actions.putTaken(this.current),
                 }),
-            }[event.key.length === 1 ? event.key.toLowerCase() : event.key]; // with Caps Lock, too
+            }[keyOf(event)];
         if (!action) return;
         event.preventDefault();
         void action();

@@ -6,6 +6,7 @@ import { easyStep, robotPositions } from './editing.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
 import type { Session } from '../session/session.ts';
 import { copyText } from '../clipboard.ts';
+import { keyOf } from '../key-of.ts';
 import { define, make } from '../element.ts';
 import { TEXTS } from '../texts/texts.ts';
 
@@ -60,8 +61,7 @@ export class StepActions extends HTMLElement {
     /** Handles a key of the row of steps. true: it was an action's key. */
     key(event: KeyboardEvent): boolean {
         if (event.ctrlKey || event.metaKey || event.altKey) return false;
-        const letter = event.shiftKey ? event.key.toUpperCase() : event.key.toLowerCase(); // Caps Lock is no Shift
-        const pressed = event.key.length === 1 ? letter : event.key;
+        const pressed = keyOf(event);
         const action = this.actions.find(({ key }) => key === pressed);
         const button = action && this.buttons.get(action);
         if (!button || button.disabled) return false;

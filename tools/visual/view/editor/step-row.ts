@@ -6,6 +6,7 @@ import { anglesOf } from '../../model/body.ts';
 import type { Step } from '../../model/page.ts';
 import type { Session } from '../session/session.ts';
 import { define, handOver, isTyping, make } from '../element.ts';
+import { keyOf } from '../key-of.ts';
 import { showPose } from './pose-picture.ts';
 import { TEXTS } from '../texts/texts.ts';
 import { nearestSetting, possibleSeconds, stepTimes } from './step-times.ts';
@@ -62,12 +63,7 @@ export class StepRow extends HTMLElement {
     /** Ctrl+A chooses all steps anywhere in Steps, except while typing. */
     listenForAll(): void {
         const all = (event: KeyboardEvent): void => {
-            if (
-                event.key.toLowerCase() !== 'a' ||
-                !(event.ctrlKey || event.metaKey) ||
-                event.altKey ||
-                this.session.state.get().tab !== 'steps'
-            )
+            if (keyOf(event) !== 'a' || !(event.ctrlKey || event.metaKey) || event.altKey || this.session.state.get().tab !== 'steps')
                 return;
             if (isTyping(event) || (event.target instanceof Element && event.target.closest('dialog'))) return;
             event.preventDefault();
