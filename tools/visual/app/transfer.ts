@@ -69,7 +69,7 @@ export class RobotTransfer implements Transfer {
         if (this.isBusy) return Promise.resolve(BUSY);
         this.goesOn = () => this.read();
         this.reading = this.during('reading', async left => {
-            await this.readRobot(left);
+            await this.readRobot(left, (done, total) => this.tell(left, { done, total }));
             this.tell(left, { phase: 'idle' });
         });
         return this.reading;
@@ -146,7 +146,8 @@ export class RobotTransfer implements Transfer {
         }
     }
 
-    private async readRobot(left: AbortSignal): Promise<Uint8Array[]> {
+    /** progress: not before a write, whose `done` are pages written. */
+    private async readRobot(left: AbortSignal, progress?: (done: number, total: number) => void): Promise<Uint8Array[]> {
         left.throwIfAborted();
         const { format } = this.parts;
         const document = this.parts.document();
@@ -160,7 +161,7 @@ export class RobotTransfer implements Transfer {
         const pages = await readPages(this.parts.requests(), bytes => format.crc(bytes), {
             known: candidates,
             signal: this.stop.signal,
-            progress: (done, total) => this.tell(left, { done, total }),
+            ...(progress && { progress }),
         });
         left.throwIfAborted();
         this.parts.setRobot(pages);

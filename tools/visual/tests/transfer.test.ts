@@ -12,6 +12,7 @@ import { askList } from '../robot/protocol.ts';
 import { PageWrite } from '../robot/page-write.ts';
 import type { PageToWrite } from '../robot/page-write.ts';
 import { MOTIONS_ADDRESS } from '../sim/board.ts';
+import { transferText } from '../view/texts/editor.ts';
 import { libraryDocument, makeFormat, must } from './motion-bench.ts';
 import { RobotBench } from './robot-bench.ts';
 
@@ -356,6 +357,23 @@ test('a page that came damaged from a robot is not passed on: not a byte of it g
     expect(sent.filter(line => /^@(open|data|save)/.test(line))).toEqual([]);
     expect(flashPage(bench, 19)).toEqual(pageOf(library, 19));
     expect(robot()[19]).toEqual(pageOf(library, 19));
+});
+
+test('the page: stopped while the robot is read, by itself or before a write: no motion is said to be written', async () => {
+    const { bench, connection } = await ready('edit', 62);
+    const { transfer, robot } = transferOn(bench, connection, twenty(bench));
+    for (const begin of [() => transfer.read(), () => transfer.write([1, 7])]) {
+        const said: string[] = [];
+        const unwatch = transfer.state.watch(state => said.push(transferText(state)));
+        const end = begin();
+        await bench.run(900); // some of the twenty pages are read
+        transfer.cancel();
+        expect(await bench.until(end, 1000)).toMatchObject({ error: { code: 'cancelled' } });
+        unwatch();
+        expect(robot()).toEqual([]);
+        expect(said.filter(text => /Written|are done/.test(text))).toEqual([]);
+        expect(said.at(-1)).toBe('Stopped.');
+    }
 });
 
 test('one transfer at a time: what is asked beside it is refused by name, and nothing of it goes down the line', async () => {

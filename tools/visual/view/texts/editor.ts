@@ -38,7 +38,7 @@ export function codeText(code: number): string {
 }
 
 /** State of the transfer in one sentence; '' when idle. */
-export function transferText({ phase, done, total, trouble }: TransferState): string {
+export function transferText({ phase, done, total, account, trouble }: TransferState): string {
     const { compare } = TEXTS;
     switch (phase) {
         case 'idle':
@@ -50,7 +50,7 @@ export function transferText({ phase, done, total, trouble }: TransferState): st
         case 'written':
             return compare.written(total);
         case 'stopped':
-            return [trouble ?? '', total > 0 ? compare.stopped(done, total) : ''].filter(Boolean).join(' ');
+            return [trouble ?? '', total > 0 && account.size > 0 ? compare.stopped(done, total) : ''].filter(Boolean).join(' '); // else it read
         default:
             return phase satisfies never;
     }
