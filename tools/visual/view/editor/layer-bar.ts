@@ -7,7 +7,7 @@ import { pageOf } from '../../model/document.ts';
 import { POSITION_MAX, POSITION_MIDDLE } from '../../model/motion.ts';
 import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
-import { jointTitle } from '../texts/robot.ts';
+import { jointTitle, layersText } from '../texts/robot.ts';
 import { TEXTS } from '../texts/texts.ts';
 import './layer-bar.css';
 
@@ -96,7 +96,8 @@ export class LayerBar extends HTMLElement {
     }
 
     private render(): void {
-        const { version, tab, source } = this.session.state.get();
+        const state = this.session.state.get();
+        const { version, tab, source } = state;
         if (tab !== 'remote') return;
         const { document, gesture } = this.session.editor.state.get();
         if (this.shown !== document.pages && !gesture) this.list(document.pages); // not during a drag
@@ -105,7 +106,7 @@ export class LayerBar extends HTMLElement {
         this.startPlay.hidden = isPlay || version === null || source === 'yours';
         this.showJoint();
         const text =
-            isPlay || version === null ? this.inForce() : source !== 'yours' ? TEXTS.layers.needsPlay : TEXTS.layers.needsPlayYours;
+            isPlay || version === null ? layersText(state) : source !== 'yours' ? TEXTS.layers.needsPlay : TEXTS.layers.needsPlayYours;
         if (this.status.textContent !== text) this.status.textContent = text;
     }
 
@@ -131,22 +132,6 @@ export class LayerBar extends HTMLElement {
         this.joint = joint;
         this.jointName.textContent = joint ? TEXTS.curves.line(joint.servo, jointTitle(joint)) : TEXTS.layers.chooseJoint;
         if (joint) this.position.value = String(Math.round(joint.zero));
-    }
-
-    /** The overlays that the robot reports. */
-    private inForce(): string {
-        const fields = this.session.state.get().where?.fields;
-        const page = Number(fields?.get('layer') ?? 0);
-        const aimed = Number.parseInt(fields?.get('aim') ?? '0', 16);
-        const ids = this.session.body.joints
-            .map(({ servo }) => servo)
-            .filter(servo => (aimed >>> servo) & 1)
-            .sort((a, b) => a - b);
-        const parts = [
-            page > 0 ? TEXTS.layers.laid(TEXTS.motion.title(page, this.session.editor.page(page).name)) : '',
-            ids.length > 0 ? TEXTS.layers.moved(ids) : '',
-        ];
-        return parts.filter(Boolean).join(' ') || TEXTS.layers.none;
     }
 
     private lay(): void {

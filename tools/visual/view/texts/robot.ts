@@ -2,6 +2,7 @@
 // Texts on the robot, in the current language.
 
 import type { Joint } from '../../model/body.ts';
+import { JOINTS } from '../../model/motion.ts';
 import type { ConnectionState } from '../../robot/connection-table.ts';
 import type { Where } from '../../robot/protocol.ts';
 import type { RobotError } from '../../robot/robot-error.ts';
@@ -72,4 +73,14 @@ export function startText(state: SessionState): string {
     if (where === null || where.state === 'idle' || where.state === 'ready') return robotText(state, where);
     const motion = motionTitle(state, where.page);
     return where.state === 'paused' ? TEXTS.status.pauses(motion) : TEXTS.status.plays(motion);
+}
+
+/** The second page that plays and the joints moved by code, as the robot reports them. The page may be one of those beyond the document's. */
+export function layersText(state: SessionState): string {
+    const fields = state.where?.fields;
+    const page = Number(fields?.get('layer') ?? 0);
+    const aimed = Number.parseInt(fields?.get('aim') ?? '0', 16);
+    const ids = Array.from({ length: JOINTS }, (_, id) => id).filter(id => (aimed >>> id) & 1);
+    const parts = [page > 0 ? TEXTS.layers.laid(motionTitle(state, page)) : '', ids.length > 0 ? TEXTS.layers.moved(ids) : ''];
+    return parts.filter(Boolean).join(' ') || TEXTS.layers.none;
 }
