@@ -132,7 +132,7 @@ export class CurveHand {
     private chooseStep(by: number): void {
         const { editor } = this.session;
         const { page, step } = editor.state.get();
-        const to = Math.min(Math.max(step + by, 0), editor.page(page).steps.length - 1);
+        const to = Math.max(0, Math.min(step + by, editor.page(page).steps.length - 1)); // also without steps
         editor.select({ step: to, steps: new Set([to]) });
     }
 
