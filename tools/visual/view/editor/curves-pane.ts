@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The area Curves: the firmware player's output for the page, under the selected law and with the shape applied.
 
-import { degreesOf } from '../../model/body.ts';
 import type { TickSpan } from '../../model/curve-speed.ts';
 import type { Shape } from '../../model/motion.ts';
 import type { Session, Tab } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
+import { lagText } from '../texts/editor.ts';
 import { jointTitle } from '../texts/robot.ts';
 import { TEXTS } from '../texts/texts.ts';
 import { busiestLimb } from '../../model/busiest-limb.ts';
@@ -92,27 +92,13 @@ export class CurvesPane extends HTMLElement {
 
     /** Explains the dotted and thin lines. */
     private sayLines(drawn: Drawn): void {
-        const { joints } = this.session.editor.state.get();
         const text = [
-            drawn.isShaped && joints.size > 0 ? TEXTS.curves.stored : '',
-            this.follow.checked ? this.lagText(drawn, joints.size > 0) : '',
+            drawn.isShaped && drawn.chosen.length > 0 ? TEXTS.curves.stored : '',
+            this.follow.checked ? lagText(drawn, this.session.body) : '',
         ]
             .filter(Boolean)
             .join(' ');
         if (this.lines.textContent !== text) this.lines.textContent = text;
-    }
-
-    private lagText({ lags, isUnknown }: Drawn, hasJoint: boolean): string {
-        if (isUnknown) return TEXTS.curves.noLags;
-        if (!hasJoint) return TEXTS.curves.lagsNeedJoint;
-        return lags.size === 0
-            ? TEXTS.curves.lagsComing
-            : TEXTS.curves.lags(
-                  this.session.body.joints.flatMap(joint => {
-                      const units = lags.get(joint.servo);
-                      return units === undefined ? [] : [[joint.servo, degreesOf(joint, units)] as const];
-                  }),
-              );
     }
 
     private jointRow(): HTMLElement {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Texts on the document and its edits, in the current language.
 
+import { degreesOf } from '../../model/body.ts';
+import type { Body } from '../../model/body.ts';
 import type { PageFinding } from '../../model/checks.ts';
 import { NOMINAL_VOLTS } from '../../model/motion.ts';
 import type { Refusal } from '../../model/result.ts';
 import type { Transaction } from '../../model/transaction.ts';
 import { buttonsOf } from '../../robot/remote.ts';
+import type { Drawn } from '../editor/curve-canvas.ts';
 import type { TransferState } from '../session/transfer.ts';
 import { TEXTS } from './texts.ts';
 
@@ -82,4 +85,21 @@ export function findingText({ kind, step, amount, fault }: PageFinding, joint: s
         default:
             return kind satisfies never;
     }
+}
+
+/** How far the servos of the lines drawn bold are behind, in physics. A chosen joint that the motion does not use has no line. */
+export function lagText(
+    { chosen, lags, isUnknown }: Pick<Drawn, 'chosen' | 'lags' | 'isUnknown'>,
+    { joints }: Pick<Body, 'joints'>,
+): string {
+    const { curves } = TEXTS;
+    if (isUnknown) return curves.noLags;
+    if (chosen.length === 0) return curves.lagsNeedJoint;
+    if (lags.size === 0) return curves.lagsComing;
+    return curves.lags(
+        joints.flatMap(joint => {
+            const units = lags.get(joint.servo);
+            return units === undefined ? [] : [[joint.servo, degreesOf(joint, units)] as const];
+        }),
+    );
 }
