@@ -36,6 +36,8 @@ static struct {
     bool is_playing;               /* by the console's reports */
     bool is_starting;              /* the program has not printed yet */
     bool is_searching;             /* `servos find` was typed and its result is not printed yet */
+    bool searches_again;           /* it was typed once more meanwhile */
+    bool asked_in_search;          /* a request waits for the end of the search */
     bool pages_are_edited;
     bool checks_pages;
 } rules;
@@ -95,11 +97,14 @@ static void line_typed(void)
     rules.is_slow = rules.is_slow || !session.typed_is_known || may_slow(line);
     if (session.is_edit || !session.typed_is_known || may_move(line)) {
         session.asked_tick = session.tick;
+        rules.asked_in_search = rules.is_searching;
     }
     if (session.is_edit && (!session.typed_is_known || strstr(line, "sav") != NULL)) {
         session.save_asked_tick = session.tick;
     }
-    rules.is_searching = rules.is_searching || (!session.is_edit && session.typed_is_known && strstr(line, "find") != NULL);
+    const bool searches = !session.is_edit && session.typed_is_known && strstr(line, "find") != NULL;
+    rules.searches_again = rules.searches_again || (rules.is_searching && searches);
+    rules.is_searching = rules.is_searching || searches;
     marks_typed(line);
     answers_typed(line);
     if (!session.is_edit) {
@@ -416,7 +421,10 @@ void rules_printed(const char *line)
     }
     if (strstr(line, " servos: ") != NULL) {
         servos_are_listed(rules.is_searching);
-        rules.is_searching = false;
+        rules.is_searching = rules.searches_again;
+        rules.searches_again = false;
+        session.asked_tick = rules.asked_in_search ? session.tick : session.asked_tick;
+        rules.asked_in_search = rules.asked_in_search && rules.is_searching;
     }
     if (strncmp(line, "No answer from servos ", 22) == 0) {
         silent_ones_named(line + 22);
@@ -511,6 +519,7 @@ void rules_boot(void)
     editor_play_boot();
     rules.is_starting = true;
     rules.is_searching = true;
+    rules.searches_again = rules.asked_in_search = false;
     rules.is_playing = rules.is_shaped = rules.is_slow = false;
     rules.ended_tick = NEVER_TICK;
     memset(rules.silent_tick, 0, sizeof rules.silent_tick);
