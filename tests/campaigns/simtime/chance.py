@@ -13,7 +13,7 @@ from tests.campaigns.fuzz_board import pages as play_pages
 SECOND = 128
 START = 3 * SECOND  # the search for servos is over
 LOOKED_AT = 220  # ticks until everything is painted and the rules have checked it
-CAPITALS, DEAF = 0.06, 0.1  # shares: of lines; of sessions in which some servos ignore SYNC WRITE
+CAPITALS, DEAF, SPOILT = 0.06, 0.1, 0.4  # shares: of lines; of sessions in which some servos ignore SYNC WRITE; of sent pages
 LONG, MANY = 180 * SECOND, 100_000
 LAW_PAGES = range(20, 30)
 SOFT_PAGES = (1, 2, 3, 4, 5, 6, 7, 8, 9, 12, 13, 14, 21, 22, *LAW_PAGES)
@@ -576,14 +576,17 @@ class Editor(Person):
         self.line(self.rng.choice(("@where", "@pose", "@crc", "@ver", "@list 1 9", "@page 1", "@watch 50", "@watch 0")))
 
     def uploads(self):
-        """A program saves a page. A cut must leave the old or the complete new one."""
+        """A program saves a page, sometimes one that cannot be played. A cut must leave the old or the complete new one."""
         rng = self.rng
         data = bytearray(play_pages()[13 * 512 : 14 * 512])
         for _ in range(rng.randrange(1, 9)):
             data[64 + 64 * rng.randrange(2) + 62 + rng.randrange(2)] = rng.randrange(1, 200)
+        if rng.random() < SPOILT:
+            at, value = rng.choice(((16, 5), (20, 9), (22, 0)))  # schedule, steps, speed
+            data[at] = value
         data[31] = 0
         data[31] = 255 - sum(data) % 256
-        number = rng.randrange(40, 60)
+        number = rng.choice((*PLAYED, *range(40, 60)))
         self.act(typed(b"\0@"), SECOND // 2)
         self.act(typed(b"\x15\r"), SECOND // 4)
         self.line(f"@open {number}", 20)
@@ -598,6 +601,7 @@ class Editor(Person):
         if rng.random() < 0.5:
             self.act(f"cutwrite {rng.randrange(1, 9)}")
         self.line(f"@save {number} 0x{crc:04x}", SECOND)
+        self.line(f"@list {number} {number}", SECOND // 2)
 
     WEIGHTS = (
         ("opens", 4),
