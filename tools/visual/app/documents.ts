@@ -114,16 +114,20 @@ export class KeptDocuments implements Documents {
         this.keep();
     }
 
-    async remove(): Promise<void> {
-        const { openId } = this.state.get();
+    async remove(id: string): Promise<void> {
+        this.drop(id);
+        if (id === this.state.get().openId) await this.openOther(id);
+        this.newest.delete(id);
+        await this.parts.storage.removeDocument(id).catch((error: unknown) => this.parts.failed(error));
+    }
+
+    /** Opens the newest document but this one. */
+    private async openOther(than: string): Promise<void> {
         const mine = ++this.chosen;
-        this.drop(openId);
         const { documents } = await this.load(); // another tab may have removed some as well
-        const [next] = documents.filter(({ id }) => id !== openId).sort(NEWEST_FIRST);
+        const [next] = documents.filter(({ id }) => id !== than).sort(NEWEST_FIRST);
         if (next) await this.turns.run(async () => (mine === this.chosen ? this.take(next.id) : undefined));
         else if (mine === this.chosen) await this.create(TEXTS.document.mine);
-        this.newest.delete(openId);
-        await this.parts.storage.removeDocument(openId).catch((error: unknown) => this.parts.failed(error));
     }
 
     async read(id: string): Promise<MotionDocument | null> {

@@ -228,7 +228,7 @@ test('several documents, each with its own pages; the one edited last is opened'
             .documents.map(one => one.name)
             .sort(),
     ).toEqual(['Bows', 'Dances']);
-    await again.documents.remove();
+    await again.documents.remove(again.documents.state.get().openId);
     expect(now(again.editor).name).toBe('Dances');
 });
 
@@ -410,12 +410,23 @@ test('a document that another tab has deleted is told of, and is no document to 
     expect(gone).toEqual(['Dances']);
     expect(documents.state.get().documents.map(one => one.name)).toEqual(['My motions', 'Kicks']);
     await disk.removeDocument(bows);
-    await documents.remove();
+    await documents.remove(documents.state.get().openId);
     editor.dispatch(editor.edits.rename(now(editor), 2, 'curtsy'));
     await settle();
     const kept = (await disk.load()).documents;
     expect(kept.map(one => one.id)).toEqual([documents.state.get().openId]);
     expect(kept).toHaveLength(1);
+});
+
+test('another document opens while the question whether to delete this one is open: this one is deleted', async () => {
+    const disk = new PassingStorage();
+    const { editor, documents } = await openTab(disk);
+    const bows = documents.state.get().openId;
+    await documents.create('Dances');
+    await documents.remove(bows);
+    expect(now(editor).name).toBe('Dances');
+    expect(documents.state.get().documents.map(one => one.name)).toEqual(['Dances']);
+    expect((await disk.load()).documents.map(one => one.name)).toEqual(['Dances']);
 });
 
 test('a document that could not be read is not said to be deleted, and stays in the list', async () => {

@@ -85,7 +85,8 @@ export class EditBar extends HTMLElement {
     private async chooseDocument(value: string): Promise<void> {
         const { documents, editor } = this.session;
         const { name } = editor.state.get().document;
-        this.documents.value = documents.state.get().openId;
+        const { openId } = documents.state.get(); // another one may be open when a question is answered
+        this.documents.value = openId;
         switch (value) {
             case NEW:
                 return this.create(TEXTS.document.createTitle, TEXTS.document.mine);
@@ -103,11 +104,11 @@ export class EditBar extends HTMLElement {
                 return this.createFromRobot();
             case RENAME: {
                 const given = await askText(TEXTS.document.renameTitle, TEXTS.document.name, name);
-                return given ? documents.rename(given) : undefined;
+                return given && openId === documents.state.get().openId ? documents.rename(given) : undefined;
             }
             case REMOVE:
                 return (await ask(TEXTS.document.removeTitle, TEXTS.document.removal(name), [[TEXTS.document.removes, 'delete']]))
-                    ? documents.remove()
+                    ? documents.remove(openId)
                     : undefined;
             default:
                 return documents.open(value);

@@ -30,8 +30,8 @@ export interface Documents {
     create(name: string, from?: MotionDocument): Promise<void>;
     open(id: string): Promise<void>;
     rename(name: string): void;
-    /** Removes the open document and opens the newest of the others. Cannot be undone: ask first. */
-    remove(): Promise<void>;
+    /** Removes a document. If it is open, the newest of the others is opened. Cannot be undone: ask first. */
+    remove(id: string): Promise<void>;
     /** Reads another document, to compare with. null: it no longer exists. */
     read(id: string): Promise<MotionDocument | null>;
 }
