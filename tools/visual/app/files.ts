@@ -46,6 +46,8 @@ export class DocumentFiles implements Files {
     /** Counts what is read or written. `busy` describes the last. */
     private begun = 0;
     private endLook: () => void = () => undefined;
+    /** Counts chosen files. The last one is opened, even if an earlier one comes later. */
+    private chosen = 0;
 
     constructor(editor: DocumentEditor, formats: FileFormats, parts: FilesParts) {
         this.editor = editor;
@@ -54,8 +56,10 @@ export class DocumentFiles implements Files {
     }
 
     async choose(file: ChosenFile, ...others: readonly ChosenFile[]): Promise<void> {
+        const mine = ++this.chosen;
         if (others.length > 0) return this.state.set({ ...NOTHING, trouble: TEXTS.files.oneOnly(others.length + 1) });
         const bytes = await bytesOf(file);
+        if (mine !== this.chosen) return;
         if (typeof bytes === 'string') return this.state.set({ ...NOTHING, trouble: bytes });
         await this.open(file.name, bytes);
     }

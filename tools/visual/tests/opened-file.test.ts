@@ -114,16 +114,30 @@ test('of two files that are dropped quickly the last is shown, and it can be can
     vi.spyOn(files.formats, 'open').mockImplementation(() => new Promise(resolve => answers.push(resolve as (answer: object) => void)));
     const file = (name: string) => ({ name, size: 1, arrayBuffer: () => Promise.resolve(new ArrayBuffer(1)) });
     const image = imageOf(library);
-    const both = [files.choose(file('first.mtn')), files.choose(file('second.mtn'))];
+    const first = files.choose(file('first.mtn'));
+    await vi.waitFor(() => expect(answers).toHaveLength(1));
+    const second = files.choose(file('second.mtn'));
     await vi.waitFor(() => expect(answers).toHaveLength(2));
     answers[0]?.({ kind: 'opened', image, notes: [], losses: [] });
-    await both[0];
+    await first;
     expect(files.state.get()).toMatchObject({ opened: null, busy: TEXTS.files.reading('second.mtn') });
     files.dismiss(); // a dialog about something else is closed
     expect(files.state.get().busy).toBe(TEXTS.files.reading('second.mtn'));
     answers[1]?.({ kind: 'opened', image, notes: [], losses: [] });
-    await both[1];
+    await second;
     expect(files.state.get()).toMatchObject({ opened: { name: 'second.mtn' }, busy: null });
+});
+
+test('a file that comes late, as from a network drive, does not take the place of one that was chosen after it', async () => {
+    const { files } = await opened(new Map());
+    const image = imageOf(library);
+    vi.spyOn(files.formats, 'open').mockResolvedValue({ kind: 'opened', image, notes: [], losses: [] });
+    let come = (_: ArrayBuffer): void => undefined;
+    const late = files.choose({ name: 'late.mtn', size: 1, arrayBuffer: () => new Promise(resolve => (come = resolve)) });
+    await files.choose({ name: 'soon.mtn', size: 1, arrayBuffer: () => Promise.resolve(new ArrayBuffer(1)) });
+    come(new ArrayBuffer(1));
+    await late;
+    expect(files.state.get().opened?.name).toBe('soon.mtn');
 });
 
 test('several files dropped at once: none is opened, and it is said', async () => {
