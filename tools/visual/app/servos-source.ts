@@ -31,6 +31,8 @@ export class ServosSource {
     private readonly turns = new Turns();
     /** Lets another tab use the memories. null: this tab does not use them. */
     private release: Release | null = null;
+    /** false: another robot was chosen. A program that is being restarted then stays ended. */
+    private isUsed = false;
 
     constructor(body: Body, events: SourceEvents, mayAsk: () => boolean) {
         this.events = events;
@@ -59,6 +61,7 @@ export class ServosSource {
         return this.turns.run(async () => {
             this.release ??= await holdServos(); // two tabs would overwrite each other's memories
             if (!this.release) throw new RobotError('second-tab');
+            this.isUsed = true;
             await this.begin(image).catch((error: unknown) => {
                 this.letGo();
                 throw error;
@@ -90,6 +93,7 @@ export class ServosSource {
 
     /** Stops movement. Servos that hold their pose keep holding it. */
     close(): Promise<void> {
+        this.isUsed = false;
         return this.turns.run(async () => {
             await this.end();
             this.letGo();
@@ -102,11 +106,13 @@ export class ServosSource {
     }
 
     private async again(image: ImageName, meanwhile: () => Promise<void> = () => Promise.resolve()): Promise<void> {
+        if (!this.isUsed) return;
         this.events.change({ connection: 'closed', version: null, where: null, adapter: null, stopped: null });
         await this.end();
         await meanwhile();
+        if (!this.isUsed) return;
         await this.begin(image);
-        this.connect();
+        if (this.isUsed) this.connect();
     }
 
     private async begin(image: ImageName): Promise<void> {

@@ -26,6 +26,25 @@ class Refused {
     }
 }
 
+/** A worker whose program runs until it is asked to end. */
+class Runs {
+    static made = 0;
+    onmessage: ((event: { data: object }) => void) | null = null;
+
+    constructor() {
+        Runs.made++;
+    }
+
+    postMessage({ kind }: { kind: string }): void {
+        const answer = { start: 'started', end: 'ended' }[kind];
+        if (answer) setTimeout(() => this.onmessage?.({ data: { kind: answer } }), 20);
+    }
+
+    terminate(): void {
+        this.onmessage = null;
+    }
+}
+
 afterEach(() => {
     vi.unstubAllGlobals();
 });
@@ -47,4 +66,25 @@ test('a tab whose adapter could not be opened does not keep My servos from anoth
     await source.choose();
     await expect(source.start('play')).rejects.toMatchObject({ code: 'port-busy' });
     await vi.waitFor(() => expect([...held]).toEqual([]));
+});
+
+test('another robot is chosen while My servos change to Edit: they do not start again, nor report as the robot in use', async () => {
+    const port = { getInfo: () => ({}) };
+    const serial = { requestPort: () => Promise.resolve(port), getPorts: () => Promise.resolve([port]) };
+    vi.stubGlobal('navigator', { serial });
+    vi.stubGlobal('Worker', Runs);
+    const events = { frame: vi.fn(), text: vi.fn(), connection: vi.fn(), change: vi.fn(), motions: vi.fn() };
+    const source = new ServosSource(BODY, events, () => false);
+    await source.choose();
+    await source.start('play');
+    source.connect();
+    const restarted = source.restart('edit');
+    await new Promise(resolve => setTimeout(resolve, 5)); // the program is asked to end
+    events.connection.mockClear();
+    const closed = source.close();
+    void source.restart('play'); // as when the program has ended by itself
+    await Promise.all([restarted, closed]);
+    await new Promise(resolve => setTimeout(resolve, 100));
+    expect(events.connection.mock.calls).toEqual([]);
+    expect(Runs.made).toBe(1);
 });
