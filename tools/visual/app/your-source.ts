@@ -23,10 +23,12 @@ export class YourSource {
         return this.robot.connection;
     }
 
-    /** Lets the person choose a port unless one was already allowed. false: the chooser was closed. */
+    /** Lets the person choose a port unless one was already allowed. Chosen again because nothing of ours answers there, it may be another
+     *  one. false: the chooser was closed. */
     choose(): Promise<boolean> {
+        const isInVain = (this.connection?.error ?? null) !== null;
         return withPort(async () => {
-            const known = (await navigator.serial.getPorts()).find(port => !isAdapter(port));
+            const known = isInVain ? undefined : (await navigator.serial.getPorts()).find(port => !isAdapter(port));
             this.port = known ?? (await navigator.serial.requestPort());
         });
     }

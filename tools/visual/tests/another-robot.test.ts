@@ -180,6 +180,21 @@ test('Stop right after Play: the picture does not begin to move when the robot h
     expect(session.preview.state.get().isRunning).toBe(false);
 });
 
+test('nothing answers at the port: chosen again, the browser lets the person choose another one', async () => {
+    const { session, yours } = await page('play');
+    const deaf = Object.assign(new BytePort('an adapter without a board', () => undefined), { getInfo: () => ({}) });
+    const requestPort = vi.fn(() => Promise.resolve(yours.port));
+    const getPorts = () => Promise.resolve([deaf, yours.port]);
+    vi.stubGlobal('navigator', { serial: { getPorts, requestPort, addEventListener: () => undefined } });
+    await session.connectYours();
+    await session.connectYours(); // a double click is no second choice
+    await vi.waitFor(() => expect(session.state.get().connection).toBe('silent'), { timeout: 10_000 });
+    expect(requestPort).not.toHaveBeenCalled();
+    await session.connectYours();
+    await vi.waitFor(() => expect(session.state.get().connection).toBe('ready'), { timeout: 10_000 });
+    expect(requestPort).toHaveBeenCalledTimes(1);
+});
+
 test('a paste of a whole file reaches no robot, and it is said', async () => {
     const { session, inPage } = await page('play');
     const before = inPage.sent.length;
