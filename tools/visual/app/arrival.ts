@@ -2,6 +2,7 @@
 // What the page does when a robot answers. It asks for the robot's pages, stands the robot in the page up, and backs up your robot.
 
 import type { ConnectionState } from '../robot/connection-table.ts';
+import { askPageCrcs } from '../robot/page-requests.ts';
 import { askList, askPose } from '../robot/protocol.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { SessionState } from '../view/session/session.ts';
@@ -43,7 +44,9 @@ export class Arrival {
         void askList(sources.connection.requests).then(pages => state.set({ pages }), this.fail);
         this.standUp();
         void status.ask();
-        if (!sources.isSimulated && editor.state.get().robot.length === 0) void this.learnYours();
+        if (sources.isSimulated) return;
+        if (editor.state.get().robot.length === 0) void this.learnYours();
+        else void this.lookAgain().catch((error: unknown) => this.isUntold(error) || messages.fail(error));
     }
 
     /** The robot in the page stands up by itself once it answers and has a body, whichever comes last. */
@@ -59,11 +62,22 @@ export class Arrival {
         if (!isRestart) this.parts.messages.fail(error);
     };
 
+    /** The cable may lead to another board now, or somebody has saved pages in this one. What was read then counts no more. A transfer that
+     *  was cut off is left to the person, who continues it. */
+    private async lookAgain(): Promise<void> {
+        const { sources, editor, transfer } = this.parts;
+        const crcs = await askPageCrcs(sources.connection.requests);
+        const isSame = editor.state.get().robot.every((bytes, page) => bytes === null || editor.format.crc(bytes) === crcs[page]);
+        if (isSame || !['idle', 'written'].includes(transfer.state.get().phase)) return;
+        editor.setRobot([]);
+        await this.learnYours();
+    }
+
     /** Reads your robot's pages and keeps them as a backup once the robot is known, without asking the person. */
     private async learnYours(): Promise<void> {
         const { state, messages, editor, transfer } = this.parts;
         const end = await transfer.read();
-        if (!end.isDone) return UNTOLD.includes(end.error.code) ? undefined : messages.fail(end.error);
+        if (!end.isDone) return this.isUntold(end.error) ? undefined : messages.fail(end.error);
         const pages = editor.state.get().robot.filter(bytes => bytes !== null);
         try {
             await transfer.keep(pages);
@@ -72,6 +86,10 @@ export class Arrival {
         }
         if (state.get().source === 'servos') return this.tellServos().catch(messages.fail);
         messages.say({ text: TEXTS.robot.isBackedUp, tone: 'calm' });
+    }
+
+    private isUntold(error: unknown): boolean {
+        return error instanceof RobotError && UNTOLD.includes(error.code);
     }
 
     /** Reports which servos answer and which IDs up to the highest one are missing. */

@@ -56,6 +56,35 @@ test('a robot whose backup could not be stored is not said to be backed up', asy
     expect(say).not.toHaveBeenCalled();
 });
 
+const KNOWN = [new Uint8Array([1]), null, new Uint8Array([3])];
+
+/** Your robot, whose pages are known, answers once more. crcs: of its pages 0 to 2. */
+async function answersAgain(crcs: string, phase: string) {
+    const known = new Store({ robot: KNOWN as readonly (Uint8Array | null)[] });
+    const read = vi.fn(() => Promise.resolve({ isDone: true }));
+    const keep = vi.fn(() => Promise.resolve());
+    const ask = (text: string) => Promise.resolve(text.startsWith('@crcs') ? crcs : '');
+    const arrival = arrivalWith({
+        messages: { fail: vi.fn(), say: nothing },
+        sources: { ...YOURS, connection: { ...YOURS.connection, requests: { ask } } },
+        editor: { state: known, format: { crc: ([first = 0]: Uint8Array) => first }, setRobot: (robot: []) => known.set({ robot }) },
+        transfer: { state: new Store({ phase }), read, keep },
+    });
+    arrival.connectionChanged('ready');
+    await new Promise(resolve => setTimeout(resolve, 10));
+    return { read, keep, robot: known.get().robot };
+}
+
+test.each([
+    ['another board is on the cable', `0001${'0007'.repeat(127)}`, 'idle', true],
+    ['the same pages', `000100070003${'0007'.repeat(125)}`, 'idle', false],
+    ['a write was cut off, which Try again continues', `0001${'0007'.repeat(127)}`, 'stopped', false],
+] as const)('a robot that answers again, %s: read and backed up, or not', async (_, crcs, phase, isRead) => {
+    const { read, keep, robot } = await answersAgain(crcs, phase);
+    expect([read, keep].map(one => one.mock.calls.length)).toEqual(isRead ? [1, 1] : [0, 0]);
+    expect(robot).toEqual(isRead ? [] : KNOWN); // what is known of the board before is not shown as this one's
+});
+
 test.each([
     ['foreign', 1], // a damaged answer
     ['cancelled', 0], // by the person, or another robot was chosen
