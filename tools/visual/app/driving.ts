@@ -63,7 +63,10 @@ export class Driving {
     }
 
     drive(stick: Stick | null): void {
-        if (stick && !this.isPushed) this.prepare(new Set()); // a stick that is still pushed then drives by itself
+        if (stick && !this.isPushed) {
+            this.prepare(new Set()); // a stick that is still pushed then drives by itself
+            if (this.hasNoWalk) this.parts.messages.complain(TEXTS.robot.noWalk, 'robot');
+        }
         this.isPushed = stick !== null;
         this.stick.set(stick);
     }
@@ -115,6 +118,13 @@ export class Driving {
             this.send(remotePacket(wish));
             setTimeout(() => !this.keys.isHeld && this.send(remotePacket([])), REPEAT_MS);
         }, REPEAT_MS);
+    }
+
+    /** The robot could walk, and its pages are known: it answers questions behind the one for its pages. */
+    private get hasNoWalk(): boolean {
+        const { source, version, where, pages } = this.state;
+        const mayWalk = source === 'yours' ? version?.image === 'play' : this.hears && !this.isOff;
+        return mayWalk && where !== null && !pages.some(({ name }) => name === 'walk');
     }
 
     private walkPage(): number | null {

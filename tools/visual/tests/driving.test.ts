@@ -9,6 +9,7 @@ import type { RemoteButton } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { SessionState } from '../view/session/session.ts';
 import { Store } from '../view/store.ts';
+import { TEXTS } from '../view/texts/texts.ts';
 
 const PLAYS = {
     source: 'simulated',
@@ -176,6 +177,16 @@ test.each([
     await push(60);
     expect(asks.slice(0, 2)).toEqual(['@play', '@drive']);
     expect(asked()).toBe(1);
+});
+
+test('a stick that is pushed at a robot without the page walk: it is said, once its pages are known', async () => {
+    const pages = [{ page: 2, steps: 3, name: 'bow', fault: '' }];
+    const { push, asks, message } = driven({ pages, where: { state: 'idle' } } as unknown as Partial<SessionState>);
+    await push(60);
+    expect([asks, message()?.text]).toEqual([[], TEXTS.robot.noWalk]);
+    const unknown = driven({ where: null });
+    await unknown.push(60);
+    expect(unknown.message()).toBeNull();
 });
 
 test.each([

@@ -278,6 +278,7 @@ const DE: Texts = {
             'Das Programm für deine Servos ist abgestürzt. Servos, die ihre Stellung hielten, halten sie weiter. Wähle noch einmal „Meine Servos …“.',
         editNoRemote:
             'Edit hört auf keine Fernsteuerung, Play schon. Spiele Play auf: m512 flash play-cm5.hex. Deine Bewegungen bleiben erhalten.',
+        noWalk: 'Ein Stick spielt die Bewegung mit dem Namen walk, und dieser Roboter hat keine. Gib diesen Namen einer seiner Bewegungen.',
         crashed: 'Der simulierte Roboter ist abgestürzt. Starte ihn unter „Roboter“ neu; was er gespeichert hatte, ist noch da.',
         notKept:
             'Dieser Browser bewahrt den Speicher des Roboters nicht auf (privates Fenster oder Speicher voll). Was du speicherst, geht verloren, wenn du die Seite schließt.',

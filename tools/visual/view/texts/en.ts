@@ -461,6 +461,7 @@ export const EN = {
         servosCrashed:
             'The program for your servos has crashed. Servos that held their position still hold it. Choose "My servos …" again.',
         editNoRemote: 'Edit hears no remote control; Play does. Flash Play: m512 flash play-cm5.hex. Your motions stay.',
+        noWalk: 'A stick plays the motion with the name walk, and this robot has none. Give that name to one of its motions.',
         crashed: 'The simulated robot has crashed. Restart it under "Robot"; what it had saved is still there.',
         notKept:
             "This browser does not save the robot's memory (private window, or the disk is full). What you save is lost when you close the page.",

@@ -271,6 +271,7 @@ const ES: Texts = {
         servosCrashed:
             'El programa de tus servos ha fallado. Los servos que mantenían su posición la siguen manteniendo. Elige otra vez «Mis servos …».',
         editNoRemote: 'Edit no atiende al mando; Play sí. Graba Play: m512 flash play-cm5.hex. Tus movimientos se conservan.',
+        noWalk: 'La palanca reproduce el movimiento con el nombre walk, y este robot no tiene ninguno. Pon ese nombre a uno de sus movimientos.',
         crashed: 'El robot simulado ha fallado. Reinícialo en «Robot»; lo que había guardado sigue ahí.',
         notKept:
             'Este navegador no guarda la memoria del robot (ventana privada o disco lleno). Lo que guardes se pierde al cerrar la página.',
