@@ -13,6 +13,7 @@ import type { Overlay, SessionState } from '../view/session/session.ts';
 import type { Store } from '../view/store.ts';
 import type { DocumentEditor } from './editor.ts';
 import type { RobotTransfer } from './transfer.ts';
+import { Turns } from './turns.ts';
 
 export interface PlayParts {
     readonly state: Store<SessionState>;
@@ -28,32 +29,53 @@ export class RobotPlays {
     private readonly parts: PlayParts;
     /** Counts requests and cancels, so that an outdated request can be recognised. */
     private asked = 0;
+    private cancels = 0;
+    /** Pages are brought into the robot for one play at a time. */
+    private turns = new Turns();
 
     constructor(parts: PlayParts) {
         this.parts = parts;
     }
 
-    /** Plays a page as it is in the robot. */
-    async play(page: number): Promise<void> {
-        const mine = ++this.asked;
-        await this.parts.prepare();
-        if (mine !== this.asked) throw new RobotError('cancelled');
-        await play(this.requests, page);
+    /** Plays a page as it is in the robot. false: another play was requested meanwhile and takes its place. */
+    play(page: number): Promise<boolean> {
+        return this.begin(page, this.next());
     }
 
-    /** Plays a page as it is in the document. */
-    async playEdited(page: number): Promise<void> {
+    /** Plays a page as it is in the document. Otherwise like play(). */
+    playEdited(page: number): Promise<boolean> {
         const { format, state } = this.parts.editor;
-        const mine = ++this.asked;
-        await this.bringPages(format.reach(state.get().document, page));
-        await this.parts.prepare();
-        if (mine !== this.asked) throw new RobotError('cancelled');
-        await play(this.requests, page);
+        const isLast = this.next();
+        return this.turns.run(async () => {
+            if (!isLast()) return false;
+            await this.bringPages(format.reach(state.get().document, page));
+            return this.begin(page, isLast);
+        });
     }
 
     /** Cancels requested plays that still wait. */
     cancel(): void {
         this.asked++;
+        this.cancels++;
+        this.turns = new Turns(); // what is under way may wait for a robot that is paused
+    }
+
+    /** A play is requested. The returned function returns false if another one has been requested since. It throws if this one was
+     *  cancelled. */
+    private next(): () => boolean {
+        const { cancels } = this;
+        const mine = ++this.asked;
+        return () => {
+            if (cancels !== this.cancels) throw new RobotError('cancelled');
+            return mine === this.asked;
+        };
+    }
+
+    private async begin(page: number, isLast: () => boolean): Promise<boolean> {
+        await this.parts.prepare();
+        if (!isLast()) return false;
+        await play(this.requests, page);
+        return true;
     }
 
     async shape({ rate, amplitude, blend }: Shape): Promise<void> {

@@ -238,9 +238,10 @@ export class RobotSession implements Session {
         clearTimeout(this.late);
         this.late = setTimeout(() => this.preview.playAsked(page), isToWrite ? 0 : SHOWN_MS);
         await this.act(async () => {
-            await this.plays.playEdited(page);
+            if (!(await this.plays.playEdited(page))) return false;
             clearTimeout(this.late);
             this.preview.showRobot();
+            return true;
         });
     }
 
@@ -359,13 +360,13 @@ export class RobotSession implements Session {
 
     /** A request to a robot that is off is dropped, or it would run whenever the robot is switched on. false: it was not done, which has
      *  been reported. */
-    private async act(action: () => Promise<void>): Promise<boolean> {
+    private async act(action: () => Promise<unknown>): Promise<boolean> {
         if (this.isSimulated && !this.state.get().isPowered) {
             this.messages.complain(TEXTS.status.isOff, 'robot');
             return false;
         }
         try {
-            await action();
+            if ((await action()) === false) return false; // another request has taken its place, and reports
             this.messages.say(null);
             void this.status.ask();
             return true;

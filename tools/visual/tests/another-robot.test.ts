@@ -195,6 +195,19 @@ test('nothing answers at the port: chosen again, the browser lets the person cho
     expect(requestPort).toHaveBeenCalledTimes(1);
 });
 
+test('Play pressed twice while the robot stands up: it plays once, and nobody says that it was stopped', async () => {
+    const { session, inPage, stand } = await page('play');
+    const said: (string | undefined)[] = [];
+    session.state.watch(({ message }) => said.push(message?.text));
+    void session.play(2);
+    void session.play(2);
+    stand();
+    await vi.waitFor(() => expect(inPage.sent).toContain('@play'));
+    await soon();
+    expect(inPage.sent.filter(word => word === '@play')).toHaveLength(1);
+    expect(said).not.toContain('Stopped.');
+});
+
 test('a paste of a whole file reaches no robot, and it is said', async () => {
     const { session, inPage } = await page('play');
     const before = inPage.sent.length;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Play on your robot: it plays what the document has, or nothing. With the real firmware, in simulated time.
-import { expect, test } from 'vitest';
+import { expect, test, vi } from 'vitest';
 import { RobotPlays } from '../app/robot-plays.ts';
 import { RobotTransfer } from '../app/transfer.ts';
 import { DocumentEditor } from '../app/editor.ts';
 import type { MotionDocument } from '../model/document.ts';
 import { readPage, writePage } from '../model/page.ts';
+import type { Connection } from '../robot/connection.ts';
+import { RobotError } from '../robot/robot-error.ts';
 import type { SessionState } from '../view/session/session.ts';
 import { Store } from '../view/store.ts';
 import { connected } from './connected.ts';
@@ -45,6 +47,40 @@ async function yours(image: 'play' | 'edit', document: MotionDocument, seed: num
     const state = new Store({ source: 'yours' } as SessionState);
     const plays = new RobotPlays({ state, editor, transfer, connection: () => connection, prepare });
     return { bench, plays, transfer, played: () => sent.flatMap(bytes => bytes.match(/@play \d+/g) ?? []) };
+}
+
+/** The robot in the page with the motion library. The test decides when a write ends. */
+async function inPage(document: MotionDocument) {
+    const played: string[] = [];
+    const written = { begun: 0, end: (): void => undefined };
+    let { pages } = library;
+    let isWriting = false;
+    const ask = async (text: string): Promise<string> => {
+        const [, first = 0, last = -1] = /^@crcs (\d+) (\d+)/.exec(text) ?? [];
+        if (text.startsWith('@play')) played.push(text);
+        return pages
+            .slice(Number(first), Number(last) + 1)
+            .map(bytes => format.crc(bytes).toString(16).padStart(4, '0'))
+            .join('');
+    };
+    const write = async () => {
+        if (isWriting) return { isDone: false, error: new RobotError('transfer-busy') };
+        isWriting = true;
+        written.begun++;
+        await new Promise<void>(resolve => (written.end = resolve));
+        [pages, isWriting] = [document.pages, false];
+        return { isDone: true };
+    };
+    const body = { joints: [] } as unknown as ConstructorParameters<typeof DocumentEditor>[0];
+    const events = { changed: () => undefined, refused: () => undefined, opened: () => undefined };
+    const plays = new RobotPlays({
+        state: new Store({ source: 'simulated' } as SessionState),
+        editor: new DocumentEditor(body, { format, player: await makeMotion(), document }, events),
+        transfer: { write } as unknown as RobotTransfer,
+        connection: () => ({ requests: { ask } }) as unknown as Connection,
+        prepare: () => Promise.resolve(),
+    });
+    return { plays, played, written };
 }
 
 function changed(page: number): MotionDocument {
@@ -90,11 +126,20 @@ test('a page is laid over a play only as the document has it', async () => {
     await expect(bench.until(lay)).rejects.toMatchObject({ code: 'layer-differs' });
 });
 
+test('Play pressed again while the pages are being written: it waits for them, then plays once', async () => {
+    const { plays, played, written } = await inPage(changed(WAVE));
+    const presses = [plays.playEdited(WAVE), plays.playEdited(WAVE)];
+    await vi.waitFor(() => expect(written.begun).toBe(1));
+    written.end();
+    expect(await Promise.all(presses)).toEqual([false, true]);
+    expect([played, written.begun]).toEqual([[`@play ${WAVE}`], 1]);
+});
+
 test('a second play takes the place of one that still waits for the robot to stand', async () => {
     let stand = (): void => undefined;
     const stands = new Promise<void>(resolve => (stand = resolve));
     const { bench, plays, played } = await yours('play', library, 66, () => stands);
-    const first = expect(plays.play(2)).rejects.toMatchObject({ code: 'cancelled' });
+    const first = expect(plays.play(2)).resolves.toBe(false);
     const second = plays.play(WAVE);
     stand();
     await first;
