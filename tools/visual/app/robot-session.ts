@@ -85,6 +85,8 @@ export class RobotSession implements Session {
     private lastFrame: RobotState | null = null;
     /** Shows the asked motion if the robot has not begun in time. */
     private late: ReturnType<typeof setTimeout> | undefined;
+    /** Counts run() and Stop. A motion that waits for the robot does not begin behind either. */
+    private runs = 0;
     private readonly messages = new StatusMessages(this.state);
     private readonly sources: RobotSources;
     private readonly arrival: Arrival;
@@ -247,17 +249,22 @@ export class RobotSession implements Session {
 
     async run(page: number): Promise<void> {
         const { preview } = this;
+        const mine = ++this.runs;
         preview.setLooping(true);
         preview.start(page);
         await this.untilReady();
-        if (preview.state.get().isRunning) await this.playEdited(page); // otherwise the person has chosen something else
+        const { isRunning, page: shown } = preview.state.get();
+        const isWanted = mine === this.runs && isRunning && shown === page; // otherwise the person has chosen something else
+        if (isWanted && this.state.get().stopped === null) await this.playEdited(page);
         preview.setLooping(false);
     }
 
+    /** Or until it is clear that it will not be: it is off or has crashed. */
     private untilReady(): Promise<void> {
         return new Promise(resolve => {
-            const unwatch = this.state.watch(({ connection, physics }) => {
-                if (connection !== 'ready' || physics === 'loading') return;
+            const unwatch = this.state.watch(({ connection, physics, stopped, isPowered }) => {
+                const isReady = connection === 'ready' && physics !== 'loading';
+                if (!isReady && stopped === null && isPowered) return;
                 queueMicrotask(() => unwatch());
                 resolve();
             });
@@ -337,6 +344,7 @@ export class RobotSession implements Session {
 
     private dropWaiting(): void {
         clearTimeout(this.late);
+        this.runs++;
         this.preview.pause();
         this.plays.cancel();
         this.driving.forget();

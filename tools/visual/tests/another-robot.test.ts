@@ -208,6 +208,20 @@ test('Play pressed twice while the robot stands up: it plays once, and nobody sa
     expect(said).not.toContain('Stopped.');
 });
 
+test('a motion from a link does not begin behind a Stop, nor behind another motion that somebody looks at meanwhile', async () => {
+    const { session, inPage } = await page('play');
+    session.state.set({ connection: 'asking' });
+    void session.run(2);
+    await session.command('stop');
+    session.preview.start(2); // shown once more
+    void session.run(3);
+    session.preview.start(2);
+    session.state.set({ connection: 'ready' });
+    await soon();
+    expect(session.preview.state.get().isLooping).toBe(false);
+    expect(inPage.sent).not.toContain('@crcs'); // the first question of every play
+});
+
 test('a paste of a whole file reaches no robot, and it is said', async () => {
     const { session, inPage } = await page('play');
     const before = inPage.sent.length;

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// Stop while a hand stands the robot in the page up, and a crash while somebody waits for it. The session is real; the worker is a script.
+import { readFile } from 'node:fs/promises';
+import { afterEach, beforeEach, expect, test, vi } from 'vitest';
+import { RobotSession } from '../app/robot-session.ts';
+import type { Body } from '../model/body.ts';
+import type { FormatsWorker } from '../model/file-formats.ts';
+import type { FromSim, ToSim } from '../sim/messages.ts';
+import { PassingStorage } from '../view/document-storage.ts';
+import { libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
+
+vi.mock('../app/assets.ts', () => ({
+    boardModule: () => Promise.resolve(null),
+    robotImages: () => Promise.resolve({ boot: '', application: '', motions: new Uint8Array(65_536) }),
+    physics: () => Promise.reject(new Error('not here')),
+}));
+vi.mock('../view/robot-store.ts', () => ({ loadRobot: () => Promise.resolve(null) }));
+
+const BODY = JSON.parse(await readFile(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
+const { format } = await makeFormat();
+const library = await libraryDocument();
+const WALK = 20;
+const FRAME_MS = 5;
+const SOON = { timeout: 20_000, interval: 5 };
+
+/** The worker of a robot that a hand holds while it walks in the air. A play of page 1 lasts for three questions. */
+class Worker {
+    static last: Worker;
+    onmessage: ((event: { data: FromSim }) => void) | null = null;
+    readonly sent: string[] = [];
+    isSilent = false;
+    private isHeld = true;
+    private page = WALK;
+    private asked = 0;
+    private ticks = 0;
+    private readonly timer = setInterval(() => this.sendFrame(), FRAME_MS);
+
+    constructor() {
+        Worker.last = this;
+    }
+
+    postMessage(message: ToSim): void {
+        if (message.kind === 'hold') this.isHeld = message.held;
+        if (message.kind === 'bytes' && !this.isSilent) setTimeout(() => this.answer(String.fromCharCode(...message.bytes)));
+    }
+
+    terminate(): void {
+        clearInterval(this.timer);
+    }
+
+    crash(): void {
+        this.isSilent = true;
+        clearInterval(this.timer);
+        this.tell({ kind: 'crashed', text: 'out of memory' });
+    }
+
+    private answer(text: string): void {
+        const [request = '', word = '', page = ''] = /(@\w+) ?(\d*)/.exec(text) ?? [];
+        this.sent.push(request.trim());
+        if (word === '@stop' || word === '@break') this.page = 0;
+        if (word === '@play') [this.page, this.asked] = [Number(page), 0];
+        if (word === '@where' && this.page === 1 && ++this.asked > 3) this.page = 0;
+        const words: Record<string, string> = {
+            '@ver': 'image=play version=1.0.0 board=cm5 protocol=1 can=list,page ',
+            '@where': `state=${this.page ? 'playing' : 'idle'} page=${this.page} step=1 repetition=1 code=0 dv=96 faulty=0 `,
+        };
+        this.tell({ kind: 'bytes', bytes: new TextEncoder().encode(`\x1e${word} ${words[word] ?? ''}OK\r\n`) });
+    }
+
+    private sendFrame(): void {
+        this.ticks += 4;
+        const trunk = { pos: [0, 0, 0.3], quat: [1, 0, 0, 0] } as const;
+        const { ticks, isHeld } = this;
+        const state = {
+            ticks,
+            servos: [],
+            trunk,
+            leds: 0,
+            isPowered: true,
+            isHeld,
+            hasFallen: false,
+            lateMs: 0,
+            trace: new Float32Array(),
+        };
+        this.tell({ kind: 'state', state });
+    }
+
+    private tell(data: FromSim): void {
+        this.onmessage?.({ data });
+    }
+}
+
+beforeEach(() => {
+    vi.stubGlobal('Worker', Worker);
+    vi.stubGlobal('navigator', {});
+    vi.stubGlobal('document', { hidden: false, addEventListener: () => undefined });
+    vi.stubGlobal('requestAnimationFrame', () => 0);
+});
+afterEach(() => {
+    Worker.last.terminate();
+    vi.unstubAllGlobals();
+});
+
+async function page() {
+    const parts = { format, player: await makeMotion(), document: library };
+    const formats = { cancel: () => undefined } as unknown as FormatsWorker;
+    const session = new RobotSession(BODY, parts, formats, { storage: new PassingStorage(), isKept: true });
+    await session.documents.start(library);
+    await session.start();
+    return { session, worker: Worker.last, plays: () => Worker.last.sent.filter(text => text.startsWith('@play')) };
+}
+
+/** What the promise resolves to, or that it did not in time. */
+const within = (ms: number, promise: Promise<unknown>): Promise<unknown> =>
+    Promise.race([promise, new Promise(resolve => setTimeout(() => resolve(`nothing came within ${ms} ms`), ms))]);
+
+test('a robot that crashes as it starts: the motion of a link does not loop for ever', async () => {
+    const { session, worker } = await page();
+    worker.isSilent = true;
+    const ran = session.run(2);
+    worker.crash();
+    expect(await within(3000, ran)).toBeUndefined();
+    expect(session.preview.state.get().isLooping).toBe(false);
+});
+
+test('a motion of a link on a robot that is off: it is said, and the motion does not loop', async () => {
+    const { session, worker } = await page();
+    worker.isSilent = true;
+    session.state.set({ isPowered: false });
+    expect(await within(3000, session.run(2))).toBeUndefined();
+    expect(session.preview.state.get().isLooping).toBe(false);
+    expect(session.state.get().message?.text).toMatch(/switched off/);
+});
