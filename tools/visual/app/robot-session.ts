@@ -347,6 +347,7 @@ export class RobotSession implements Session {
         this.runs++;
         this.preview.pause();
         this.plays.cancel();
+        this.sources.simulated.dropInterrupted();
         this.driving.forget();
         this.stops.tell();
     }

@@ -73,6 +73,8 @@ export class SimulatedSource {
     private giveUp: (why: RobotError) => void = () => undefined;
     /** Why it does not run any more; null: it runs. */
     private stopped: string | null = null;
+    /** Counts Stop. */
+    private stops = 0;
     /** Floor, battery and faults as the person has set them. The next robot gets them, too. */
     private readonly room = new Map<string, ToSim>();
     connection: Connection | null = null;
@@ -186,8 +188,13 @@ export class SimulatedSource {
         return standing;
     }
 
+    /** The person has pressed Stop: what standing up has interrupted does not go on afterwards. */
+    dropInterrupted(): void {
+        this.stops++;
+    }
+
     private async stand(): Promise<void> {
-        const connection = this.connection;
+        const { connection, stops } = this;
         const now = await this.nextFrame();
         if (!connection?.version || !now.isHeld) return;
         const { requests } = connection;
@@ -203,7 +210,7 @@ export class SimulatedSource {
             this.post({ kind: 'hold', held: false });
         }
         for (let frame = 0; frame < MOST_FRAMES && (await this.nextFrame()).isHeld; frame++); // the hand opens
-        if (wanted) await play(requests, wanted.page, wanted.code); // the play that was interrupted
+        if (wanted && stops === this.stops) await play(requests, wanted.page, wanted.code); // the play that was interrupted
     }
 
     private async untilIdle({ requests }: Connection): Promise<void> {

@@ -114,6 +114,20 @@ async function page() {
 const within = (ms: number, promise: Promise<unknown>): Promise<unknown> =>
     Promise.race([promise, new Promise(resolve => setTimeout(() => resolve(`nothing came within ${ms} ms`), ms))]);
 
+test('what the robot did in the air goes on when it stands', async () => {
+    const { plays } = await page();
+    await vi.waitFor(() => expect(plays()).toEqual(['@play 1', `@play ${WALK}`]), SOON);
+});
+
+test('... but not behind a Stop', async () => {
+    const { session, worker, plays } = await page();
+    await vi.waitFor(() => expect(plays()).toEqual(['@play 1']), SOON);
+    await session.command('stop');
+    const asked = worker.sent.length;
+    await vi.waitFor(() => expect(worker.sent.length).toBeGreaterThan(asked + 4), SOON);
+    expect(plays()).toEqual(['@play 1']);
+});
+
 test('a robot that crashes as it starts: the motion of a link does not loop for ever', async () => {
     const { session, worker } = await page();
     worker.isSilent = true;
