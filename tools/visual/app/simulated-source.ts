@@ -266,6 +266,7 @@ export class SimulatedSource {
         this.stopped = why;
         this.giveUp(new RobotError('no-answer'));
         if (this.isShown) this.events.change({ stopped: why, doing: { text: why, tone: 'bad' } });
+        void this.connection?.close(); // its time stands still, so no question would end
     }
 
     private async end(): Promise<void> {

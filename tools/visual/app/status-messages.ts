@@ -41,9 +41,12 @@ export class StatusMessages {
         this.say(message);
     }
 
-    /** Reports why a robot did not do what it was asked. Any other error is a bug and is thrown. */
+    /** Reports why a robot did not do what it was asked. Any other error is a bug and is thrown. Says nothing of a robot that was left for the
+     *  one that is ready now, or of one that has crashed, which the page says anyway. */
     readonly fail = (error: unknown): void => {
         if (!(error instanceof RobotError)) throw error;
+        const { connection, stopped } = this.state.get();
+        if (error.code === 'not-connected' && (connection === 'ready' || stopped)) return;
         this.complain(errorText(error), 'robot');
     };
 

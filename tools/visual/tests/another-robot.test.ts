@@ -180,21 +180,6 @@ test('Stop right after Play: the picture does not begin to move when the robot h
     expect(session.preview.state.get().isRunning).toBe(false);
 });
 
-test('nothing answers at the port: chosen again, the browser lets the person choose another one', async () => {
-    const { session, yours } = await page('play');
-    const deaf = Object.assign(new BytePort('an adapter without a board', () => undefined), { getInfo: () => ({}) });
-    const requestPort = vi.fn(() => Promise.resolve(yours.port));
-    const getPorts = () => Promise.resolve([deaf, yours.port]);
-    vi.stubGlobal('navigator', { serial: { getPorts, requestPort, addEventListener: () => undefined } });
-    await session.connectYours();
-    await session.connectYours(); // a double click is no second choice
-    await vi.waitFor(() => expect(session.state.get().connection).toBe('silent'), { timeout: 10_000 });
-    expect(requestPort).not.toHaveBeenCalled();
-    await session.connectYours();
-    await vi.waitFor(() => expect(session.state.get().connection).toBe('ready'), { timeout: 10_000 });
-    expect(requestPort).toHaveBeenCalledTimes(1);
-});
-
 test('Play pressed twice while the robot stands up: it plays once, and nobody says that it was stopped', async () => {
     const { session, inPage, stand } = await page('play');
     const said: (string | undefined)[] = [];
@@ -220,6 +205,35 @@ test('a motion from a link does not begin behind a Stop, nor behind another moti
     await soon();
     expect(session.preview.state.get().isLooping).toBe(false);
     expect(inPage.sent).not.toContain('@crcs'); // the first question of every play
+});
+
+test('yours walks by the stick when the robot in the page is chosen: nobody says that no robot is connected', async () => {
+    const { session, yours, connect } = await page('play');
+    await connect();
+    await vi.waitFor(() => expect(session.state.get().pages).toHaveLength(1));
+    session.drive({ x: 0, y: 1 });
+    await vi.waitFor(() => expect(yours.sent).toContain('@drive'));
+    const said: (string | undefined)[] = [];
+    session.state.watch(({ message }) => said.push(message?.text));
+    session.useSimulated();
+    await soon();
+    expect(session.state.get()).toMatchObject({ source: 'simulated', connection: 'ready' });
+    expect(said.filter(text => text?.includes('No robot is connected'))).toEqual([]);
+});
+
+test('nothing answers at the port: chosen again, the browser lets the person choose another one', async () => {
+    const { session, yours } = await page('play');
+    const deaf = Object.assign(new BytePort('an adapter without a board', () => undefined), { getInfo: () => ({}) });
+    const requestPort = vi.fn(() => Promise.resolve(yours.port));
+    const getPorts = () => Promise.resolve([deaf, yours.port]);
+    vi.stubGlobal('navigator', { serial: { getPorts, requestPort, addEventListener: () => undefined } });
+    await session.connectYours();
+    await session.connectYours(); // a double click is no second choice
+    await vi.waitFor(() => expect(session.state.get().connection).toBe('silent'), { timeout: 10_000 });
+    expect(requestPort).not.toHaveBeenCalled();
+    await session.connectYours();
+    await vi.waitFor(() => expect(session.state.get().connection).toBe('ready'), { timeout: 10_000 });
+    expect(requestPort).toHaveBeenCalledTimes(1);
 });
 
 test('a paste of a whole file reaches no robot, and it is said', async () => {

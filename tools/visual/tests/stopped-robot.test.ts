@@ -128,6 +128,17 @@ test('... but not behind a Stop', async () => {
     expect(plays()).toEqual(['@play 1']);
 });
 
+test('a robot that crashes ends what is asked of it', async () => {
+    const { session, worker, plays } = await page();
+    await vi.waitFor(() => expect(plays()).toHaveLength(2), SOON);
+    worker.isSilent = true; // it does not answer any more
+    const waiting = Promise.all([session.play(2), session.transfer.read()]);
+    worker.crash();
+    expect(await within(3000, waiting)).toMatchObject([undefined, { isDone: false }]);
+    expect(session.state.get().message?.text).not.toMatch(/No robot is connected/);
+    expect(await within(3000, session.play(2))).toBeUndefined();
+});
+
 test('a robot that crashes as it starts: the motion of a link does not loop for ever', async () => {
     const { session, worker } = await page();
     worker.isSilent = true;
