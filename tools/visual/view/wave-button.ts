@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: MIT
 // Waves while the robot walks: overlays a page of the library that uses only the right arm. A standing robot begins to walk first.
 
+import { wordOf } from '../robot/remote.ts';
 import type { Session, SessionState } from './session/session.ts';
 import { define, make } from './element.ts';
 import { TEXTS } from './texts/texts.ts';
+import { WaveWish } from './wave-wish.ts';
 
 const WAVE = 'wave_over';
 
 export class WaveButton extends HTMLElement {
     session!: Session; // set before it is connected
     private readonly button = make('button', { title: TEXTS.remote.waveHint, onclick: () => this.press() }, TEXTS.remote.wave);
-    /** Pressed while the robot does not walk yet. */
-    private isWanted = false;
+    private readonly wish = new WaveWish();
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.replaceChildren(this.button);
         this.disposals.push(
             this.session.state.watch(state => this.render(state)),
-            this.session.onStop(() => (this.isWanted = false)), // Stop, and another robot
+            this.session.onStop(() => this.wish.forget()), // Stop, and another robot
         );
     }
 
@@ -29,10 +30,7 @@ export class WaveButton extends HTMLElement {
     private render(state: SessionState): void {
         this.hidden = this.pageOf(state) === undefined;
         this.button.disabled = state.connection !== 'ready' || state.version?.image !== 'play';
-        this.isWanted &&= state.isPowered; // else it would wave over the first motion after it is switched on
-        if (!this.isWanted || state.where?.state !== 'playing') return;
-        this.isWanted = false;
-        this.wave();
+        if (this.wish.isDue(state, this.session.editor.format.remoteCode(wordOf(['up'])))) this.wave();
     }
 
     private pageOf({ pages }: SessionState): number | undefined {
@@ -41,7 +39,7 @@ export class WaveButton extends HTMLElement {
 
     private press(): void {
         if (this.session.state.get().where?.state === 'playing') return this.wave();
-        this.isWanted = true;
+        this.wish.ask();
         this.session.remote(new Set(['up']));
         this.session.remote(new Set());
     }
