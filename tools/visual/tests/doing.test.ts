@@ -3,7 +3,7 @@
 import { expect, test } from 'vitest';
 import type { PlayState, Where } from '../robot/protocol.ts';
 import type { SessionState } from '../view/session/session.ts';
-import { doingText } from '../view/texts/robot.ts';
+import { doingText, postureText } from '../view/texts/robot.ts';
 
 const state = (image: string): SessionState =>
     ({
@@ -22,4 +22,15 @@ test('Edit says where its screen is, before its first answer and after it, until
     expect(said).toEqual(Array(3).fill('Edit runs: its screen is in the terminal.'));
     expect(doingText(state('edit'), where('playing'))).toBe('Playing motion 2 (bow), step 1.');
     expect(doingText(state('play'), where('idle'))).toBe('The robot stands and waits.');
+});
+
+test('only the robot in the page lies or is held: another one that does not answer yet is not said to do so', () => {
+    const [lies, held] = [
+        { hasFallen: true, isHeld: false },
+        { hasFallen: false, isHeld: true },
+    ];
+    const said = (source: SessionState['source']): string[] => [lies, held].map(posture => postureText({ source }, posture));
+    expect(said('simulated')).toEqual(['The robot lies on the floor.', 'A hand holds the robot.']);
+    expect([said('yours'), said('servos')].flat()).toEqual(['', '', '', '']);
+    expect(postureText({ source: 'simulated' }, { hasFallen: false, isHeld: false })).toBe('');
 });

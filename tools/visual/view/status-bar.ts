@@ -4,6 +4,7 @@
 import { Announcer } from './announcer.ts';
 import type { Session, SessionState, Notice } from './session/session.ts';
 import { define, make, setText } from './element.ts';
+import { postureText } from './texts/robot.ts';
 import { TEXTS } from './texts/texts.ts';
 import './status-bar.css';
 
@@ -19,16 +20,16 @@ export class StatusBar extends HTMLElement {
     });
     private readonly facts = make('p', { class: 'facts' });
     private readonly disposals: (() => void)[] = [];
-    private fallen = '';
+    /** As the robot in the page reported last. */
+    private posture = { hasFallen: false, isHeld: false };
 
     connectedCallback(): void {
         this.replaceChildren(this.doing, this.message, this.facts, this.spoken);
         this.disposals.push(
             this.session.state.watch(state => this.render(state)),
-            this.session.onFrame(state => {
-                const fallen = state.hasFallen ? TEXTS.status.fallen : state.isHeld ? TEXTS.status.held : '';
-                if (fallen === this.fallen) return;
-                this.fallen = fallen;
+            this.session.onFrame(({ hasFallen, isHeld }) => {
+                if (hasFallen === this.posture.hasFallen && isHeld === this.posture.isHeld) return;
+                this.posture = { hasFallen, isHeld };
                 this.render(this.session.state.get());
             }),
         );
@@ -39,13 +40,14 @@ export class StatusBar extends HTMLElement {
     }
 
     private render(state: SessionState): void {
+        const posture = postureText(state, this.posture);
         const liesIdle =
-            this.fallen === TEXTS.status.fallen && (state.doing.text === TEXTS.status.waits || state.doing.text === TEXTS.status.editRuns);
+            posture === TEXTS.status.fallen && (state.doing.text === TEXTS.status.waits || state.doing.text === TEXTS.status.editRuns);
         this.write(this.doing, {
             ...state.doing,
-            text: liesIdle ? TEXTS.status.getUp : [state.doing.text, this.fallen].filter(Boolean).join(' '),
+            text: liesIdle ? TEXTS.status.getUp : [state.doing.text, posture].filter(Boolean).join(' '),
         });
-        this.announcer.look(state, this.fallen);
+        this.announcer.look(state, posture);
         this.write(this.message, state.message);
         const where = state.where;
         const version = state.version;

@@ -10,7 +10,7 @@ import { BYTE_MAX } from '../../model/page.ts';
 import type { Step } from '../../model/page.ts';
 import type { Stance } from '../../model/pose-drag.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
-import type { Tab } from '../session/session.ts';
+import type { SessionState, Tab } from '../session/session.ts';
 import type { Editor } from '../session/editor.ts';
 
 /** What a drag in the picture does. pose: changes the chosen step; hand: pulls the robot. */
@@ -49,6 +49,11 @@ export function isEditing(tab: Tab): boolean {
 /** Servos still being taught: without those that were limp and have torque again. Play switches on the torque of servos it moves. */
 export function stillTaught(taught: ReadonlySet<number>, wereLimp: readonly number[], areLimp: readonly number[]): ReadonlySet<number> {
     return new Set([...taught].filter(servo => areLimp.includes(servo) || !wereLimp.includes(servo)));
+}
+
+/** Whether the last pose is still the robot's. One whose cable is pulled may have been moved. */
+export function isPoseKnown(source: SessionState['source'], connection: SessionState['connection']): boolean {
+    return source === 'simulated' || connection === 'ready';
 }
 
 export function stepAngles(editor: Editor, body: Body, page: number, step: number): Angles {

@@ -4,7 +4,7 @@
 import { stepsFromText, stepsToText } from '../../model/step-text.ts';
 import { easyStep, robotPositions } from './editing.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
-import type { Session } from '../session/session.ts';
+import type { Session, SessionState } from '../session/session.ts';
 import { copyText } from '../clipboard.ts';
 import { keyOf } from '../key-of.ts';
 import { define, make } from '../element.ts';
@@ -21,7 +21,9 @@ interface Action {
 
 export class StepActions extends HTMLElement {
     session!: Session; // set before it is connected
+    /** Last state of the robot in use. */
     private robot: RobotState | null = null;
+    private source: SessionState['source'] = 'simulated';
     private readonly buttons = new Map<Action, HTMLButtonElement>();
     private readonly disposals: (() => void)[] = [];
     readonly actions: readonly Action[] = [
@@ -51,6 +53,10 @@ export class StepActions extends HTMLElement {
         this.disposals.push(
             this.session.editor.state.watch(() => this.render()),
             this.session.onFrame(robot => (this.robot = robot)),
+            this.session.state.watch(({ source }) => {
+                if (source !== this.source) this.robot = null;
+                this.source = source;
+            }),
         );
     }
 

@@ -7,7 +7,7 @@ import type { Body } from '../../model/body.ts';
 import type { Session, SessionState } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
-import { stillTaught } from './editing.ts';
+import { isPoseKnown, stillTaught } from './editing.ts';
 import type { Editing } from './editing.ts';
 import { TEXTS } from '../texts/texts.ts';
 
@@ -82,6 +82,7 @@ export class TeachBar extends HTMLElement {
     private leave(source: SessionState['source']): void {
         this.source = source;
         this.isCarrying = this.mustCarry = false;
+        this.limp = [];
         this.editing.set({ taught: new Set() });
     }
 
@@ -92,7 +93,9 @@ export class TeachBar extends HTMLElement {
         for (const [group, button] of this.limbs)
             button.setAttribute('aria-pressed', String(group.servos.every(servo => taught.has(servo))));
         this.hold.disabled = taught.size === 0 && this.limp.length === 0;
-        const isSimulated = this.session.state.get().source === 'simulated';
+        const { source, connection } = this.session.state.get();
+        const isSimulated = source === 'simulated';
+        this.adds.disabled = !isPoseKnown(source, connection);
         this.hint.textContent = this.hold.disabled ? TEXTS.teach.stiff : isSimulated ? TEXTS.teach.limpSimulated : TEXTS.teach.limpYours;
     }
 

@@ -6,6 +6,7 @@ import { JOINTS } from '../../model/motion.ts';
 import type { ConnectionState } from '../../robot/connection-table.ts';
 import type { Where } from '../../robot/protocol.ts';
 import type { RobotError } from '../../robot/robot-error.ts';
+import type { RobotState } from '../../robot/robot-state.ts';
 import type { SessionState } from '../session/session.ts';
 import { TEXTS } from './texts.ts';
 
@@ -65,6 +66,15 @@ function robotText(state: SessionState, where: Where | null): string {
         default:
             return where.state satisfies never;
     }
+}
+
+/** That the robot in the page lies or is held; '' otherwise. What it reported last is not true of another robot, which may not answer. */
+export function postureText(
+    { source }: Pick<SessionState, 'source'>,
+    { hasFallen, isHeld }: Pick<RobotState, 'hasFallen' | 'isHeld'>,
+): string {
+    if (source !== 'simulated') return '';
+    return hasFallen ? TEXTS.status.fallen : isHeld ? TEXTS.status.held : '';
 }
 
 /** For announcements of start and end: what the robot does, without steps and preview. */
