@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A forward push follows the robot's heading.
-import { expect, test } from 'vitest';
+// A forward push follows the robot's heading. Who cannot push is told so, and not that the robot was pushed.
+import { expect, test, vi } from 'vitest';
 import { pushRobot } from '../view/push.ts';
 import type { RobotState } from '../robot/robot-state.ts';
-import type { Hand, Session } from '../view/session/session.ts';
+import type { Hand, Session, SessionState } from '../view/session/session.ts';
 
 function pushed(yaw: number, direction: 1 | -1): Promise<readonly number[]> {
     const trunk = { pos: [1, 2, 0.2], quat: [Math.cos(yaw / 2), 0, 0, Math.sin(yaw / 2)] };
@@ -30,4 +30,17 @@ test.each([
     const [atX, atY] = await pushed(yaw, direction);
     expect(atX).toBeCloseTo(x, 9);
     expect(atY).toBeCloseTo(y, 9);
+});
+
+/** What pushRobot() answers, and what is said. */
+function tried(state: Partial<SessionState>): readonly [boolean, string | undefined] {
+    const say = vi.fn<Session['say']>();
+    const session = { body: { links: [] }, state: { get: () => state }, say, onFrame: () => () => undefined };
+    return [pushRobot(session as unknown as Session, 1), say.mock.calls[0]?.[0].text];
+}
+
+test('without physics nothing is pushed, and that is the last word; a real robot is never pushed', () => {
+    expect(tried({ source: 'simulated', physics: 'on' })).toEqual([true, undefined]);
+    expect(tried({ source: 'simulated', physics: 'off' })).toEqual([false, expect.stringMatching(/^Physics could not be loaded/)]);
+    expect(tried({ source: 'yours', physics: 'on' })).toEqual([false, undefined]);
 });

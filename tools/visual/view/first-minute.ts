@@ -83,8 +83,7 @@ export class FirstMinute extends HTMLElement {
         const unwatch = this.session.onFrame(state => {
             if (!this.mayBePushed(state)) return;
             end();
-            pushRobot(this.session, 1);
-            this.session.say({ text: TEXTS.first.pushed, tone: 'calm' });
+            if (pushRobot(this.session, 1)) this.session.say({ text: TEXTS.first.pushed, tone: 'calm' });
         });
         const unlisten = this.session.onStop(end);
         this.session.say({ text: TEXTS.first.pushes, tone: 'calm' });

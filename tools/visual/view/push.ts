@@ -9,11 +9,14 @@ const PUSH_TICKS = 38; // 0.3 s
 const REACH_M = 0.2;
 const CHEST_M = 0.03; // above the origin of the trunk
 
-/** direction: 1 forwards, -1 backwards. A real robot is not pushed. Without physics a message says why nothing moves. */
-export function pushRobot(session: Session, direction: 1 | -1): void {
+/** direction: 1 forwards, -1 backwards. false: a real robot is not pushed, nor one without physics, where a message says why. */
+export function pushRobot(session: Session, direction: 1 | -1): boolean {
     const { source, physics } = session.state.get();
-    if (source !== 'simulated') return;
-    if (physics === 'off') return session.say({ text: TEXTS.robot.noPush, tone: 'bad' });
+    if (source !== 'simulated') return false;
+    if (physics === 'off') {
+        session.say({ text: TEXTS.robot.noPush, tone: 'bad' });
+        return false;
+    }
     const trunk = session.body.links[0]?.name ?? 'trunk';
     const stop = session.onFrame(state => {
         stop();
@@ -23,4 +26,5 @@ export function pushRobot(session: Session, direction: 1 | -1): void {
         const target = [x + reach * Math.cos(heading), y + reach * Math.sin(heading), z + CHEST_M] as const;
         session.sim.pull({ link: trunk, point: [0, 0, CHEST_M], target }, PUSH_TICKS);
     });
+    return true;
 }
