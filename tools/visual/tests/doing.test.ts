@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The sentence about what the robot does, for Edit. It must stay while it is true, because a person who starts Edit looks for its screen.
+// What the page says of the robot in use. That Edit runs must stay while it is true, because a person who starts it looks for its screen.
 import { expect, test } from 'vitest';
 import type { PlayState, Where } from '../robot/protocol.ts';
 import type { SessionState } from '../view/session/session.ts';
-import { doingText, postureText } from '../view/texts/robot.ts';
+import { doingText, postureText, shapeText } from '../view/texts/robot.ts';
 
 const state = (image: string): SessionState =>
     ({
@@ -33,4 +33,11 @@ test('only the robot in the page lies or is held: another one that does not answ
     expect(said('simulated')).toEqual(['The robot lies on the floor.', 'A hand holds the robot.']);
     expect([said('yours'), said('servos')].flat()).toEqual(['', '', '', '']);
     expect(postureText({ source: 'simulated' }, { hasFallen: false, isHeld: false })).toBe('');
+});
+
+test('with Edit nothing is shaped: a key of the remote brings Play back, but not to your robot, which is flashed', () => {
+    const said = (source: SessionState['source'], image: string): string => shapeText({ ...state(image), source });
+    for (const source of ['simulated', 'servos'] as const) expect(said(source, 'edit')).toMatch(/A key of the remote brings Play back\.$/);
+    expect(said('yours', 'edit')).toMatch(/Flash Play: m512 flash play-cm5\.hex/);
+    expect(said('yours', 'play')).toBe('Applies from the next step on.');
 });

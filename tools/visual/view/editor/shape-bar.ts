@@ -7,6 +7,7 @@ import type { Shape } from '../../model/motion.ts';
 import type { Session, SessionState } from '../session/session.ts';
 import { define, make, setText } from '../element.ts';
 import type { Store } from '../store.ts';
+import { shapeText } from '../texts/robot.ts';
 import { TEXTS } from '../texts/texts.ts';
 import './shape-bar.css';
 
@@ -30,8 +31,9 @@ export class ShapeBar extends HTMLElement {
         this.disposals.push(this.session.state.watch(state => this.take(state)));
     }
 
-    private take({ version, where }: SessionState): void {
-        setText(this.hint, version === null || version.image === 'play' ? TEXTS.remote.shaped : TEXTS.remote.shapeNeedsPlay);
+    private take(state: SessionState): void {
+        const { version, where } = state;
+        setText(this.hint, shapeText(state));
         if (!where?.shape || version === this.taken) return;
         this.taken = version;
         this.shape.set(where.shape);

@@ -94,3 +94,9 @@ export function layersText(state: SessionState): string {
     const parts = [page > 0 ? TEXTS.layers.laid(motionTitle(state, page)) : '', ids.length > 0 ? TEXTS.layers.moved(ids) : ''];
     return parts.filter(Boolean).join(' ') || TEXTS.layers.none;
 }
+
+/** When the shape of a play applies, or why not: this page brings Play back, but not to your robot. */
+export function shapeText({ version, source }: Pick<SessionState, 'version' | 'source'>): string {
+    if (version === null || version.image === 'play') return TEXTS.remote.shaped;
+    return source === 'yours' ? TEXTS.robot.editNoRemote : TEXTS.remote.shapeNeedsPlay;
+}
