@@ -5,7 +5,7 @@ import type { PageEntry } from '../robot/protocol.ts';
 import type { RobotState } from '../robot/robot-state.ts';
 import type { Session, SessionState } from './session/session.ts';
 import { onChoice } from './choice.ts';
-import { define, handOver, keepFocus, make } from './element.ts';
+import { define, handOver, keepFocus, make, once } from './element.ts';
 import { GetUp } from './get-up.ts';
 import { TEXTS } from './texts/texts.ts';
 import './action-bar.css';
@@ -28,7 +28,7 @@ export class ActionBar extends HTMLElement {
     private shown = '';
     private readonly getUp = make(
         'button',
-        { class: 'get-up', title: TEXTS.actions.getUpHint, onclick: () => this.standUp() },
+        { class: 'get-up', title: TEXTS.actions.getUpHint, onclick: once(() => this.standUp()) },
         TEXTS.actions.getUp,
     );
     private readonly letGo = make(
@@ -62,11 +62,20 @@ export class ActionBar extends HTMLElement {
         const byName = new Map(state.pages.map(page => [page.name, page]));
         const plays = (name: string, title: string, kind = ''): HTMLButtonElement[] => {
             const page = byName.get(name);
-            return page ? [this.button(title, isReady, () => this.session.play(page.page), kind)] : [];
+            return page
+                ? [
+                      this.button(
+                          title,
+                          isReady,
+                          once(() => this.session.play(page.page)),
+                          kind,
+                      ),
+                  ]
+                : [];
         };
         keepFocus(this, () =>
             this.replaceChildren(
-                this.button(TEXTS.page.stop, isReady, () => this.session.command('stop'), 'stop'),
+                this.button(TEXTS.page.stop, isReady, () => void this.session.command('stop'), 'stop'),
                 ...(state.source === 'simulated' ? [this.letGo] : []),
                 ...BUTTONS.flatMap(([name, kind]) => plays(name, TEXTS.actions[name], kind)),
                 ...(state.source === 'simulated'
@@ -106,8 +115,8 @@ export class ActionBar extends HTMLElement {
         if (page) void this.session.play(page.page);
     }
 
-    private button(title: string, isReady: boolean, action: () => Promise<void>, kind = ''): HTMLButtonElement {
-        return make('button', { class: kind, disabled: !isReady, onclick: () => void action() }, title);
+    private button(title: string, isReady: boolean, action: (event: Event) => void, kind = ''): HTMLButtonElement {
+        return make('button', { class: kind, disabled: !isReady, onclick: action }, title);
     }
 
     private list(pages: readonly PageEntry[], isReady: boolean): HTMLSelectElement {

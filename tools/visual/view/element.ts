@@ -30,6 +30,14 @@ function nameOf(element: Element): string {
     return element.getAttribute('aria-label') ?? element.textContent;
 }
 
+/** For a button that plays a motion: ignores the second click of a double click, or the robot would refuse it as busy. */
+export function once(action: () => unknown): (event: Event) => void {
+    return event => {
+        const isSecondClick = 'detail' in event && typeof event.detail === 'number' && event.detail > 1;
+        if (!isSecondClick) action();
+    };
+}
+
 /** Renders the contents of `root` again. If the focus was in there, it moves to the new element of the same name. */
 export function keepFocus(root: Element, render: () => void): void {
     const { activeElement } = document;

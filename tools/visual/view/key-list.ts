@@ -6,7 +6,7 @@ import { targetsFromRest, targetsFrom } from '../model/key-targets.ts';
 import type { KeyTarget } from '../model/key-targets.ts';
 import type { Session } from './session/session.ts';
 import { codeText } from './texts/editor.ts';
-import { define, make } from './element.ts';
+import { define, make, once } from './element.ts';
 import { TEXTS } from './texts/texts.ts';
 import './key-list.css';
 
@@ -60,7 +60,7 @@ export class KeyList extends HTMLElement {
         return make(
             'li',
             { 'data-code': code },
-            ...(kind === 'call' ? [make('button', { onclick: () => void this.session.play(page) }, ...content)] : content),
+            ...(kind === 'call' ? [make('button', { onclick: once(() => this.session.play(page)) }, ...content)] : content),
         );
     }
 }

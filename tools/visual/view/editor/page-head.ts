@@ -4,7 +4,7 @@
 import { pageOf } from '../../model/document.ts';
 import { PAGE_COUNT } from '../../model/motion.ts';
 import type { Session } from '../session/session.ts';
-import { define, make } from '../element.ts';
+import { define, make, once } from '../element.ts';
 import { TEXTS } from '../texts/texts.ts';
 
 /** Library pages that the user wants to edit directly, not as copies: in every area, but not in another document. */
@@ -23,7 +23,11 @@ export class PageHead extends HTMLElement {
         placeholder: TEXTS.steps.name,
         spellcheck: 'false',
     });
-    private readonly play = make('button', { onclick: event => this.playPressed(event) }, TEXTS.steps.play);
+    private readonly play = make(
+        'button',
+        { onclick: once(() => this.session.playEdited(this.session.editor.state.get().page)) },
+        TEXTS.steps.play,
+    );
     private readonly library = make('div', { class: 'library', role: 'status' });
     private shown: readonly Uint8Array[] | null = null;
     private readonly disposals: (() => void)[] = [];
@@ -88,12 +92,6 @@ export class PageHead extends HTMLElement {
                 if (option && old && old.text !== option.text) old.text = option.text;
             });
         this.shown = pages;
-    }
-
-    /** Ignores the second click of a double click: the robot would refuse it as busy. */
-    private playPressed(event: Event): void {
-        const isSecondClick = event instanceof UIEvent && event.detail > 1;
-        if (!isSecondClick) void this.session.playEdited(this.session.editor.state.get().page);
     }
 
     private agree(): void {
