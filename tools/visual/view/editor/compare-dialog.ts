@@ -76,6 +76,8 @@ export class CompareDialog extends HTMLElement {
     async open(): Promise<void> {
         this.trouble = null;
         this.fillWhich('robot');
+        this.looked++; // what is read for an earlier comparison is for that one
+        this.clear();
         if (!this.dialog.open) this.dialog.showModal();
         await this.readRobot();
     }
@@ -139,17 +141,23 @@ export class CompareDialog extends HTMLElement {
         const { session, key } = this;
         const found = key === 'file' ? this.file?.pages : await pagesOf(session, key);
         if (mine !== this.looked) return;
+        this.clear();
         this.other = found ?? [];
-        this.ticks.clear();
-        this.marks.clear();
         const { document } = session.editor.state.get();
         const pages = this.other.flatMap((bytes, page) =>
             bytes && !session.editor.format.isSame(bytes, pageOf(document, page)) ? [page] : [],
         );
-        this.rows.replaceChildren(...pages.map(page => this.row(page)));
+        this.rows.append(...pages.map(page => this.row(page)));
         if (pages.length === 0 && found) this.rows.append(make('li', { class: 'same' }, TEXTS.compare.same));
         this.renderTransfer(session.transfer.state.get());
         if (pages.length > 0) void this.addWords(mine);
+    }
+
+    private clear(): void {
+        this.other = [];
+        this.ticks.clear();
+        this.marks.clear();
+        this.rows.replaceChildren();
     }
 
     private row(page: number): HTMLElement {
