@@ -182,7 +182,11 @@ export class CompareDialog extends HTMLElement {
         const pictures = page === 0 ? null : isRobot ? ghosts(session.body, other, mine) : ghosts(session.body, mine, other);
         const { compare } = TEXTS;
         const [words, label] = isRobot ? [compare.takeRobots, compare.takeRobotsNamed(title)] : [compare.take, compare.takeNamed(title)];
-        const take = make('button', { 'aria-label': label, onclick: () => void this.takeOver([page]) }, words);
+        const take = make(
+            'button',
+            { 'aria-label': label, disabled: format.fault(theirs) !== null, onclick: () => void this.takeOver([page]) },
+            words,
+        );
         const note = page === 0 ? TEXTS.links.trimStays : format.fault(source) !== null ? TEXTS.compare.damagedStays : '';
         return make(
             'li',
@@ -245,7 +249,7 @@ export class CompareDialog extends HTMLElement {
         const isThere = activeElement !== null && this.dialog.contains(activeElement) && !activeElement.matches(':disabled, [hidden]');
         if (!this.dialog.open || isThere) return;
         const isDone = this.session.transfer.state.get().phase === 'written';
-        const row = isDone ? null : this.rows.querySelector<HTMLElement>('button');
+        const row = isDone ? null : this.rows.querySelector<HTMLElement>('button:enabled');
         const next = [this.stop, this.again].find(button => !button.hidden) ?? row ?? this.shut;
         next.focus({ preventScroll: true });
     }
