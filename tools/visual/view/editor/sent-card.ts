@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A motion from the page's address is added to the document and played. The card names it and offers what to do next.
+// A motion from the page's address is added to the document, and the robot in the page plays it. The card names it and offers what to do next.
 
 import type { Session } from '../session/session.ts';
 import { define, handOver, make, pictureCanvas } from '../element.ts';
@@ -13,17 +13,22 @@ export class SentCard extends HTMLElement {
     onSent: () => void = () => undefined;
     /** Called when the user wants to teach a motion. */
     onTeach: () => void = () => undefined;
-    private unwatch: () => void = () => undefined;
+    /** The document that the motion was added to. */
+    private openId = '';
+    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.hidden = true;
         this.setAttribute('role', 'region');
         this.setAttribute('aria-label', TEXTS.sent.region);
-        this.unwatch = this.session.files.state.watch(({ sent }) => sent && this.take(sent));
+        this.disposals.push(
+            this.session.files.state.watch(({ sent }) => sent && this.take(sent)),
+            this.session.documents.state.watch(({ openId }) => !this.hidden && openId !== this.openId && this.leave()),
+        );
     }
 
     disconnectedCallback(): void {
-        this.unwatch();
+        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     private take({ name }: SentMotion): void {
@@ -31,15 +36,21 @@ export class SentCard extends HTMLElement {
         const page = this.session.files.addSent();
         if (page === 0) return this.session.files.dismiss(); // no space; addSent() has reported it
         window.history.replaceState(null, '', window.location.pathname + window.location.search);
+        this.openId = this.session.documents.state.get().openId;
         this.show(name, page);
-        void this.session.run(page);
+        if (this.session.state.get().source === 'simulated') void this.session.run(page);
+        else this.session.preview.start(page); // another robot moves only when it is told to
+    }
+
+    private leave(): void {
+        handOver(this, pictureCanvas(), () => (this.hidden = true));
     }
 
     private show(name: string, page: number): void {
         const button = (title: string, action: () => void, kind = ''): HTMLButtonElement =>
             make('button', { class: kind, onclick: action }, title);
         const leave = (action: () => void): void => {
-            handOver(this, pictureCanvas(), () => (this.hidden = true));
+            this.leave();
             action();
         };
         this.replaceChildren(
