@@ -44,7 +44,7 @@ export class RobotImages {
     /** Only Edit saves pages. The robot restarts with Edit, stands up, and keeps Edit until somebody drives it. */
     async becomeEdit(): Promise<void> {
         if (this.state.image !== 'edit') {
-            this.parts.say({ text: TEXTS.robot.startsEdit, tone: 'calm' });
+            this.tell(TEXTS.robot.startsEdit);
             await this.restart('edit');
         }
         await this.untilReady();
@@ -59,6 +59,11 @@ export class RobotImages {
         }
         await this.untilReady();
         await this.parts.robot().prepare();
+    }
+
+    /** Texts on the robot in the page. My servos are said to be looked for. */
+    private tell(text: string): void {
+        if (this.state.source === 'simulated') this.parts.say({ text, tone: 'calm' });
     }
 
     private get state(): SessionState {
@@ -76,7 +81,7 @@ export class RobotImages {
             if (!connection) throw new RobotError('not-connected');
             if (await hasUnsavedEdits(connection.requests, this.parts.format)) throw new RobotError('page-unsaved');
         }
-        this.parts.say({ text: TEXTS.robot.startsPlay, tone: 'calm' });
+        this.tell(TEXTS.robot.startsPlay);
         await this.restart('play');
     }
 

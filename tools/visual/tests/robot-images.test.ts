@@ -41,3 +41,28 @@ test('a robot that crashes as it starts is not waited for', async () => {
     await becomes;
     expect(robot.prepare).not.toHaveBeenCalled();
 }, 2000);
+
+test.each([
+    ['simulated', ['The robot in the page restarts with Edit, the firmware that saves motions.']],
+    ['servos', []],
+] as const)(
+    '%s: who restarts is said of the robot in the page alone',
+    async (source, said) => {
+        const state = new Store({ source, image: 'play', connection: 'asking', version: null, stopped: null } as unknown as SessionState);
+        const robot = { restart: () => Promise.resolve(), forget: vi.fn(), prepare: () => Promise.resolve(), connection: null };
+        const told: string[] = [];
+        const images = new RobotImages({
+            state,
+            format: {} as PageFormat,
+            robot: () => robot,
+            say: ({ text }) => told.push(text),
+            fail: () => undefined,
+        });
+        const becomes = images.becomeEdit();
+        await Promise.resolve();
+        state.set({ connection: 'ready', version: { image: 'edit' } as SessionState['version'] });
+        await becomes;
+        expect(told).toEqual(said);
+    },
+    2000,
+);
