@@ -12,6 +12,7 @@ function pad(pressed: readonly number[], right = 0) {
 
 test('buttons and stick drive; a pad that is unplugged lets go', () => {
     const one = new GamePad();
+    one.read(pad([]), true);
     expect(one.read(pad([12, 1], 0.5), true)).toEqual({ buttons: ['up', 'b2'], stick: { x: 0.5, y: -0 } });
     expect(one.read(pad([], 0.2), true)).toEqual(NOTHING);
     expect(one.read(null, true)).toEqual(NOTHING);
@@ -25,4 +26,13 @@ test('in a dialog and in a window without the focus it only stops; what is still
     expect(one.read(pad([12]), true)).toEqual(NOTHING);
     one.read(pad([]), true);
     expect(one.read(pad([12], 1), true)).toEqual({ buttons: ['up'], stick: { x: 1, y: -0 } });
+});
+
+test('a stick drives when it has been at rest once, on each pad that is plugged in: the axis of a wheel may rest anywhere', () => {
+    const one = new GamePad();
+    expect(one.read(pad([12], 1), true)).toEqual({ buttons: ['up'], stick: null });
+    one.read(pad([]), true);
+    expect(one.read(pad([], 1), true).stick).toEqual({ x: 1, y: -0 });
+    one.read(null, true);
+    expect(one.read(pad([], 1), true).stick).toBeNull();
 });

@@ -27,12 +27,16 @@ export interface PadInput {
 export class GamePad {
     /** What was pushed while the pad was for something else drives only when all was let go. */
     private mustRest = false;
+    /** A wheel or a worn stick may have no rest where it is expected, and would drive as soon as the browser shows it. */
+    private canRest = false;
 
     /** pad: null if there is none. drives: false while the pad is for a dialog or for another window; then it only stops the robot. */
     read(pad: (Pick<Gamepad, 'axes'> & { readonly buttons: readonly Pick<GamepadButton, 'pressed'>[] }) | null, drives: boolean): PadInput {
         const [x = 0, y = 0] = pad?.axes ?? [];
         const buttons = BUTTONS.filter(([index]) => pad?.buttons[index]?.pressed).map(([, name]) => name);
-        const stick = Math.hypot(x, y) < STICK_REST ? null : { x, y: -y };
+        const isAtRest = Math.hypot(x, y) < STICK_REST;
+        this.canRest = pad !== null && (this.canRest || isAtRest);
+        const stick = isAtRest || !this.canRest ? null : { x, y: -y };
         this.mustRest = (buttons.length > 0 || stick !== null) && (this.mustRest || !drives);
         return this.mustRest ? { buttons: buttons.filter(name => name === 'b6'), stick: null } : { buttons, stick };
     }
