@@ -9,6 +9,7 @@ import { define, handOver, isTyping, make } from '../element.ts';
 import { keyOf } from '../key-of.ts';
 import { showPose } from './pose-picture.ts';
 import { TEXTS } from '../texts/texts.ts';
+import { chosenSteps } from './step-choice.ts';
 import { nearestSetting, possibleSeconds, stepTimes } from './step-times.ts';
 import type { TimedField } from './step-times.ts';
 
@@ -202,17 +203,8 @@ export class StepRow extends HTMLElement {
     }
 
     private choose(index: number, event: { readonly shiftKey: boolean; readonly ctrlKey: boolean; readonly metaKey: boolean }): void {
-        const { step, steps } = this.session.editor.state.get();
-        let chosen = new Set([index]);
-        if (event.shiftKey)
-            chosen = new Set([...steps, ...Array.from({ length: Math.abs(index - step) + 1 }, (_, i) => Math.min(index, step) + i)]);
-        else if (event.ctrlKey || event.metaKey) {
-            chosen = new Set(steps);
-            if (!chosen.delete(index)) chosen.add(index);
-            if (chosen.size === 0) chosen.add(index);
-        }
-        const [nearest = index] = [...chosen].sort((a, b) => Math.abs(a - index) - Math.abs(b - index));
-        this.session.editor.select({ step: nearest, steps: chosen }); // a step that is chosen no more is not edited either
+        const { editor } = this.session;
+        editor.select(chosenSteps(editor.state.get(), index, event));
     }
 
     private key(event: KeyboardEvent, index: number): void {
