@@ -14,6 +14,8 @@ import { StickDrive } from './stick.ts';
 import type { Stick } from './stick.ts';
 import type { StatusMessages } from './status-messages.ts';
 
+const STOP: RemoteButton = 'b6';
+
 export interface DrivingParts {
     readonly state: Store<SessionState>;
     readonly messages: StatusMessages;
@@ -40,7 +42,7 @@ export class Driving {
     }
 
     remote(held: ReadonlySet<RemoteButton>): void {
-        if (held.size > 0) this.prepare(held);
+        if ([...held].some(button => button !== STOP)) this.prepare(held); // Stop needs no robot that can be driven
         this.keys.hold(held);
     }
 

@@ -85,6 +85,13 @@ function driven(start: Partial<SessionState>, isHeld = false) {
     };
 }
 
+test('Stop, pressed while Edit starts, does not make the robot one that can be driven', () => {
+    const { press, asked, sent } = driven({ image: 'edit', connection: 'asking', version: null });
+    press('b6');
+    press();
+    expect([asked(), sent]).toEqual([0, []]);
+});
+
 test('a robot that stands hears a key at once', () => {
     const { press, sent } = driven({});
     press('up');
