@@ -16,6 +16,8 @@ export interface ImageParts {
     readonly format: PageFormat;
     /** The robot whose image is changed. */
     robot(): Pick<SimulatedSource, 'restart' | 'forget' | 'prepare' | 'connection'>;
+    /** Pages are being written, which needs Edit. */
+    isWriting(): boolean;
     say(message: Notice): void;
     fail(error: unknown): void;
 }
@@ -70,9 +72,10 @@ export class RobotImages {
         return this.parts.state.get();
     }
 
-    /** A remote key must not discard edits: if there are unsaved ones, Edit keeps running. Rejects with RobotError: page-unsaved, or as a
-     *  request does. */
+    /** A remote key must not discard edits: if there are unsaved ones, Edit keeps running, and while the page writes. Rejects with RobotError:
+     *  page-unsaved, transfer-busy, or as a request does. */
     private async leaveEdit(): Promise<void> {
+        if (this.parts.isWriting()) throw new RobotError('transfer-busy');
         if (this.state.stopped === null) {
             // a stopped robot has no edits in RAM to lose
             await this.untilReady();

@@ -161,6 +161,7 @@ export class RobotSession implements Session {
             state: this.state,
             format: parts.format,
             robot: () => this.sources.withImages,
+            isWriting: () => this.transfer.isWriting,
             say: message => this.say(message),
             fail: this.messages.fail,
         });

@@ -2,6 +2,7 @@
 // Another image for the robot in the page or for My servos, when something goes wrong meanwhile.
 import { expect, test, vi } from 'vitest';
 import { RobotImages } from '../app/robot-images.ts';
+import type { ImageParts } from '../app/robot-images.ts';
 import type { PageFormat } from '../model/page-format.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { SessionState } from '../view/session/session.ts';
@@ -16,6 +17,7 @@ test('the adapter is out when another image is to run: the page says that, not t
         state,
         format: {} as PageFormat,
         robot: () => robot,
+        isWriting: () => false,
         say: () => undefined,
         fail: error => told.push(error),
     });
@@ -32,6 +34,7 @@ test('a robot that crashes as it starts is not waited for', async () => {
         state,
         format: {} as PageFormat,
         robot: () => robot,
+        isWriting: () => false,
         say: () => undefined,
         fail: () => undefined,
     });
@@ -55,6 +58,7 @@ test.each([
             state,
             format: {} as PageFormat,
             robot: () => robot,
+            isWriting: () => false,
             say: ({ text }) => told.push(text),
             fail: () => undefined,
         });
@@ -66,3 +70,19 @@ test.each([
     },
     2000,
 );
+
+test('a key of the remote while the page writes motions: Edit goes on, and it is said that it writes', async () => {
+    const ready = { source: 'simulated', image: 'edit', connection: 'ready', version: { image: 'edit' }, physics: 'on', stopped: null };
+    const ask = (text: string) => Promise.resolve(text.startsWith('@crcs') ? '0001'.repeat(128) : '0002'); // half of a page is in RAM
+    const robot = { restart: vi.fn(), forget: vi.fn(), prepare: vi.fn(), connection: { requests: { ask } } };
+    const images = new RobotImages({
+        state: new Store(ready as unknown as SessionState),
+        format: { crc: () => 0 } as unknown as PageFormat,
+        robot: () => robot as unknown as ReturnType<ImageParts['robot']>,
+        isWriting: () => true,
+        say: () => undefined,
+        fail: () => undefined,
+    });
+    await expect(images.becomeDriven()).rejects.toMatchObject({ code: 'transfer-busy' });
+    expect(robot.restart).not.toHaveBeenCalled();
+});
