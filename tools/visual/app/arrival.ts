@@ -41,12 +41,17 @@ export class Arrival {
         status.look();
         if (connection === 'other-board') messages.fail(error);
         if (connection !== 'ready') return;
-        void askList(sources.connection.requests).then(pages => state.set({ pages }), this.fail);
+        this.askPages();
         this.standUp();
         void status.ask();
         if (sources.isSimulated) return;
         if (editor.state.get().robot.length === 0) void this.learnYours();
         else void this.lookAgain().catch((error: unknown) => this.isUntold(error) || messages.fail(error));
+    }
+
+    askPages(): void {
+        const { state, sources } = this.parts;
+        void askList(sources.connection.requests).then(pages => state.set({ pages }), this.fail);
     }
 
     /** The robot in the page stands up by itself once it answers and has a body, whichever comes last. */

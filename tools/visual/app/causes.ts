@@ -39,7 +39,7 @@ function isQuiet({ connection, where }: SessionState): boolean {
     return connection === 'ready' && (where === null || where.state === 'idle' || where.state === 'ready');
 }
 
-function onChange<T extends object, V>(store: Store<T>, part: (state: T) => V, changed: (now: V) => unknown): void {
+export function onChange<T extends object, V>(store: Store<T>, part: (state: T) => V, changed: (now: V) => unknown): void {
     let before = part(store.get());
     store.watch(state => {
         const now = part(state);

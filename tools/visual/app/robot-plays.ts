@@ -6,7 +6,7 @@ import { pageOf } from '../model/document.ts';
 import type { Shape } from '../model/motion.ts';
 import type { Connection } from '../robot/connection.ts';
 import { askPageCrcs } from '../robot/page-requests.ts';
-import { aim, askList, free, play, setAmplitude, setBlend, setLayer, setRate, swing } from '../robot/protocol.ts';
+import { aim, free, play, setAmplitude, setBlend, setLayer, setRate, swing } from '../robot/protocol.ts';
 import type { Requests } from '../robot/requests.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { Overlay, SessionState } from '../view/session/session.ts';
@@ -108,7 +108,7 @@ export class RobotPlays {
     /** Makes sure that these pages are the same in robot and document. The robot in the page is written. Yours is not: its owner must see
      *  the changes first. */
     private async bringPages(pages: readonly number[]): Promise<void> {
-        const { editor, transfer, state } = this.parts;
+        const { editor, transfer } = this.parts;
         const differing = await this.differing(pages);
         if (differing.length === 0) return;
         if (!this.isSimulated) throw new RobotError('pages-differ');
@@ -117,7 +117,6 @@ export class RobotPlays {
         if (damaged !== undefined) throw new RobotError('damaged-here', String(damaged)); // transfer.write() would skip it
         const end = await transfer.write(pages);
         if (!end.isDone) throw end.error;
-        state.set({ pages: await askList(this.requests) });
     }
 
     /** A layer plays from the robot's flash, so a page that differs is refused. */

@@ -33,6 +33,7 @@ import type { Stick } from './stick.ts';
 import type { RobotTransfer } from './transfer.ts';
 import { trialClient } from './assets.ts';
 import { MotionTrials } from './trials.ts';
+import { watchPageList } from './page-list.ts';
 import { PageVersion } from './page-version.ts';
 import { MotionPreview } from './preview.ts';
 import { RobotImages } from './robot-images.ts';
@@ -174,6 +175,13 @@ export class RobotSession implements Session {
         });
         // A hidden page hears of no key and no gamepad, not even that they were let go.
         document.addEventListener('visibilitychange', () => document.hidden && this.driving.letGo());
+        watchPageList({
+            editor: this.editor.state,
+            transfer: this.transfer.state,
+            isSimulated: () => this.isSimulated,
+            mayAsk: () => this.status.mayAsk(),
+            ask: () => this.arrival.askPages(),
+        });
         watchCauses({ messages: this.messages, robot: this.state, editor: this.editor.state, documents: this.documents.state });
     }
 

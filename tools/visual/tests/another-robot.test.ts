@@ -180,6 +180,16 @@ test('Stop right after Play: the picture does not begin to move when the robot h
     expect(session.preview.state.get().isRunning).toBe(false);
 });
 
+test('motions were written to yours: its list is asked for again', async () => {
+    const { session, yours, connect } = await page('edit');
+    await connect();
+    await vi.waitFor(() => expect(session.state.get().message?.text).toContain('backup'));
+    const lists = (): number => yours.sent.filter(word => word === '@list').length;
+    const before = lists();
+    await session.transfer.write([]);
+    await vi.waitFor(() => expect(lists()).toBe(before + 1));
+});
+
 test('Play pressed twice while the robot stands up: it plays once, and nobody says that it was stopped', async () => {
     const { session, inPage, stand } = await page('play');
     const said: (string | undefined)[] = [];

@@ -14,7 +14,7 @@ vi.mock('../app/assets.ts', () => ({
     robotImages: () => Promise.resolve({ boot: '', application: '', motions: new Uint8Array(65_536) }),
     physics: () => Promise.reject(new Error('not here')),
 }));
-vi.mock('../view/robot-store.ts', () => ({ loadRobot: () => Promise.resolve(null) }));
+vi.mock('../view/robot-store.ts', () => ({ loadRobot: () => Promise.resolve(null), saveRobot: () => Promise.resolve() }));
 
 const BODY = JSON.parse(await readFile(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
 const { format } = await makeFormat();
@@ -49,9 +49,20 @@ class Worker {
     }
 
     crash(): void {
+        this.stand();
+        this.tell({ kind: 'crashed', text: 'out of memory' });
+    }
+
+    /** Its time stands still. */
+    stand(): void {
         this.isSilent = true;
         clearInterval(this.timer);
-        this.tell({ kind: 'crashed', text: 'out of memory' });
+    }
+
+    /** Edit has saved a page. */
+    save(): void {
+        const memories = { flash: new Uint8Array(0x20000), eeprom: new Uint8Array(), servos: new Uint8Array() };
+        this.tell({ kind: 'memories', memories, id: null });
     }
 
     private answer(text: string): void {
@@ -155,4 +166,13 @@ test('a motion of a link on a robot that is off: it is said, and the motion does
     expect(await within(3000, session.run(2))).toBeUndefined();
     expect(session.preview.state.get().isLooping).toBe(false);
     expect(session.state.get().message?.text).toMatch(/switched off/);
+});
+
+test('a motion that is saved in Edit of the robot in the page: the list of its motions is asked for again', async () => {
+    const { worker, plays } = await page();
+    await vi.waitFor(() => expect(plays()).toHaveLength(2), SOON);
+    const lists = (): number => worker.sent.filter(text => text.startsWith('@list')).length;
+    const before = lists();
+    worker.save();
+    await vi.waitFor(() => expect(lists()).toBe(before + 1), SOON);
 });
