@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reads all pages of a robot: the CRCs first, then only the pages that are not known here.
 
+import { PAGE_COUNT } from '../model/motion.ts';
 import { askPageCrcs } from './page-requests.ts';
 import { REFUSED, askDensePage, askPage } from './protocol.ts';
 import type { PageCrc } from './protocol.ts';
@@ -14,19 +15,20 @@ export interface ReadOptions {
     readonly signal?: AbortSignal;
 }
 
-/** The 128 pages in flash. Rejects with RobotError. Can be cancelled between two pages. */
+/** The 128 pages in flash. Rejects with RobotError. Can be cancelled at any time. */
 export async function readPages(requests: Requests, crcOf: PageCrc, options: ReadOptions = {}): Promise<Uint8Array[]> {
-    const crcs = await askPageCrcs(requests);
+    const { signal } = options;
+    const asks = signal ? { signal } : {};
+    const crcs = await askPageCrcs(requests, 0, PAGE_COUNT - 1, asks);
     const pages = crcs.map((crc, page) => options.known?.(page).find(bytes => crcOf(bytes) === crc));
     const missing = pages.flatMap((bytes, page) => (bytes ? [] : [page]));
     let ask = askDensePage;
     for (const [done, page] of missing.entries()) {
-        if (options.signal?.aborted) throw new RobotError('cancelled');
         options.progress?.(done, missing.length);
-        pages[page] = await ask(requests, page, crcOf).catch((error: unknown) => {
+        pages[page] = await ask(requests, page, crcOf, asks).catch((error: unknown) => {
             if (!(error instanceof RobotError) || error.number !== REFUSED.noCommand) throw error;
             ask = askPage; // an older image
-            return askPage(requests, page, crcOf);
+            return askPage(requests, page, crcOf, asks);
         });
     }
     options.progress?.(missing.length, missing.length);

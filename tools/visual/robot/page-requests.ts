@@ -4,7 +4,7 @@
 import { PAGE_COUNT } from '../model/motion.ts';
 import type { PageFormat } from '../model/page-format.ts';
 import { RobotError } from './robot-error.ts';
-import type { Requests } from './requests.ts';
+import type { RequestOptions, Requests } from './requests.ts';
 
 export type Ask = Pick<Requests, 'ask'>;
 
@@ -25,8 +25,8 @@ function crcOf(words: string): number {
 }
 
 /** The CRC-16 of each of these pages in flash. */
-export async function askPageCrcs(requests: Ask, first = 0, last = PAGE_COUNT - 1): Promise<number[]> {
-    const answer = await requests.ask(`@crcs ${first} ${last}`, { timeoutMs: CRCS_MS });
+export async function askPageCrcs(requests: Ask, first = 0, last = PAGE_COUNT - 1, options: RequestOptions = {}): Promise<number[]> {
+    const answer = await requests.ask(`@crcs ${first} ${last}`, { timeoutMs: CRCS_MS, ...options });
     const words = answer.match(/.{1,4}/g) ?? [];
     if (words.length !== last - first + 1) throw new RobotError('foreign', `@crcs: ${words.length} pages`);
     return words.map(crcOf);

@@ -137,27 +137,28 @@ export async function askList(requests: Requests): Promise<PageEntry[]> {
 export type PageCrc = (page: Uint8Array) => number;
 
 /** The 512 bytes of a page, checked by their CRC. */
-export function askPage(requests: Requests, page: number, crcOf: PageCrc): Promise<Uint8Array> {
-    return readWhole(requests, '@page', page, crcOf, text => {
-        return Uint8Array.from({ length: text.length / 2 }, (_, i) => Number.parseInt(text.slice(2 * i, 2 * i + 2), 16));
-    });
+export function askPage(requests: Requests, page: number, crcOf: PageCrc, options?: RequestOptions): Promise<Uint8Array> {
+    const fromHex = (text: string): Uint8Array =>
+        Uint8Array.from({ length: text.length / 2 }, (_, i) => Number.parseInt(text.slice(2 * i, 2 * i + 2), 16));
+    return readWhole(requests, `@page ${page}`, crcOf, fromHex, options);
 }
 
 /** Like askPage() in two thirds of the time. An older image refuses with ERR 1. */
-export function askDensePage(requests: Requests, page: number, crcOf: PageCrc): Promise<Uint8Array> {
-    return readWhole(requests, '@dense', page, crcOf, fromDense);
+export function askDensePage(requests: Requests, page: number, crcOf: PageCrc, options?: RequestOptions): Promise<Uint8Array> {
+    return readWhole(requests, `@dense ${page}`, crcOf, fromDense, options);
 }
 
 async function readWhole(
     requests: Requests,
-    word: string,
-    page: number,
+    request: string,
     crcOf: PageCrc,
     decode: (text: string) => Uint8Array,
+    options: RequestOptions = {},
 ): Promise<Uint8Array> {
-    const answer = await requests.ask(`${word} ${page}`, { timeoutMs: PAGE_MS });
+    const answer = await requests.ask(request, { timeoutMs: PAGE_MS, ...options });
+    const [word = '', page] = request.split(' ');
     const [number, text = '', crc = ''] = answer.split(' ');
-    if (Number(number) !== page) throw strange(word, answer);
+    if (Number(number) !== Number(page)) throw strange(word, answer);
     const bytes = decode(text);
     if (bytes.length !== PAGE_BYTES || crcOf(bytes) !== Number.parseInt(crc, 16)) throw strange(word, 'the CRC does not fit');
     return bytes;

@@ -168,6 +168,15 @@ test('a motion of a link on a robot that is off: it is said, and the motion does
     expect(session.state.get().message?.text).toMatch(/switched off/);
 });
 
+test('a reading of a robot whose time stands still can be stopped', async () => {
+    const { session, worker, plays } = await page();
+    await vi.waitFor(() => expect(plays()).toHaveLength(2), SOON);
+    worker.stand();
+    const reading = session.transfer.read();
+    session.transfer.cancel();
+    expect(await within(3000, reading)).toMatchObject({ isDone: false, error: { code: 'cancelled' } });
+});
+
 test('a motion that is saved in Edit of the robot in the page: the list of its motions is asked for again', async () => {
     const { worker, plays } = await page();
     await vi.waitFor(() => expect(plays()).toHaveLength(2), SOON);
