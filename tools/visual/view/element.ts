@@ -30,6 +30,12 @@ function nameOf(element: Element): string {
     return element.getAttribute('aria-label') ?? element.textContent;
 }
 
+/** On this element the browser shows no menu. On macOS and Linux a menu takes the release of a button that is held, also that of Ctrl and a
+ *  click, so what is dragged or held would stay so. */
+export function withoutMenu(element: Element): void {
+    element.addEventListener('contextmenu', event => event.preventDefault());
+}
+
 /** For a button that plays a motion: ignores the second click of a double click, or the robot would refuse it as busy. */
 export function once(action: () => unknown): (event: Event) => void {
     return event => {

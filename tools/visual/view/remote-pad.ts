@@ -8,7 +8,7 @@ import type { Shape } from '../model/motion.ts';
 import type { Session } from './session/session.ts';
 import { LayerBar } from './editor/layer-bar.ts';
 import { ShapeBar } from './editor/shape-bar.ts';
-import { define, make } from './element.ts';
+import { define, make, withoutMenu } from './element.ts';
 import type { Store } from './store.ts';
 import { startPageAddress } from './texts/languages.ts';
 import { TEXTS } from './texts/texts.ts';
@@ -72,7 +72,7 @@ export class RemotePad extends HTMLElement {
         };
         button.addEventListener('pointerdown', hold);
         for (const end of ['pointerup', 'pointercancel'] as const) button.addEventListener(end, () => this.change('screen', name, false));
-        button.addEventListener('contextmenu', event => event.preventDefault()); // the menu would take the release
+        withoutMenu(button);
         button.addEventListener('keydown', event => event.key === 'Enter' && this.change('screen', name, true));
         button.addEventListener('keyup', event => event.key === 'Enter' && this.change('screen', name, false));
         button.addEventListener('blur', () => this.change('screen', name, false));

@@ -11,7 +11,7 @@ import type { Session } from './session/session.ts';
 import { EDITING_START } from './editor/editing.ts';
 import type { Editing } from './editor/editing.ts';
 import { PoseTool } from './editor/pose-tool.ts';
-import { define, make, setText } from './element.ts';
+import { define, make, setText, withoutMenu } from './element.ts';
 import { Fingers } from './fingers.ts';
 import { keyOf } from './key-of.ts';
 import { PictureQuality } from './picture-quality.ts';
@@ -188,6 +188,7 @@ export class RobotView extends HTMLElement {
 
     private listen(): void {
         const canvas = this.canvas;
+        withoutMenu(canvas);
         for (const touch of ['pointerdown', 'pointermove', 'pointerup', 'wheel', 'keydown'])
             canvas.addEventListener(touch, () => (this.isStill = false), { capture: true });
         this.scene?.controls.addEventListener('start', () => (this.isLookedRound = true));

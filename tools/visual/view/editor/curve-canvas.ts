@@ -7,7 +7,7 @@ import type { Body, Joint } from '../../model/body.ts';
 import { AS_STORED, NOMINAL_VOLTS } from '../../model/motion.ts';
 import type { Shape } from '../../model/motion.ts';
 import type { Session } from '../session/session.ts';
-import { define, make, setText } from '../element.ts';
+import { define, make, setText, withoutMenu } from '../element.ts';
 import { jointTitle } from '../texts/robot.ts';
 import { TEXTS } from '../texts/texts.ts';
 import { CurveHand, jointAt, nearestPoint } from './curve-hand.ts';
@@ -50,6 +50,7 @@ export class CurveCanvas extends HTMLElement {
         this.hand = new CurveHand(this.session);
         this.follow = new ServoFollow(this.session, () => this.later());
         const { canvas } = this;
+        withoutMenu(canvas);
         canvas.addEventListener('pointerdown', event => this.down(event));
         canvas.addEventListener('pointermove', event => this.move(event));
         canvas.addEventListener('pointerleave', () => (this.label.textContent = ''));

@@ -5,7 +5,7 @@
 import { anglesOf } from '../../model/body.ts';
 import type { Step } from '../../model/page.ts';
 import type { Session } from '../session/session.ts';
-import { define, handOver, isTyping, make } from '../element.ts';
+import { define, handOver, isTyping, make, withoutMenu } from '../element.ts';
 import { keyOf } from '../key-of.ts';
 import { showPose } from './pose-picture.ts';
 import { TEXTS } from '../texts/texts.ts';
@@ -155,6 +155,7 @@ export class StepRow extends HTMLElement {
         const time = this.field(index, 'time', TEXTS.steps.timeOf(index + 1));
         const pause = this.field(index, 'pause', TEXTS.steps.pauseOf(index + 1));
         const root = make('li', {}, pick, time, pause);
+        withoutMenu(pick);
         pick.addEventListener('pointerdown', event => this.down(event, index, pick));
         pick.addEventListener('pointermove', event => this.moveDrag(event));
         pick.addEventListener('pointerup', event => this.up(event));

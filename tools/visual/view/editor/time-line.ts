@@ -5,7 +5,7 @@ import { TICKS_PER_SECOND } from '../../model/motion.ts';
 import { BYTE_MAX } from '../../model/page.ts';
 import type { Session } from '../session/session.ts';
 import type { Gesture } from '../session/editor.ts';
-import { define, make } from '../element.ts';
+import { define, make, withoutMenu } from '../element.ts';
 import { nearestSetting, stepTimes } from './step-times.ts';
 import type { TimedField } from './step-times.ts';
 import { TEXTS } from '../texts/texts.ts';
@@ -50,6 +50,7 @@ export class TimeLine extends HTMLElement {
     connectedCallback(): void {
         this.frame.replaceChildren(this.bar, this.head);
         this.replaceChildren(this.frame, this.total, make('label', { class: 'times' }, '×', this.times));
+        withoutMenu(this.bar);
         this.bar.addEventListener('pointerdown', event => this.down(event));
         this.bar.addEventListener('pointermove', event => this.move(event));
         this.bar.addEventListener('pointerup', () => this.end(true));
