@@ -20,10 +20,10 @@ async function start(): Promise<void> {
     if (typeof WebAssembly === 'undefined') return fail(TEXTS.page.noWebAssembly);
     const [body, parts, storage] = await Promise.all([robotBody(), editorParts(), documentStorage()]);
     const session = new RobotSession(body, parts, fileFormats(), storage);
-    await Promise.all([session.start(), show(session, parts)]); // the robot starts in its worker while the page is built
-    keepOffline(session);
     document.addEventListener('visibilitychange', takeTyped); // the last event that a page receives, also on reload
     window.addEventListener('beforeunload', event => session.documents.state.get().saving === 'off' && event.preventDefault());
+    await Promise.all([session.start(), show(session, parts)]); // the robot starts in its worker while the page is built
+    keepOffline(session);
 }
 
 /** Commits a half-typed field as if the person had left it. */
