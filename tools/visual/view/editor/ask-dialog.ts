@@ -32,6 +32,9 @@ export function ask(title: string, text: string, answers: readonly Answer[], ...
     return show(title, answers, make('p', {}, text), ...content);
 }
 
+/** More than blanks, which are trimmed. */
+const SOMETHING = '.*\\S.*';
+
 /** Resolves with the trimmed text; null: cancelled. */
 export async function askText(
     title: string,
@@ -45,7 +48,8 @@ export async function askText(
         required: true,
         maxlength: options.maxLength ?? 60,
         autofocus: true,
-        ...(options.pattern ? { pattern: options.pattern, title: options.hint ?? '' } : {}),
+        pattern: options.pattern ?? SOMETHING,
+        ...(options.hint ? { title: options.hint } : {}),
     });
     input.addEventListener('focus', () => input.select());
     const answer = await show(
