@@ -8,6 +8,7 @@ import { define, handOver, make, pictureCanvas } from '../element.ts';
 import type { Store } from '../store.ts';
 import type { Editing } from './editing.ts';
 import { TEXTS } from '../texts/texts.ts';
+import { TourPlace } from './tour-place.ts';
 import { tourStops } from './tour-stops.ts';
 import type { TourStop } from './tour-stops.ts';
 import './tour.css';
@@ -26,13 +27,12 @@ export class TourCard extends HTMLElement {
     /** Called when the user wants to send the motion. */
     onSend: () => void = () => undefined;
     private readonly stops = tourStops();
-    private at = -1;
-    private isBack = false;
+    private readonly place = new TourPlace(this.stops.length);
     private robot: RobotState | null = null;
     private armBefore: readonly number[] = [];
     private readonly heading = make('h2', {});
     private readonly text = make('p', { role: 'status', 'aria-label': TEXTS.tour.tour });
-    private readonly next = make('button', { onclick: () => this.go(this.at + 1) }, TEXTS.tour.next);
+    private readonly next = make('button', { onclick: () => this.go(this.place.at + 1) }, TEXTS.tour.next);
     private readonly send = make('button', { class: 'primary', onclick: () => this.onSend() }, TEXTS.tour.send);
     private readonly ring = make('div', { class: 'tour-ring', 'aria-hidden': true });
     private readonly disposals: (() => void)[] = [];
@@ -47,7 +47,7 @@ export class TourCard extends HTMLElement {
             make(
                 'div',
                 { class: 'row' },
-                make('button', { class: 'back', onclick: () => this.go(this.at - 1, true) }, TEXTS.tour.back),
+                make('button', { class: 'back', onclick: () => this.go(this.place.at - 1, true) }, TEXTS.tour.back),
                 this.send,
                 this.next,
                 make('span', { class: 'space' }),
@@ -88,18 +88,15 @@ export class TourCard extends HTMLElement {
 
     private end(): void {
         handOver(this, pictureCanvas(), () => (this.hidden = this.ring.hidden = true));
-        this.at = -1;
     }
 
-    /** isBack: stays there although its goal is reached, until that changes or the user goes on. */
     private go(to: number, isBack = false): void {
-        this.isBack = isBack;
-        if (to >= this.stops.length) return this.end();
-        this.at = Math.max(0, to);
+        if (!this.place.go(to, isBack)) return this.end();
+        const { at } = this.place;
         this.armBefore = this.arm();
-        this.heading.textContent = TEXTS.tour.title(this.at + 1, this.stops.length);
+        this.heading.textContent = TEXTS.tour.title(at + 1, this.stops.length);
         this.text.textContent = this.stop?.text ?? '';
-        this.next.textContent = this.at === this.stops.length - 1 ? TEXTS.tour.done : this.at === 0 ? TEXTS.tour.start : TEXTS.tour.next;
+        this.next.textContent = at === this.stops.length - 1 ? TEXTS.tour.done : at === 0 ? TEXTS.tour.start : TEXTS.tour.next;
         this.send.hidden = this.stop?.goal !== 'send';
         this.lead(this.stop?.target ?? '');
         this.showRing();
@@ -114,14 +111,12 @@ export class TourCard extends HTMLElement {
     }
 
     private get stop(): TourStop | null {
-        return this.stops[this.at] ?? null;
+        return this.stops[this.place.at] ?? null;
     }
 
     private look(): void {
         if (this.hidden || !this.stop) return;
-        const isReached = this.isReached(this.stop);
-        this.isBack &&= isReached;
-        if (isReached && !this.isBack) this.go(this.at + 1);
+        if (this.place.isOver(this.isReached(this.stop))) this.go(this.place.at + 1);
         else this.showRing();
     }
 
