@@ -135,7 +135,10 @@ export class LayerBar extends HTMLElement {
     }
 
     private lay(): void {
-        const joints = this.joints.value === 'chosen' ? this.chosen.map(({ servo }) => servo) : [];
+        const isOnChosen = this.joints.value === 'chosen';
+        const joints = isOnChosen ? this.chosen.map(({ servo }) => servo) : [];
+        // Without joints the robot would take those of the motion.
+        if (isOnChosen && joints.length === 0) return this.session.say({ text: TEXTS.layers.chooseJoint, tone: 'bad' });
         if (this.page.value !== '') void this.session.overlay({ kind: 'layer', page: Number(this.page.value), joints });
     }
 
@@ -147,8 +150,8 @@ export class LayerBar extends HTMLElement {
 
     private swing(): void {
         const { joint } = this;
-        const [amplitude, periodMs] = [Math.round(this.amplitude.valueAsNumber), Math.round(this.seconds.valueAsNumber * 1000)];
-        if (!joint || !Number.isFinite(amplitude + periodMs)) return;
+        if (!joint) return;
+        const [amplitude, periodMs] = [Math.round(numberIn(this.amplitude)), Math.round(numberIn(this.seconds) * 1000)];
         void this.session.overlay({ kind: 'swing', joint: joint.servo, centre: this.within(joint), amplitude, periodMs });
     }
 
@@ -159,6 +162,12 @@ export class LayerBar extends HTMLElement {
         this.position.value = String(position);
         return position;
     }
+}
+
+/** An empty field gets its first number back. */
+function numberIn(field: HTMLInputElement): number {
+    if (!Number.isFinite(field.valueAsNumber)) field.value = field.defaultValue;
+    return field.valueAsNumber;
 }
 
 define('layer-bar', LayerBar);
