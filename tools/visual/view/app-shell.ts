@@ -31,6 +31,7 @@ import { Store } from './store.ts';
 import { TerminalPane } from './terminal-pane.ts';
 import { LanguageChoice } from './language-choice.ts';
 import { TEXTS } from './texts/texts.ts';
+import { changeTheme, showTheme } from './theme.ts';
 import './app-shell.css';
 
 /** Areas that show the document. */
@@ -64,6 +65,7 @@ export class AppShell extends HTMLElement {
     private unwatch: () => void = () => undefined;
 
     connectedCallback(): void {
+        showTheme();
         const actions = this.give(new ActionBar());
         const robot = Object.assign(this.give(new RobotView()), { editing: this.editing, cover: actions });
         const poses = Object.assign(this.give(new PoseBar()), {
@@ -131,7 +133,7 @@ export class AppShell extends HTMLElement {
     }
 
     private head(): HTMLElement {
-        const theme = make('button', { 'aria-label': TEXTS.menu.theme, title: TEXTS.menu.theme, onclick: () => this.changeTheme() }, '◐');
+        const theme = make('button', { 'aria-label': TEXTS.menu.theme, title: TEXTS.menu.theme, onclick: changeTheme }, '◐');
         const keys = make('button', { 'aria-label': TEXTS.keys.title, title: TEXTS.keys.hint, onclick: () => this.keys.open() }, '?');
         const sources = make(
             'div',
@@ -168,12 +170,6 @@ export class AppShell extends HTMLElement {
         const { tab } = this.session.state.get();
         if (robot.contains(document.activeElement)) this.tabs.focusTab(tab);
         else robot.querySelector('canvas')?.focus();
-    }
-
-    private changeTheme(): void {
-        const root = document.documentElement;
-        const isDark = getComputedStyle(root).getPropertyValue('--ground').trim() === '#14181c';
-        root.dataset.theme = isDark ? 'light' : 'dark';
     }
 
     private choose(name: Tab): void {

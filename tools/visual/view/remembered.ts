@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the page remembers of the user between visits, apart from documents: things done once, and the language.
+// What the page remembers of the user between visits, apart from documents: things done once, language and theme.
 
-export type Remembered = 'begun' | 'all-areas' | 'language';
+export type Remembered = 'begun' | 'all-areas' | 'language' | 'theme';
 
 const keyOf = (what: Remembered): string => `motion512.${what}`;
 
