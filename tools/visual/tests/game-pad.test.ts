@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A gamepad while a dialog is open or another window has the focus.
+// A gamepad: which one, and what it does while a dialog is open or another window has the focus.
 import { expect, test } from 'vitest';
-import { GamePad } from '../view/game-pad.ts';
+import { GamePad, padOf } from '../view/game-pad.ts';
 
 const NOTHING = { buttons: [], stick: null };
 
@@ -35,4 +35,11 @@ test('a stick drives when it has been at rest once, on each pad that is plugged 
     expect(one.read(pad([], 1), true).stick).toEqual({ x: 1, y: -0 });
     one.read(null, true);
     expect(one.read(pad([], 1), true).stick).toBeNull();
+});
+
+test('a keyboard that the browser lists as a pad does not take the place of a real one; a pad of another layout is better than none', () => {
+    const [keyboard, real] = [{ mapping: '' as const }, { mapping: 'standard' as const }];
+    expect(padOf([null, keyboard, real])).toBe(real);
+    expect(padOf([null, keyboard])).toBe(keyboard);
+    expect(padOf([null])).toBeNull();
 });

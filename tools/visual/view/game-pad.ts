@@ -24,6 +24,11 @@ export interface PadInput {
     readonly stick: { readonly x: number; readonly y: number } | null;
 }
 
+/** The pad with the layout that is read here; without one, the first. To some browsers a keyboard or a mouse is a pad, too. */
+export function padOf<P extends Pick<Gamepad, 'mapping'>>(pads: readonly (P | null)[]): P | null {
+    return pads.find(pad => pad?.mapping === 'standard') ?? pads.find(pad => pad !== null) ?? null;
+}
+
 export class GamePad {
     /** What was pushed while the pad was for something else drives only when all was let go. */
     private mustRest = false;

@@ -13,7 +13,7 @@ import type { Store } from './store.ts';
 import { startPageAddress } from './texts/languages.ts';
 import { TEXTS } from './texts/texts.ts';
 import { WaveButton } from './wave-button.ts';
-import { GamePad } from './game-pad.ts';
+import { GamePad, padOf } from './game-pad.ts';
 import { KeyList } from './key-list.ts';
 import { buttonOf, isForFocus } from './remote-keys.ts';
 import './remote-pad.css';
@@ -98,7 +98,7 @@ export class RemotePad extends HTMLElement {
     private watchPad(): void {
         let frame = 0;
         const ask = (): void => {
-            const pad = navigator.getGamepads().find(one => one !== null) ?? null;
+            const pad = padOf(navigator.getGamepads());
             this.readPad(pad);
             frame = pad ? requestAnimationFrame(ask) : 0;
         };
