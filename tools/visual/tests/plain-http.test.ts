@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The page over plain http from another machine, as a school may offer it: the browser lacks locks, the clipboard and crypto.randomUUID there.
+// The page over plain http from another machine, as a school may offer it: the browser has no locks, no clipboard and no crypto.randomUUID
+// there.
 import { readFileSync } from 'node:fs';
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { makeDocuments } from '../app/document-parts.ts';

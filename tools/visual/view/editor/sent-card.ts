@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A motion from the page's address is added to the document, and the robot in the page plays it. The card names it and offers what to do next.
+// A motion from the page's address is added to the document, and the robot in the page plays it. The card names it and offers what to do
+// next.
 
 import type { Session } from '../session/session.ts';
 import { define, handOver, make, pictureCanvas } from '../element.ts';

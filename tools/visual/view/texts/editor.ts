@@ -53,7 +53,8 @@ export function transferText({ phase, done, total, account, trouble }: TransferS
         case 'written':
             return compare.written(total);
         case 'stopped':
-            return [trouble ?? '', total > 0 && account.size > 0 ? compare.stopped(done, total) : ''].filter(Boolean).join(' '); // else it read
+            // Without an account the robot was only read.
+            return [trouble ?? '', total > 0 && account.size > 0 ? compare.stopped(done, total) : ''].filter(Boolean).join(' ');
         default:
             return phase satisfies never;
     }

@@ -85,7 +85,7 @@ export function startText(state: SessionState): string {
     return where.state === 'paused' ? TEXTS.status.pauses(motion) : TEXTS.status.plays(motion);
 }
 
-/** The second page that plays and the joints moved by code, as the robot reports them. The page may be one of those beyond the document's. */
+/** The second page that plays and the joints moved by code, as the robot reports them. The page may be one beyond the document's. */
 export function layersText(state: SessionState): string {
     const fields = state.where?.fields;
     const page = Number(fields?.get('layer') ?? 0);
