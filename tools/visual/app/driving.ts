@@ -135,10 +135,10 @@ export class Driving {
         return version?.image === 'play' ? (pages.find(page => page.name === 'walk')?.page ?? null) : null;
     }
 
-    /** Edit would take a packet for typed letters. */
+    /** Edit and a boot loader would take a packet for typed letters, and who knows what another board would do. */
     private send(packet: Uint8Array): void {
         const { messages, simulated } = this.parts;
-        if (this.state.source === 'yours' ? this.isYoursWithEdit : !this.hears) return;
+        if (this.state.source === 'yours' ? this.state.version?.image !== 'play' : !this.hears) return;
         if (this.isSimulated) simulated.post({ kind: 'bytes', sender: 'remote', bytes: packet });
         else void this.write(packet).catch(messages.fail);
     }

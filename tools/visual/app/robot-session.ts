@@ -306,11 +306,12 @@ export class RobotSession implements Session {
         else this.messages.say(message);
     }
 
-    /** Edit ignores the remote, but Stop must work there as well. */
+    /** Edit ignores the remote, and an unknown board gets none of it, but Stop must work there as well. */
     remote(held: ReadonlySet<RemoteButton>): void {
         const stops = held.has('b6');
         if (stops) this.dropWaiting();
-        if (stops && this.state.get().version?.image === 'edit') void this.command('stop');
+        const { source, version } = this.state.get();
+        if (stops && (source === 'yours' ? version?.image !== 'play' : version?.image === 'edit')) void this.command('stop');
         else this.driving.remote(held);
     }
 

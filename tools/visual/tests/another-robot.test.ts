@@ -180,6 +180,21 @@ test('Stop right after Play: the picture does not begin to move when the robot h
     expect(session.preview.state.get().isRunning).toBe(false);
 });
 
+test('a board that is not known yet gets no key of the remote, which it might take for typing, but it is told to stop', async () => {
+    const { session } = await page('play');
+    let got = '';
+    const deaf = Object.assign(new BytePort('a board', bytes => (got += String.fromCharCode(...bytes))), { getInfo: () => ({}) });
+    vi.stubGlobal('navigator', { serial: { getPorts: () => Promise.resolve([deaf]), addEventListener: () => undefined } });
+    await session.connectYours();
+    await vi.waitFor(() => expect(session.state.get().connection).toBe('silent'), { timeout: 10_000 });
+    session.remote(new Set(['up']));
+    session.remote(new Set());
+    session.remote(new Set(['b6']));
+    session.remote(new Set());
+    await vi.waitFor(() => expect(got).toContain('@stop'), { timeout: 10_000 });
+    expect(got).not.toContain('\xff\x55');
+});
+
 test('motions were written to yours: its list is asked for again', async () => {
     const { session, yours, connect } = await page('edit');
     await connect();
