@@ -129,7 +129,8 @@ export class Connection {
         try {
             await this.port.open({ baudRate: BAUD_RATE });
         } catch (cause) {
-            this.error = new RobotError('port-busy', cause instanceof Error ? cause.message : '', { cause });
+            const isUnplugged = this.error?.code === 'port-lost'; // it cannot be opened before it is back
+            if (!isUnplugged) this.error = new RobotError('port-busy', cause instanceof Error ? cause.message : '', { cause });
             this.on('open-failed');
             return;
         }

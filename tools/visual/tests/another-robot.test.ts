@@ -195,6 +195,30 @@ test('a board that is not known yet gets no key of the remote, which it might ta
     expect(got).not.toContain('\xff\x55');
 });
 
+test('a port that another program has is said to be busy; one whose cable was pulled is said to be unplugged, also when it was tried again', async () => {
+    const { session, yours } = await page('play');
+    const refuse = vi.fn(() => Promise.reject(new DOMException('Failed to open serial port.', 'NetworkError')));
+    const busy = Object.assign(new BytePort('a board', () => undefined), { getInfo: () => ({}), open: refuse });
+    const use = (port: object): void => {
+        vi.stubGlobal('navigator', { serial: { getPorts: () => Promise.resolve([port]), addEventListener: () => undefined } });
+    };
+    const says = (): string => session.state.get().doing.text;
+    use(busy);
+    await session.connectYours();
+    await vi.waitFor(() => expect(session.state.get().connection).toBe('waiting'));
+    expect(says()).toMatch(/Close the other program/);
+    session.useSimulated();
+    use(yours.port);
+    await session.connectYours();
+    await vi.waitFor(() => expect(session.state.get().connection).toBe('ready'));
+    yours.port.open = refuse;
+    refuse.mockClear();
+    yours.port.unplug();
+    await vi.waitFor(() => expect(refuse).toHaveBeenCalled());
+    await vi.waitFor(() => expect(session.state.get().connection).toBe('waiting'));
+    expect(says()).toMatch(/unplugged/);
+});
+
 test('motions were written to yours: its list is asked for again', async () => {
     const { session, yours, connect } = await page('edit');
     await connect();

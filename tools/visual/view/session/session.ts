@@ -36,6 +36,8 @@ export interface TerminalSize {
 export interface SessionState {
     readonly source: Source;
     readonly connection: ConnectionState;
+    /** While it waits: another program has the port, so the cable is not the reason. */
+    readonly isPortBusy?: boolean;
     readonly portName: string;
     readonly version: Version | null;
     readonly where: Where | null;

@@ -47,6 +47,7 @@ function robotText(state: SessionState, where: Where | null): string {
     if (state.source === 'simulated' && !state.isPowered) return status.isOff;
     if (state.adapter) return state.adapter === 'out' ? robot.adapterOut : robot.adapterBack;
     if (state.connection !== 'ready') {
+        if (state.connection === 'waiting' && state.isPortBusy) return robot.errors['port-busy'];
         if (state.source === 'yours') return robot.connections[state.connection];
         if (state.source === 'servos') return status.searches;
         return state.isLate ? status.startsNot : status.starts;
