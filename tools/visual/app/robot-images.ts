@@ -24,7 +24,8 @@ export interface ImageParts {
 
 export class RobotImages {
     private readonly parts: ImageParts;
-    private leaving: Promise<void> | null = null;
+    /** The robot that leaves Edit. Its answer may not come while another one is used. */
+    private leaving: { readonly robot: unknown; readonly done: Promise<void> } | null = null;
 
     constructor(parts: ImageParts) {
         this.parts = parts;
@@ -56,8 +57,12 @@ export class RobotImages {
     /** Only Play receives a remote control. Resolves when Play runs and the robot is on its feet. Rejects with RobotError. */
     async becomeDriven(): Promise<void> {
         if (this.state.image !== 'play') {
-            this.leaving ??= this.leaveEdit().finally(() => (this.leaving = null));
-            await this.leaving;
+            const robot = this.parts.robot();
+            if (this.leaving?.robot !== robot) this.leaving = { robot, done: this.leaveEdit() };
+            const { leaving } = this;
+            await leaving.done.finally(() => {
+                if (this.leaving === leaving) this.leaving = null;
+            });
         }
         await this.untilReady();
         await this.parts.robot().prepare();

@@ -4,6 +4,7 @@ import { expect, test, vi } from 'vitest';
 import { RobotImages } from '../app/robot-images.ts';
 import type { ImageParts } from '../app/robot-images.ts';
 import type { PageFormat } from '../model/page-format.ts';
+import type { Connection } from '../robot/connection.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { SessionState } from '../view/session/session.ts';
 import { Store } from '../view/store.ts';
@@ -86,3 +87,36 @@ test('a key of the remote while the page writes motions: Edit goes on, and it is
     await expect(images.becomeDriven()).rejects.toMatchObject({ code: 'transfer-busy' });
     expect(robot.restart).not.toHaveBeenCalled();
 });
+
+test('a key for My servos with Edit does not wait for the robot in the page, whose time stands still', async () => {
+    const state = new Store({
+        source: 'simulated',
+        image: 'edit',
+        connection: 'ready',
+        version: { image: 'edit' },
+        physics: 'on',
+        stopped: null,
+    } as unknown as SessionState);
+    const never = { requests: { ask: () => new Promise(() => undefined) } };
+    const inPage = { restart: vi.fn(), forget: vi.fn(), prepare: vi.fn(), connection: never as unknown as Connection };
+    const restart = vi.fn(async () =>
+        state.set({ stopped: null, connection: 'ready', version: { image: 'play' } as SessionState['version'] }),
+    );
+    const servos = { restart, forget: vi.fn(), prepare: vi.fn(), connection: null };
+    let robot: typeof inPage | typeof servos = inPage;
+    const images = new RobotImages({
+        state,
+        format: {} as PageFormat,
+        robot: () => robot,
+        isWriting: () => false,
+        say: () => undefined,
+        fail: () => undefined,
+    });
+    void images.becomeDriven();
+    await Promise.resolve();
+    robot = servos;
+    state.set({ source: 'servos', stopped: 'crashed' }); // so there is no edit to ask for
+    await images.becomeDriven();
+    expect(restart).toHaveBeenCalledWith('play');
+    expect(inPage.restart).not.toHaveBeenCalled();
+}, 2000);
