@@ -150,6 +150,17 @@ class Person:
         if rng.random() < 0.8:
             self.act(f"clear {servo}", rng.randrange(0, 2 * SECOND))
 
+    def two_servos_fail(self):
+        """While one is silent, the other must be named."""
+        rng = self.rng
+        if len(self.servos) < 2:
+            return
+        first, second = rng.sample(self.servos, 2)
+        self.act(f"fault {first} dead 0", rng.randrange(2, 5) * SECOND)
+        self.act(f"fault {second} {rng.choice(('dead', 'silent'))} 0", rng.randrange(7, 9) * SECOND)
+        self.act(f"clear {first}", rng.randrange(SECOND))
+        self.act(f"clear {second}", rng.randrange(2 * SECOND))
+
     def line_fails(self):
         rng = self.rng
         kind = rng.random()
@@ -216,6 +227,16 @@ class Player(Person):
         self.line(word)
         if word == "stop" and self.rng.random() < 0.3:
             self.line(word, self.rng.randrange(8, SECOND))
+
+    def stops_twice(self):
+        """Stops at rest, and then a play that begins at once: its pose is that of the play before."""
+        rng = self.rng
+        page = rng.choice((71, 73, 75, 75))
+        self.line("break", 3 * SECOND)
+        self.line(f"play {page}", 4 * SECOND)
+        self.line("stop", rng.randrange(4, 60))
+        self.line(f"play {page}", rng.randrange(8, 30))
+        self.line("stop", 3 * SECOND)
 
     def pauses(self):
         self.line("pause")
@@ -391,8 +412,9 @@ class Player(Person):
         self.line(self.rng.choice(lines).replace(",", " "))
 
     def sets(self):
-        name, values = self.rng.choice(SETTINGS)
-        self.line(f"settings {name} {self.rng.choice(values)}", self.rng.choice((1, 8, 40, 200)))
+        for _ in range(self.rng.choice((1, 1, 2, 3))):
+            name, values = self.rng.choice(SETTINGS)
+            self.line(f"settings {name} {self.rng.choice(values)}", self.rng.choice((1, 8, 40, 200)))
 
     def halts_in_a_line(self):
         """Types text that stays unfinished while status lines come."""
@@ -434,7 +456,9 @@ class Player(Person):
         ("rests", 4),
         ("loses_power", 2),
         ("panel", 2),
+        ("stops_twice", 1),
         ("servo_fails", 5),
+        ("two_servos_fail", 0.5),
         ("line_fails", 1.5),
         ("computer_is_late", 0.7),
         ("power_fails", 1.5),
@@ -542,6 +566,17 @@ class Editor(Person):
                 self.line("on", 2 * SECOND)
                 self.line(f"play {rng.choice((1, 13, 20, 21, 22, 23))}", 12 * SECOND)
 
+    def goes_back(self):
+        """Fills the history of UNDO with large and small edits, and undoes them in a row."""
+        rng = self.rng
+        for _ in range(rng.randrange(2, 12)):
+            step = rng.randrange(7)
+            words = (f"write {step}", f"insert {step}", f"delete {step}", f"copy {rng.choice((1, 3, 13, 20, 21, 22))}", f"mirror {step}",
+                     f"name u{step}", "scale 50", f"move {step} {rng.randrange(8)}")  # fmt: skip
+            self.line(rng.choice(words), LOOKED_AT)
+        for _ in range(rng.randrange(2, 8)):
+            self.line("undo", LOOKED_AT)
+
     def keys(self):
         for _ in range(self.rng.randrange(1, 20)):
             self.act(typed(self.rng.choice(KEYS + (b"[", b"]", b"{", b"}"))), self.rng.randrange(1, 20))
@@ -607,6 +642,7 @@ class Editor(Person):
         ("opens", 4),
         ("edits", 8),
         ("tries", 12),
+        ("goes_back", 3),
         ("keys", 3),
         ("saves", 5),
         ("poses", 4),

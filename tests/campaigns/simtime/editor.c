@@ -18,6 +18,7 @@ void editor_lose(void)
     editor.mode = LOST;
     editor.saved_as = UNKNOWN;
     editor.noted_count = 0;
+    editor_undo_lose();
     for (unsigned id = 0; id < JOINTS; id++) {
         editor.torque[id] = UNKNOWN;
     }

@@ -4,6 +4,7 @@
  *   editor.c            keys and lines
  *   editor_commands.c   what commands do
  *   editor_look.c       compares the model with the screen
+ *   editor_undo.c       UNDO in a row
  *
  * Based on edit/ORIGINAL.md, edit/DIFFERENCES.md and the words of `help`: what lines and keys do to the table and
  * the servos. The model is read from the screen while nothing happens, changed by what is typed, and compared with
@@ -60,6 +61,10 @@ extern editor_t editor;
 /* editor.c */
 void editor_lose(void);            /* nothing is known until the next look */
 bool editor_is_there(unsigned id);
+
+/* editor_undo.c */
+void editor_undo_lose(void);        /* what was shown counts no more */
+void editor_undo_look(const table_t *shown);
 
 /* editor_commands.c */
 void editor_split_line(void);

@@ -181,6 +181,11 @@ static void look(void)
     if (editor.is_known && editor.now.page > 0 && !editor.is_play) {
         look_at_model(&shown);
     }
+    if (editor.is_known && editor.now.page > 0 && !editor.is_play) {
+        editor_undo_look(&shown);
+    } else {
+        editor_undo_lose();
+    }
     if ((editor.mode == UNSURE || editor.mode == LOST) && is_over && editor.key == '\r') {
         editor.mode = TABLE;
     }

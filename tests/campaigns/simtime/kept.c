@@ -36,7 +36,8 @@ static struct {
     bool is_sure;                  /* `sure` is valid */
     bool is_started;
     uint32_t write_tick;
-    bool has_changed;
+    bool has_changed;              /* since the last tick */
+    bool has_written;              /* since the last save that was over */
     int item, value;               /* set by the newest line; -1: none */
     bool is_set;                   /* the line has been answered */
     uint32_t line_tick;            /* the last line that may set something */
@@ -112,8 +113,19 @@ static void look_at_copies(void)
     }
 }
 
+/* A save that is over has left a valid copy. */
+static void look_whether_whole(void)
+{
+    for (unsigned copy = 0; copy < 2; copy++) {
+        if (memcmp(copy_at(copy), kept.copy[copy], COPY_BYTES) != 0) {
+            session_fail("settings are saved whole", "copy %u is damaged", copy);
+        }
+    }
+}
+
 void kept_write(void)
 {
+    kept.has_written = true;
     kept.has_changed = true;
     kept.write_tick = session.tick;
 }
@@ -189,6 +201,10 @@ void kept_tick(void)
         kept.has_changed = false;
         look_at_copies();
     }
+    if (kept.is_started && kept.has_written && long_ago(kept.write_tick, SURE) && long_ago(session.late_tick, SURE)) {
+        kept.has_written = false;
+        look_whether_whole();
+    }
     if (kept.item >= 0 && kept.is_set && session.tick - kept.line_tick > SURE) {
         reached("setting kept as it was set");
         if (long_ago(session.late_tick, SURE) && value_of((unsigned)kept.item) != kept.value) {
@@ -212,6 +228,6 @@ void kept_boot(void)
         kept.newest = -1;
     }
     kept.item = -1;
-    kept.is_view = kept.has_changed = kept.is_started = false;
+    kept.is_view = kept.has_changed = kept.has_written = kept.is_started = false;
     kept.line_tick = session.tick;
 }

@@ -31,6 +31,7 @@ static struct {
     uint32_t ended_tick;           /* a play was reported over; its last frame may follow; NEVER_TICK: none */
     unsigned ended_page;
     uint32_t over_tick;            /* the last report that a play is over */
+    uint32_t deaf_tick;            /* the last time that a servo was deaf and silent */
     bool is_slow;                  /* a rate may be in force since the last start: longer pauses (SHAPING.md) */
     bool is_shaped;                /* since the last start something other than the pages may decide where joints go */
     bool is_playing;               /* by the console's reports */
@@ -110,6 +111,7 @@ static void line_typed(void)
     if (!session.is_edit) {
         rest_typed(line);
         law_typed(line);
+        stops_typed(line);
         calls_typed(line);
         slopes_typed(line);
         kept_typed(line);
@@ -159,6 +161,7 @@ void rules_remote(unsigned buttons)
     law_remote(buttons);
     rest_remote(buttons);
     presses_remote(buttons);
+    stops_pressed();
 }
 
 /* ---- goals and torque ---- */
@@ -413,6 +416,7 @@ void rules_printed(const char *line)
         law_printed(line);
         rest_printed(line);
         presses_printed(line);
+        stops_printed(line);
         calls_printed(line);
         slopes_printed(line);
         kept_printed(line);
@@ -514,6 +518,7 @@ void rules_boot(void)
     replies_boot();
     rest_boot();
     presses_boot();
+    stops_boot();
     slopes_boot();
     kept_boot();
     editor_play_boot();
@@ -563,7 +568,8 @@ static bool has_silent_deaf(void)
 
 static void servos_must_be_named(void)
 {
-    if (session.is_edit || has_silent_deaf() || !long_ago(session.boot_tick, TROUBLE)) {
+    rules.deaf_tick = has_silent_deaf() ? session.tick : rules.deaf_tick;
+    if (session.is_edit || !long_ago(rules.deaf_tick, NEWS) || !long_ago(session.boot_tick, TROUBLE)) {
         return;
     }
     for (unsigned id = 0; id < JOINTS; id++) {

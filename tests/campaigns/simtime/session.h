@@ -8,6 +8,7 @@
  *   rest.c      what must not move: after a break, in a pause
  *   presses.c   which buttons are a press
  *   calls.c     the page that a play begins with
+ *   stops.c     which stops are a break
  *   slopes.c    the softness of joints in a play
  *   kept.c      settings in EEPROM
  *   answers.c   answers to requests
@@ -171,6 +172,12 @@ void presses_typed(void);
 void presses_printed(const char *line);
 void presses_tick(void);
 bool presses_are_at_rest(void);    /* nothing plays, by the console's reports */
+
+/* stops.c */
+void stops_boot(void);
+void stops_typed(const char *line);
+void stops_pressed(void);
+void stops_printed(const char *line);
 
 /* slopes.c */
 void slopes_boot(void);
