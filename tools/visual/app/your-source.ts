@@ -26,7 +26,8 @@ export class YourSource {
     /** Lets the person choose a port unless one was already allowed. Chosen again because nothing of ours answers there, it may be another
      *  one. false: the chooser was closed. */
     choose(): Promise<boolean> {
-        const isInVain = (this.connection?.error ?? null) !== null;
+        const { code } = this.connection?.error ?? {};
+        const isInVain = code !== undefined && code !== 'port-lost';
         return withPort(async () => {
             const known = isInVain ? undefined : (await navigator.serial.getPorts()).find(port => !isAdapter(port));
             this.port = known ?? (await navigator.serial.requestPort());
