@@ -27,6 +27,8 @@ export interface StatusParts {
 export class Status {
     private readonly parts: StatusParts;
     private timer: ReturnType<typeof setTimeout> | undefined;
+    /** The connection on which a question is under way. */
+    private asked: Connection | null = null;
     /** When the robot in the page began to start, in its own time. null: it answers or is off. */
     private startedTicks: number | null = null;
     private terminal: TerminalSize | null = null;
@@ -40,13 +42,15 @@ export class Status {
         return this.state.connection === 'ready' && !this.parts.isWriting();
     }
 
-    /** Asks now and then periodically. */
-    async ask(): Promise<void> {
+    /** Asks now and then periodically. Of the periodic questions only one is under way, or they would queue up at a robot that is off. */
+    async ask(isPeriodic = false): Promise<void> {
         clearTimeout(this.timer);
-        this.timer = setTimeout(() => void this.ask(), WHERE_MS);
+        this.timer = setTimeout(() => void this.ask(true), WHERE_MS);
         const { source, speed } = this.state;
         if (!this.mayAsk() || (source === 'simulated' && speed === 0)) return; // while its time stands still it does not answer
         const connection = this.parts.connection();
+        if (isPeriodic && this.asked === connection) return;
+        this.asked = connection;
         try {
             const where = await askWhere(connection.requests, { timeoutMs: 3000 });
             this.parts.state.set({ where });
@@ -54,6 +58,8 @@ export class Status {
             if (where.state === 'idle') this.draw(connection);
         } catch (error) {
             if (error instanceof RobotError && error.code === 'no-answer') connection.askAgain();
+        } finally {
+            if (this.asked === connection) this.asked = null;
         }
     }
 
