@@ -412,6 +412,9 @@ void rules_printed(const char *line)
         rules.ended_tick = session.tick;
     }
     answers_printed(line);
+    if (session.is_edit && line[0] == '@') {
+        screen_put_away();   /* its line may have been typed before the table was painted */
+    }
     if (!session.is_edit) {
         law_printed(line);
         rest_printed(line);
