@@ -101,7 +101,9 @@ export class RobotImages {
         try {
             await robot().restart(image);
         } catch (cause) {
-            if (state.get().image === image) state.set({ image: before });
+            const { version } = state.get();
+            const runs = version?.image === 'play' || version?.image === 'edit' ? version.image : before;
+            if (state.get().image === image) state.set({ image: runs });
             throw refusal(cause);
         }
     }

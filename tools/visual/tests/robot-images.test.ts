@@ -120,3 +120,22 @@ test('a key for My servos with Edit does not wait for the robot in the page, who
     expect(restart).toHaveBeenCalledWith('play');
     expect(inPage.restart).not.toHaveBeenCalled();
 }, 2000);
+
+test('no image can be had, twice at once: the page knows which one goes on', async () => {
+    const state = new Store({ source: 'simulated', image: 'play', version: { image: 'play' } } as unknown as SessionState);
+    const offline = () => Promise.reject(new TypeError('Failed to fetch'));
+    const fail = vi.fn();
+    const robot = { restart: offline, forget: offline, prepare: vi.fn(), connection: null };
+    const images = new RobotImages({
+        state,
+        format: {} as PageFormat,
+        robot: () => robot,
+        isWriting: () => false,
+        say: () => undefined,
+        fail,
+    });
+    images.run('edit');
+    images.run('play');
+    await vi.waitFor(() => expect(fail).toHaveBeenCalledTimes(2));
+    expect(state.get().image).toBe('play');
+});
