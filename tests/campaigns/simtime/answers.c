@@ -181,7 +181,8 @@ static void look_at_pose(const char *answer)
 {
     unsigned id, position, torque, there = 0, known = 0;
     int length;
-    if (!rules_is_well() || session.tick - session.goals_tick < STILL || session.tick - session.boot_tick < 4 * SECOND ||
+    if (!rules_is_well() || rules_is_searching() ||
+        session.tick - session.goals_tick < STILL || session.tick - session.boot_tick < 4 * SECOND ||
         session.tick - session.pushed_tick < 2 * SECOND) {
         return;
     }

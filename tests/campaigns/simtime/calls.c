@@ -95,6 +95,12 @@ void calls_pressed(unsigned code)
     }
 }
 
+/* A line may wait for its answer: the program searches for servos, or asks a port that has answered late (hal/host). */
+static bool is_slow(void)
+{
+    return rules_is_searching() || session.late_tick > session.boot_tick;
+}
+
 /* Handles a line that may begin a play. */
 static void call_typed(const char *line)
 {
@@ -119,7 +125,8 @@ void calls_typed(const char *line)
     line += is_request ? 1 : 0;
     const bool is_call = strncmp(line, "play", 4) == 0 || strncmp(line, "p ", 2) == 0 || strncmp(line, "code", 4) == 0;
     /* It is then unclear whose OK comes next. */
-    const bool is_mixed = (is_call || calls.asked != UNKNOWN) && !long_ago(calls.open_tick, ANSWER);
+    const bool is_mixed = (is_call || calls.asked != UNKNOWN) &&
+                          (is_slow() || !long_ago(calls.open_tick, ANSWER));
     calls.is_open = calls.is_open || !session.typed_is_known || (is_call && is_request) || is_mixed;
     calls.is_quiet = calls.is_quiet || strncmp(line, "settings talk", 13) == 0;
     calls.open_tick = session.tick;
@@ -151,7 +158,8 @@ static void play_ends(void)
     if (calls.named != UNKNOWN && session.tick - calls.named_tick > LINE_BEHIND) {
         calls.named = UNKNOWN;
     }
-    calls.is_open = calls.is_begun = false;
+    calls.is_open = calls.is_open && is_slow();
+    calls.is_begun = false;
     calls.over_tick = session.tick;
     calls.going_tick = NEVER_TICK;
 }

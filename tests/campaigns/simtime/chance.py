@@ -28,6 +28,7 @@ CODE_PAGES = (  # number, code, steps, times played, undamaged: of the pages wit
     (76, 8, 1, 1, True),
     (77, 64, 0, 1, True),
 )
+FAST_PAGE = 78  # its first step is faster than an approach
 PLAYED = (1, 2, 3, 4, 8, 9, 12, 13, 14, 15, 21, 22)
 SETTINGS = (
     ("law", (0, 1)),
@@ -88,12 +89,17 @@ def motions():
             page[64 + 64 * step + 62] = rng.choice((0, 0, 0, rng.randrange(8, 60)))
             page[64 + 64 * step + 63] = ticks if time_base else rng.randrange(20, 40)
         image[512 * number : 512 * (number + 1)] = page
+    page = bytearray(image[512 * LAW_PAGES[0] : 512 * LAW_PAGES[1]])
+    page[:14], page[15], page[16], page[20], page[22], page[24:31] = b"fast".ljust(14, b"\0"), 200, 10, 2, 32, bytes((8, 0, 0, 0, 0, 0, 0))
+    for step, (word, ticks) in enumerate(((712, 40), (512, 60))):
+        page[64 + 64 * step : 128 + 64 * step] = word.to_bytes(2, "little") * 31 + bytes((0, ticks))
+    image[512 * FAST_PAGE : 512 * (FAST_PAGE + 1)] = page
     for number, code, steps, count, _ in CODE_PAGES:
         page = bytearray(image[512 : 2 * 512])
         page[:14] = f"code {number}".encode().ljust(14, b"\0")
         page[15], page[20], page[21] = count, steps, code
         image[512 * number : 512 * (number + 1)] = page
-    for number in (*SOFT_PAGES, *(page[0] for page in CODE_PAGES)):
+    for number in (*SOFT_PAGES, FAST_PAGE, *(page[0] for page in CODE_PAGES)):
         at = 512 * number
         if number in SOFT_PAGES:
             image[at + 32 : at + 63] = rng.choices(SOFTNESS, k=31) if rng.random() < 0.7 else bytes([rng.choice(SOFTNESS)]) * 31
@@ -269,6 +275,17 @@ class Player(Person):
         if rng.random() < 0.3:
             self.line("layer off")
 
+    def layers_again(self):
+        """Lays the same page over the same joint twice."""
+        rng, servo = self.rng, self.servo()
+        page = rng.choice((FAST_PAGE, FAST_PAGE, 13, 21, *LAW_PAGES))
+        for word in ("break", "free", "shape reset"):
+            self.line(word, 2 * SECOND)
+        self.line(f"play {rng.choice((8, 9))}", 6 * SECOND)
+        for _ in range(rng.randrange(2, 4)):
+            self.line(f"layer {page} {servo}", rng.randrange(3, 7) * SECOND)
+            self.line("layer off", 4 * SECOND)
+
     def stop_in_a_layer(self):
         """A fault of a servo must not disturb the stop."""
         rng, servo = self.rng, self.servo()
@@ -355,6 +372,25 @@ class Player(Person):
                 self.act(f"remote {button}", 8)
                 self.act("remote 0", self.rng.randrange(SECOND, 4 * SECOND))
 
+    def pauses_often(self):
+        """Pauses in steps that joints run through, at any moment of them."""
+        self.line("break", 3 * SECOND)
+        self.line("shape reset", SECOND)
+        self.line(f"play {self.rng.choice(LAW_PAGES)}", 4 * SECOND)
+        for _ in range(self.rng.randrange(4, 10)):
+            self.line("pause", 2 * SECOND)
+            self.line("resume", self.rng.randrange(20, 150))
+
+    def lets_go_of_a_stop(self):
+        """Presses a stop together with buttons that call, and lets the stop go first."""
+        rng = self.rng
+        code = rng.choice((1, 2, 8, 16, 3))
+        self.line("break" if rng.random() < 0.5 else f"play {rng.choice((1, 8, 13, 21))}", rng.randrange(2, 6) * SECOND)
+        for buttons in (rng.choice((512 | code, 512 | code, 255)), code, rng.choice((0, code))):
+            for _ in range(rng.randrange(1, 10)):
+                self.act(f"remote {buttons}", rng.choice((6, 7)))
+        self.act("remote 0", rng.randrange(2 * SECOND))
+
     def rests(self):
         """Sends many requests in a pause. Nothing may move."""
         rng = self.rng
@@ -439,6 +475,7 @@ class Player(Person):
         ("shapes", 4),
         ("drives", 2),
         ("layers", 5),
+        ("layers_again", 2),
         ("stop_in_a_layer", 2),
         ("aims", 5),
         ("aims_at_many", 0.3),
@@ -453,7 +490,9 @@ class Player(Person):
         ("remote", 8),
         ("fingers", 4),
         ("calls", 2),
+        ("lets_go_of_a_stop", 1),
         ("rests", 4),
+        ("pauses_often", 1),
         ("loses_power", 2),
         ("panel", 2),
         ("stops_twice", 1),
@@ -603,6 +642,13 @@ class Editor(Person):
         if len(key) == 3 and rng.random() < 0.5:
             self.act(typed(" "), SECOND)  # with a long page the play would not end by itself
 
+    def exits_a_play(self):
+        """Exits a play of many repetitions, and waits for its end."""
+        self.line("on", 2 * SECOND)
+        self.line(f"play {FAST_PAGE}", self.rng.randrange(3, 6) * SECOND)
+        self.act(typed(self.rng.choice(("\x1b", "\x1b[A", "\x1b[D"))), 42 * SECOND)
+        self.act(typed(" "), SECOND)
+
     def views(self):
         self.line(self.rng.choice(("list", "find walk", "check 3", "re", "hex", "dec", "help", "mon", "rows 40", "rows 24", "pairs")), SECOND)
         self.act(typed("\r"), SECOND)
@@ -647,6 +693,7 @@ class Editor(Person):
         ("saves", 5),
         ("poses", 4),
         ("plays", 5),
+        ("exits_a_play", 0.7),
         ("views", 3),
         ("asks", 2),
         ("uploads", 2),

@@ -96,6 +96,10 @@ static void add(int much)
     }
     const bool is_position = x < 8 && y < ROW_PAUSE, is_steps = x == 9 && y - 3 == FIELD_STEPS;
     int to = is + much;
+    if (is_steps && is > STEPS_MOST) {
+        editor_lose();   /* such a page came from a program */
+        return;
+    }
     if (is_position || is_steps) {
         const int most = is_steps ? STEPS_MOST : 1023;
         if (is_steps && abs(much) > 1 && (to < 0 || to > most)) {

@@ -29,6 +29,7 @@ typedef struct {
     bool is_view;                  /* in UNSURE: a list or help, left by a key */
     bool is_request;               /* in UNSURE: a line of a program; the next key keeps its meaning for the table */
     bool is_edited;                /* possibly, since the last look */
+    bool is_unsure;                /* an UNDO or REDO since the last look may have taken back all edits */
     bool is_key_edit;              /* the newest edit was by key; UNDO may combine several of them */
     uint8_t key;                   /* the newest key */
     uint32_t look_tick, line_tick;

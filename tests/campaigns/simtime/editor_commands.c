@@ -120,7 +120,9 @@ static void open_page(void)
 
 static void run_page(void)
 {
-    if (has_edits()) {
+    if (editor.is_unsure) {
+        editor_lose();
+    } else if (has_edits()) {
         ask(open_page);
     } else if (editor.is_edited || !editor_is_whole((unsigned)editor.now.page)) {
         editor_lose();   /* the page may have edits */
@@ -162,7 +164,9 @@ static void copy_page(void)
 
 static void run_copy(void)
 {
-    if (has_edits()) {
+    if (editor.is_unsure) {
+        editor_lose();
+    } else if (has_edits()) {
         ask(copy_page);
     } else if (editor.is_edited || !editor_is_whole((unsigned)editor.now.page)) {
         editor_lose();
@@ -503,6 +507,7 @@ static void exchange(bool can, table_t *to, table_t *other, bool *can_other)
 {
     if (!can) {
         forget_page();
+        editor.is_unsure = true;
         editor.message = ANY;
         return;
     }

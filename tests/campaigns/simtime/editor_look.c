@@ -193,7 +193,7 @@ static void look(void)
     editor.now = shown;
     editor.has_cursor = true;
     editor.saved_as = UNKNOWN;
-    editor.is_edited = false;
+    editor.is_edited = editor.is_unsure = false;
     look_at_repaint();
     editor.lines = 0;
 }

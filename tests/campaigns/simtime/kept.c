@@ -36,6 +36,7 @@ static struct {
     bool is_sure;                  /* `sure` is valid */
     bool is_started;
     uint32_t write_tick;
+    uint32_t search_tick;
     bool has_changed;              /* since the last tick */
     bool has_written;              /* since the last save that was over */
     int item, value;               /* set by the newest line; -1: none */
@@ -201,7 +202,9 @@ void kept_tick(void)
         kept.has_changed = false;
         look_at_copies();
     }
-    if (kept.is_started && kept.has_written && long_ago(kept.write_tick, SURE) && long_ago(session.late_tick, SURE)) {
+    kept.search_tick = rules_is_searching() ? session.tick : kept.search_tick;   /* a save waits for its end */
+    if (kept.is_started && kept.has_written && long_ago(kept.write_tick, SURE) && long_ago(kept.search_tick, SURE) &&
+        long_ago(session.late_tick, SURE)) {
         kept.has_written = false;
         look_whether_whole();
     }
@@ -219,6 +222,11 @@ void kept_tick(void)
         kept.is_sure = true;
         memcpy(kept.sure, kept.copy[kept.newest], COPY_BYTES);
     }
+}
+
+int kept_value(const char *setting)
+{
+    return value_of((unsigned)item_of(setting));
 }
 
 void kept_boot(void)

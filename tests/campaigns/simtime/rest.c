@@ -1,13 +1,18 @@
 /* SPDX-License-Identifier: MIT
  * rest.c - what must not move: all joints after a break, and all joints in a pause, including those of a layer and
- * those moved by code (motion/LAWS.md 7, motion/SHAPING.md, firmware/play/README.md "Joints moved by code"). */
+ * those moved by code (motion/LAWS.md 7, motion/SHAPING.md, firmware/play/README.md "Joints moved by code"). After a
+ * pause a joint starts from rest: it does not catch up what is left of a step in a tick or two. */
 #include "session.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define SLOWED 300u                /* ticks: a joint slows down within a ramp of at most 255 */
 #define LINE_BEHIND 32u            /* ticks: the cause of a pause's end may be read before the line that reports it */
+
+#define RESUMED 32u                /* ticks after `resume` */
+#define FROM_REST 12               /* units in a tick: twice the mean speed of the fastest page */
 
 static struct {
     enum { NOTHING, BREAK, PAUSE } what;
@@ -15,6 +20,9 @@ static struct {
     uint32_t moved_tick;           /* the last event that may end a pause */
     uint32_t line_tick;            /* when the newest line was typed */
     bool is_layer_asked;           /* by the newest line, in a pause */
+    uint32_t resumed_tick;         /* a pause at rest ended by `resume` */
+    uint32_t changed_tick[JOINTS]; /* the last goal that was another one */
+    bool is_shaped;                /* something may make steps faster */
     bool may_hold;                 /* release of the remote may be a stop: the setting `remote` was changed */
 } rest;
 
@@ -51,6 +59,12 @@ void rest_typed(const char *line)
                                               "move", "torque", "drive", "reset", NULL};
     static const char *const in_pause[] = {"resume", "stop", "s", "break", "b", "on", "off",
                                            "torque", "code", "reset", NULL};
+    static const char *const shapes[] = {"rate", "amplitude", "blend", "drive", "settings", "swing", "aim", "layer", NULL};
+    rest.is_shaped = strcmp(line, "shape reset") != 0 &&
+                     (rest.is_shaped || !session.typed_is_known || is_one_of(line, shapes));
+    if (rest.what == PAUSE && strcmp(line, "resume") == 0) {
+        rest.resumed_tick = session.tick;
+    }
     const bool is_alone = session.tick - rest.line_tick > SECOND;
     rest.line_tick = session.tick;
     rest.may_hold = rest.may_hold || !session.typed_is_known || strstr(line, "remote") != NULL;
@@ -92,10 +106,28 @@ void rest_printed(const char *line)
     }
 }
 
+static void look_at_start(unsigned id, int way)
+{
+    const bool was_at_rest = rest.changed_tick[id] < rest.resumed_tick;
+    rest.changed_tick[id] = session.tick;
+    if (!was_at_rest || session.tick - rest.resumed_tick > RESUMED || rest.is_shaped || session.has_deaf ||
+        !rules_is_well()) {
+        return;
+    }
+    reached("joint starts after a pause");
+    if (way > FROM_REST) {
+        session_fail("a joint starts from rest after a pause", "servo %u goes %d units in its first tick", id, way);
+    }
+}
+
 /* Checks a goal of a joint that has had one before. */
 void rest_goal(unsigned id, unsigned goal)
 {
     const joint_t *joint = &session.joint[id];
+    const int way = abs((int)goal - joint->goal);
+    if (way != 0 && id < JOINTS && joint->goal_tick > session.boot_tick && rest.resumed_tick > session.boot_tick) {
+        look_at_start(id, way);
+    }
     if (rest.what == NOTHING || session.tick - rest.since <= SLOWED || !long_ago(session.late_tick, SLOWED) ||
         joint->goal_tick < session.boot_tick || (rest.what == PAUSE && !rules_is_well())) {
         return;
@@ -110,5 +142,7 @@ void rest_boot(void)
 {
     rest.what = NOTHING;
     rest.moved_tick = rest.line_tick = session.tick;
+    rest.resumed_tick = NEVER_TICK;
+    rest.is_shaped = false;
     rest.is_layer_asked = false;
 }

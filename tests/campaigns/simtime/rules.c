@@ -37,6 +37,7 @@ static struct {
     bool is_playing;               /* by the console's reports */
     bool is_starting;              /* the program has not printed yet */
     bool is_searching;             /* `servos find` was typed and its result is not printed yet */
+    uint32_t searched_tick;        /* its result was printed */
     bool searches_again;           /* it was typed once more meanwhile */
     bool asked_in_search;          /* a request waits for the end of the search */
     bool pages_are_edited;
@@ -112,6 +113,7 @@ static void line_typed(void)
         rest_typed(line);
         law_typed(line);
         stops_typed(line);
+        joins_typed(line);
         calls_typed(line);
         slopes_typed(line);
         kept_typed(line);
@@ -162,6 +164,7 @@ void rules_remote(unsigned buttons)
     rest_remote(buttons);
     presses_remote(buttons);
     stops_pressed();
+    joins_pressed();
 }
 
 /* ---- goals and torque ---- */
@@ -182,6 +185,11 @@ static void note_faults(void)
 bool rules_has_fault(const joint_t *joint)
 {
     return !long_ago(joint->fault_tick, TROUBLE);
+}
+
+bool rules_is_searching(void)
+{
+    return rules.is_searching || !long_ago(rules.searched_tick, SECOND);
 }
 
 bool rules_is_well(void)
@@ -256,6 +264,7 @@ static void take_goal(uint8_t id, uint16_t goal)
     rest_goal(id, goal);
     if (!session.is_edit) {
         must_not_leap(id, goal);   /* Edit moves joints at its own speed and plays random pages */
+        joins_goal(id, goal);
     }
     session.joint[id].goal = goal;
     session.joint[id].goal_tick = session.tick;
@@ -420,6 +429,7 @@ void rules_printed(const char *line)
         rest_printed(line);
         presses_printed(line);
         stops_printed(line);
+        joins_printed(line);
         calls_printed(line);
         slopes_printed(line);
         kept_printed(line);
@@ -428,6 +438,7 @@ void rules_printed(const char *line)
     }
     if (strstr(line, " servos: ") != NULL) {
         servos_are_listed(rules.is_searching);
+        rules.searched_tick = rules.is_searching ? session.tick : rules.searched_tick;
         rules.is_searching = rules.searches_again;
         rules.searches_again = false;
         session.asked_tick = rules.asked_in_search ? session.tick : session.asked_tick;
@@ -522,6 +533,7 @@ void rules_boot(void)
     rest_boot();
     presses_boot();
     stops_boot();
+    joins_boot();
     slopes_boot();
     kept_boot();
     editor_play_boot();

@@ -9,6 +9,7 @@
  *   presses.c   which buttons are a press
  *   calls.c     the page that a play begins with
  *   stops.c     which stops are a break
+ *   joins.c     how fast a joint goes over to a layer
  *   slopes.c    the softness of joints in a play
  *   kept.c      settings in EEPROM
  *   answers.c   answers to requests
@@ -130,6 +131,7 @@ void rules_remote(unsigned buttons);
 void rules_kept(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uint32_t count);
 void rules_end(void);
 bool rules_has_fault(const joint_t *joint);   /* now or recently */
+bool rules_is_searching(void);    /* or did so until a second ago; lines wait */
 bool rules_is_well(void);         /* no fault of servo, line or computer, now or recently */
 
 /* handed.c */
@@ -179,6 +181,13 @@ void stops_typed(const char *line);
 void stops_pressed(void);
 void stops_printed(const char *line);
 
+/* joins.c */
+void joins_boot(void);
+void joins_typed(const char *line);
+void joins_pressed(void);
+void joins_printed(const char *line);
+void joins_goal(unsigned id, unsigned goal);
+
 /* slopes.c */
 void slopes_boot(void);
 void slopes_typed(const char *line);
@@ -192,6 +201,7 @@ void kept_write(void);
 void kept_typed(const char *line);
 void kept_printed(const char *line);
 void kept_tick(void);
+int kept_value(const char *setting);   /* in EEPROM now, or its default */
 
 /* calls.c */
 bool page_is_good(unsigned page);

@@ -9,6 +9,8 @@
 
 #define STILL SECOND
 #define NOW_LATER 4u               /* ticks: the goals of this moment have been sent */
+#define YIELDS 3                   /* units: a joint that holds may stand beside its goal */
+#define TURNED 16u                 /* ticks after a line; before a play the servos are asked, and goals wait */
 #define NOW_AGE 32u                /* ticks since they were sent, including the time on the line */
 enum { STEPS_AT = 20, COUNT_AT = 15, CODE_AT = 21, NEXT_AT = 25, LINK1_AT = 27, LINK2_AT = 29 };
 
@@ -154,7 +156,8 @@ static void look_at_now(const char *line)
         if (joint->servo == NULL) {
             wrong(line, "no such servo");
         }
-        const bool is_driven = joint->goal_tick > session.boot_tick && session.tick - joint->goal_tick <= 2;
+        const bool is_driven = joint->goal_tick > session.boot_tick && session.tick - joint->goal_tick <= 2 &&
+                               session.tick - session.typed_tick > TURNED;
         if (goal[0] != '-' && !session.is_edit && is_driven && !session.has_deaf) {
             views.goal_now[id] = (int)strtoul(goal, NULL, 16);
         }
@@ -170,11 +173,12 @@ static void look_at_now(const char *line)
     reached("goals and positions by @watch");
 }
 
-/* Torque is switched on at a joint's position by a WRITE to this joint alone. The law does not see that. */
+/* Torque is switched on by a WRITE to one joint of the goal that it has. The law does not see that, and the program
+ * takes the position of a joint that it does not drive for its goal. */
 static bool has_goal(unsigned id)
 {
     const uint8_t *goal = &session.joint[id].servo->table[GOAL_AT];
-    return (goal[0] | goal[1] << 8) == views.goal_now[id];
+    return abs((goal[0] | goal[1] << 8) - views.goal_now[id]) <= YIELDS;
 }
 
 /* The shown goals have been sent, or are sent in the next ticks. */

@@ -251,6 +251,7 @@ static void press(unsigned buttons)
     simtime_press((uint8_t)buttons);
     presses_panel(buttons);
     stops_pressed();
+    joins_pressed();
     if (buttons != 0) {
         session.asked_tick = session.tick;
         law_remote(0);
