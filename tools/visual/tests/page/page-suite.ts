@@ -47,8 +47,10 @@ export function pageSuite(): PageSuite {
     // The page of a failed test would keep running during the next one.
     afterEach(async ({ task }) => {
         const pages = suite.browser?.contexts().flatMap(context => context.pages()) ?? [];
-        if (task.result?.state === 'fail')
-            for (const page of pages) console.log(`when "${task.name}" failed, ${page.url()} showed:\n${await told(page)}`);
+        if (task.result?.state === 'fail') {
+            console.log(`"${task.name}" failed: ${task.result.errors?.[0]?.message ?? 'no error is known'}`);
+            for (const page of pages) console.log(`${page.url()} showed:\n${await told(page)}`);
+        }
         for (const context of suite.browser?.contexts() ?? []) await context.close();
     });
     afterAll(async () => {
