@@ -54,12 +54,14 @@ def made(seed):
         if rng.random() < 0.7:
             line(rng.choice(("settings low 100", "settings talk 0", "settings talk 1", "law exact", "law classic", "settings hot 71")), 256)
         page = rng.choice(rng.choice((SHORT, LOOPS, LOOPS)))
+        ends = False  # a second without @drive ends the play
         actions.extend((("type", f"play {page}\r"), ("goal",), ("wait", rng.randrange(200, 300))))
         for _ in range(rng.randrange(4)):
             kind = rng.random()
             if kind < 0.3 and page in LOOPS:
                 button = rng.choice((4, 8, 512))
-                actions.extend((("remote", button), ("wait", 8), ("remote", 0), ("wait", rng.randrange(64, 128))))
+                pressed = (("wait", 8),) if ends else (("remote", button), ("wait", 8), ("remote", 0))
+                actions.extend((*pressed, ("wait", rng.randrange(64, 128))))
                 if button == 512:
                     break
             else:
@@ -71,7 +73,9 @@ def made(seed):
                     "layer off",
                     "@drive 20 120 80",
                 )
-                line(rng.choice(words), rng.randrange(64, 200))
+                word = rng.choice(words)
+                ends = ends or word[0] == "@"
+                line(word, rng.randrange(64, 200))
         line("break", 256)
         line("free", 256)
         line("shape reset", 128)

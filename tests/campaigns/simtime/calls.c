@@ -150,6 +150,7 @@ static void play_begins(unsigned page)
     }
     reached(is_named ? "play of the page that was named" : "play of the page with the code");
     calls.named = UNKNOWN;
+    calls.called_tick[page] = NEVER_TICK;
     calls.is_begun = true;
 }
 

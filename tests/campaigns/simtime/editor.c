@@ -8,6 +8,7 @@
 
 #define HELD 12u                   /* ticks: below the 150 ms of a held key; a key may take that long to be read */
 #define LEFT_OVER 88u              /* ticks: below the 0.75 s after a list, a play, or a space without effect */
+#define LONE 4u                    /* ticks: below the time after which an ESC is a key by itself */
 #define LATER 16u                  /* ticks: a key this long after a question answers it */
 
 editor_t editor;
@@ -178,6 +179,11 @@ static void escape_ends(void)
 
 static void escape_key(uint8_t key)
 {
+    if (session.tick - editor.escape_tick > LONE) {
+        editor_lose();   /* the sequence may have ended: what comes is a key of its own */
+        return;
+    }
+    editor.escape_tick = session.tick;
     if (editor.sequence_count == 0 && key == '[') {
         editor.sequence_count = 1;
         return;
@@ -201,6 +207,7 @@ static void table_key(uint8_t key)
     if (key == 0x1B) {
         editor.mode = ESCAPE;
         editor.sequence_count = 0;
+        editor.escape_tick = session.tick;
     } else if (key == ']' || key == '[') {
         add(key == ']' ? 1 : -1);
     } else if (key == '}' || key == '{') {

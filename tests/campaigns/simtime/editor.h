@@ -38,6 +38,7 @@ typedef struct {
     unsigned count;
     char sequence[8];
     unsigned sequence_count;
+    uint32_t escape_tick;          /* the newest key of a sequence */
     char *word[WORDS];
     int number[WORDS];             /* UNKNOWN: not a number */
     unsigned words;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * joins.c - how fast a joint goes over to a layer, by motion/mux.h: toward the goals of the layer at the speed of the
- * approach at most, until it meets them. Judges joints that stood still and that the layer's first step leads far away. */
+ * approach at most, until it meets them. Judges joints that stood still and that the layer's first step leads far away
+ * while it is looked at. */
 #include "session.h"
 
 #include <stdio.h>
@@ -12,7 +13,7 @@
 #define LOOKED 30u                 /* ticks after the line */
 #define ANSWERED 10u               /* ticks until the layer's answer */
 #define BEFORE (4u * SECOND)       /* a setting or a code has its effect by then */
-enum { COUNT_AT = 15, STEPS_AT = 20 };
+enum { COUNT_AT = 15, SCHEDULE_AT = 16, STEPS_AT = 20, SPEED_AT = 22, TIME_BASE = 10 };
 
 static struct {
     bool is_shaped;                /* something else may change the speed */
@@ -28,7 +29,9 @@ static bool is_led_away(unsigned page, unsigned id)
 {
     const uint8_t *at = page_at(page), *word = at + STEP_BYTES + 2 * id;
     const int to = word[0] | word[1] << 8;
-    const bool plays = page_is_good(page) && at[COUNT_AT] != 0 && at[STEPS_AT] != 0;
+    const unsigned ticks = (unsigned)at[2 * STEP_BYTES - 1] * at[SPEED_AT] / 32;   /* motion/LAWS.md, time base */
+    const bool plays = page_is_good(page) && at[COUNT_AT] != 0 && at[STEPS_AT] != 0 && at[SCHEDULE_AT] == TIME_BASE &&
+                       ticks > LOOKED;
     return plays && to < 1024 && abs(to - session.joint[id].goal) > FAR;
 }
 

@@ -208,7 +208,7 @@ void kept_tick(void)
         kept.has_written = false;
         look_whether_whole();
     }
-    if (kept.item >= 0 && kept.is_set && session.tick - kept.line_tick > SURE) {
+    if (kept.item >= 0 && kept.is_set && session.tick - kept.line_tick > SURE && long_ago(kept.search_tick, SURE)) {
         reached("setting kept as it was set");
         if (long_ago(session.late_tick, SURE) && value_of((unsigned)kept.item) != kept.value) {
             session_fail("settings are kept as they were set", "%s is %d, set was %d", items[kept.item].name,

@@ -12,6 +12,7 @@
 #define POSITIONS 1024u
 #define STEP_MAX 19                /* units per tick: the mean of a shaped step is 8.7 at 11.1 V, its peak twice that */
 #define START_MAX 24               /* units from a joint's position to its first goal: a holding servo yields so far */
+#define FOLLOWS 20                 /* units from its goal: it holds, or follows by three ticks */
 #define FORGOTTEN (4u * SECOND)    /* asking 18 servos before a play takes less */
 #define SLOW_PAUSE (20u * SECOND)  /* a page's pause has no goals: 2 s at most, ten times as long at `rate 10` */
 #define NEWS (6u * SECOND)         /* a servo that became silent is reported by then */
@@ -229,17 +230,32 @@ static bool goes_on_behind_a_pause(const joint_t *joint)
     return joint->goal_tick > session.boot_tick && session.asked_tick < joint->goal_tick;
 }
 
+/* A late answer of one servo collides with those of others. */
+bool rules_somebody_is_late(void)
+{
+    for (unsigned id = 0; id < JOINTS; id++) {
+        const joint_t *joint = &session.joint[id];
+        if (joint->servo != NULL &&
+            (servo_fault_is_on(joint->servo, SERVO_FAULT_LATE) || !long_ago(joint->late_tick, TROUBLE))) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static void must_not_leap(uint8_t id, uint16_t goal)
 {
     const joint_t *joint = &session.joint[id];
     const uint32_t since = session.tick - joint->goal_tick;
     const int is = (int)joint->servo->position;
     /* A joint that could not follow begins where it is, just after its old goal was written back (servo_link_engage). */
-    const bool begins_anew = abs(joint->goal - is) > START_MAX && abs(goal - is) <= START_MAX;
+    const bool could_follow = abs(joint->goal - is) <= FOLLOWS && long_ago(joint->pushed_tick, SECOND);
+    const bool begins_anew = !could_follow && abs(goal - is) <= START_MAX;
     const bool goes_on = joint->goal_tick > session.boot_tick && since <= 2 && !begins_anew;
     if (goes_on && long_ago(session.late_tick, SECOND)) {
         const int most = STEP_MAX * (int)(since == 0 ? 1 : since);
-        const bool waits = session.has_deaf && session.latency != 0;   /* a tick's REG WRITEs take several ticks */
+        /* A tick's REG WRITEs take several ticks. */
+        const bool waits = session.has_deaf && (session.latency != 0 || rules_somebody_is_late());
         if (!rules.pages_are_edited && !waits && abs(goal - joint->goal) > most) {
             session_fail("no goal leaps", "servo %u from %u to %u within %u ticks", id, joint->goal, goal, since);
         }
@@ -327,26 +343,13 @@ void rules_packet(const uint8_t *packet, uint16_t count)
 
 /* ---- reports about servos ---- */
 
-/* A late answer of one servo collides with those of others. */
-static bool somebody_is_late(void)
-{
-    for (unsigned id = 0; id < JOINTS; id++) {
-        const joint_t *joint = &session.joint[id];
-        if (joint->servo != NULL &&
-            (servo_fault_is_on(joint->servo, SERVO_FAULT_LATE) || !long_ago(joint->late_tick, TROUBLE))) {
-            return true;
-        }
-    }
-    return false;
-}
-
 static void named_silent(unsigned id)
 {
     joint_t *joint = id < IDS ? &session.joint[id] : NULL;
     if (joint == NULL || joint->servo == NULL) {
         session_fail("only servos that are there are news", "servo %u", id);
     }
-    if (!rules_has_fault(joint) && !somebody_is_late() && long_ago(session.trouble_tick, TROUBLE)) {
+    if (!rules_has_fault(joint) && !rules_somebody_is_late() && long_ago(session.trouble_tick, TROUBLE)) {
         session_fail("a servo that is well is not called lost", "servo %u", id);
     }
     joint->named_silent = true;

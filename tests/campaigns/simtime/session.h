@@ -132,6 +132,7 @@ void rules_kept(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uint
 void rules_end(void);
 bool rules_has_fault(const joint_t *joint);   /* now or recently */
 bool rules_is_searching(void);    /* or did so until a second ago; lines wait */
+bool rules_somebody_is_late(void);   /* a servo answers late, or did so recently: it collides with others */
 bool rules_is_well(void);         /* no fault of servo, line or computer, now or recently */
 
 /* handed.c */

@@ -79,6 +79,9 @@ static bool hears(unsigned id)
 static void look_at(unsigned id)
 {
     const joint_t *joint = &session.joint[id];
+    if (joint->is_deaf && joint->fault_tick > session.boot_tick) {
+        return;   /* the search may not have noticed that it is deaf: it asks a servo once */
+    }
     const bool has_new_goal = joint->goal_tick > slopes.goal_tick[id] && joint->goal_tick > slopes.page_tick + SETTLED;
     if (slopes.page == 0 || !hears(id) || is_right(id)) {
         slopes.wrong[id] = 0;
