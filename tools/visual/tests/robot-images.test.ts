@@ -9,17 +9,20 @@ import { RobotError } from '../robot/robot-error.ts';
 import type { SessionState } from '../view/session/session.ts';
 import { Store } from '../view/store.ts';
 
+/** What a test does not name does nothing. */
+function imagesWith(parts: Pick<ImageParts, 'state' | 'robot'> & Partial<ImageParts>): RobotImages {
+    const nothing = { format: {} as PageFormat, isWriting: () => false, say: () => undefined, fail: () => undefined };
+    return new RobotImages({ ...nothing, ...parts });
+}
+
 test('the adapter is out when another image is to run: the page says that, not that the firmware could not be loaded', async () => {
     const state = new Store({ image: 'play' } as SessionState);
     const out = new RobotError('port-busy', 'there is no such port');
     const robot = { restart: () => Promise.reject(out), forget: () => Promise.reject(out), prepare: vi.fn(), connection: null };
     const told: unknown[] = [];
-    const images = new RobotImages({
+    const images = imagesWith({
         state,
-        format: {} as PageFormat,
         robot: () => robot,
-        isWriting: () => false,
-        say: () => undefined,
         fail: error => told.push(error),
     });
     images.run('edit');
@@ -31,13 +34,9 @@ test('the adapter is out when another image is to run: the page says that, not t
 test('a robot that crashes as it starts is not waited for', async () => {
     const state = new Store({ source: 'simulated', image: 'play', connection: 'asking', version: null, stopped: null } as SessionState);
     const robot = { restart: () => Promise.resolve(), forget: vi.fn(), prepare: vi.fn(), connection: null };
-    const images = new RobotImages({
+    const images = imagesWith({
         state,
-        format: {} as PageFormat,
         robot: () => robot,
-        isWriting: () => false,
-        say: () => undefined,
-        fail: () => undefined,
     });
     const becomes = expect(images.becomeEdit()).rejects.toMatchObject({ code: 'no-answer' });
     await Promise.resolve();
@@ -55,13 +54,10 @@ test.each([
         const state = new Store({ source, image: 'play', connection: 'asking', version: null, stopped: null } as unknown as SessionState);
         const robot = { restart: () => Promise.resolve(), forget: vi.fn(), prepare: () => Promise.resolve(), connection: null };
         const told: string[] = [];
-        const images = new RobotImages({
+        const images = imagesWith({
             state,
-            format: {} as PageFormat,
             robot: () => robot,
-            isWriting: () => false,
             say: ({ text }) => told.push(text),
-            fail: () => undefined,
         });
         const becomes = images.becomeEdit();
         await Promise.resolve();
@@ -76,13 +72,11 @@ test('a key of the remote while the page writes motions: Edit goes on, and it is
     const ready = { source: 'simulated', image: 'edit', connection: 'ready', version: { image: 'edit' }, physics: 'on', stopped: null };
     const ask = (text: string) => Promise.resolve(text.startsWith('@crcs') ? '0001'.repeat(128) : '0002'); // half of a page is in RAM
     const robot = { restart: vi.fn(), forget: vi.fn(), prepare: vi.fn(), connection: { requests: { ask } } };
-    const images = new RobotImages({
+    const images = imagesWith({
         state: new Store(ready as unknown as SessionState),
         format: { crc: () => 0 } as unknown as PageFormat,
         robot: () => robot as unknown as ReturnType<ImageParts['robot']>,
         isWriting: () => true,
-        say: () => undefined,
-        fail: () => undefined,
     });
     await expect(images.becomeDriven()).rejects.toMatchObject({ code: 'transfer-busy' });
     expect(robot.restart).not.toHaveBeenCalled();
@@ -104,13 +98,9 @@ test('a key for My servos with Edit does not wait for the robot in the page, who
     );
     const servos = { restart, forget: vi.fn(), prepare: vi.fn(), connection: null };
     let robot: typeof inPage | typeof servos = inPage;
-    const images = new RobotImages({
+    const images = imagesWith({
         state,
-        format: {} as PageFormat,
         robot: () => robot,
-        isWriting: () => false,
-        say: () => undefined,
-        fail: () => undefined,
     });
     void images.becomeDriven();
     await Promise.resolve();
@@ -126,12 +116,9 @@ test('no image can be had, twice at once: the page knows which one goes on', asy
     const offline = () => Promise.reject(new TypeError('Failed to fetch'));
     const fail = vi.fn();
     const robot = { restart: offline, forget: offline, prepare: vi.fn(), connection: null };
-    const images = new RobotImages({
+    const images = imagesWith({
         state,
-        format: {} as PageFormat,
         robot: () => robot,
-        isWriting: () => false,
-        say: () => undefined,
         fail,
     });
     images.run('edit');
