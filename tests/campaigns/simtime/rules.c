@@ -212,24 +212,6 @@ static void must_be_asked(uint8_t id, const char *what)
     }
 }
 
-static void must_not_be_out(uint8_t id)
-{
-    if (rules.off_tick[id] != NEVER_TICK && session.asked_tick + LINE_WAY < rules.off_tick[id]) {
-        session_fail("a joint that was let go stays so", "a goal to servo %u", id);
-    }
-    const uint32_t silent = rules.silent_tick[id];
-    if (silent != NEVER_TICK && session.asked_tick < silent && long_ago(silent, 2)) {
-        session_fail("a lost joint is not driven", "a goal to servo %u", id);
-    }
-}
-
-/* True if nothing was requested since the joint's last goal. A page that the user has edited may then demand any
-   speed. */
-static bool goes_on_behind_a_pause(const joint_t *joint)
-{
-    return joint->goal_tick > session.boot_tick && session.asked_tick < joint->goal_tick;
-}
-
 /* A late answer of one servo collides with those of others. */
 bool rules_somebody_is_late(void)
 {
@@ -241,6 +223,26 @@ bool rules_somebody_is_late(void)
         }
     }
     return false;
+}
+
+static void must_not_be_out(uint8_t id)
+{
+    if (rules.off_tick[id] != NEVER_TICK && session.asked_tick + LINE_WAY < rules.off_tick[id]) {
+        session_fail("a joint that was let go stays so", "a goal to servo %u", id);
+    }
+    const uint32_t silent = rules.silent_tick[id];
+    /* The REG WRITEs of a tick go on while a late servo holds the bus. */
+    const uint32_t most = session.joint[id].is_deaf && rules_somebody_is_late() ? SECOND : 2;
+    if (silent != NEVER_TICK && session.asked_tick < silent && long_ago(silent, most)) {
+        session_fail("a lost joint is not driven", "a goal to servo %u", id);
+    }
+}
+
+/* True if nothing was requested since the joint's last goal. A page that the user has edited may then demand any
+   speed. */
+static bool goes_on_behind_a_pause(const joint_t *joint)
+{
+    return joint->goal_tick > session.boot_tick && session.asked_tick < joint->goal_tick;
 }
 
 static void must_not_leap(uint8_t id, uint16_t goal)
