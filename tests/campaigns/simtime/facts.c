@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "session.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 const uint8_t *page_at(unsigned page)
@@ -37,4 +38,21 @@ bool begins_with_one_of(const char *line, const char *const *texts)
         }
     }
     return false;
+}
+
+uint32_t joints_named(const char *words)
+{
+    uint32_t joints = 0;
+    for (char *end; ; words = end) {
+        const unsigned long id = strtoul(words, &end, 10);
+        if (end == words) {
+            return joints;
+        }
+        joints |= id < JOINTS ? 1u << id : 0;
+    }
+}
+
+bool is_stop_of(unsigned buttons)
+{
+    return buttons >= 512 || (buttons & 255) == 255;
 }

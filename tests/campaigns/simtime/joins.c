@@ -39,13 +39,10 @@ static void layer_typed(unsigned page, const char *words)
 {
     joins.joints = 0;
     joins.most = kept_value("approach") * 1024 / 300 / (int)SECOND + 1;
-    for (char *end; ; words = end) {
-        const unsigned long id = strtoul(words, &end, 10);
-        if (end == words) {
-            break;
-        }
-        if (id < JOINTS && session.joint[id].servo != NULL && session.tick - joins.still_since[id] > STOOD &&
-            is_led_away(page, (unsigned)id)) {
+    const uint32_t named = joints_named(words);
+    for (unsigned id = 0; id < JOINTS; id++) {
+        const bool stood = session.joint[id].servo != NULL && session.tick - joins.still_since[id] > STOOD;
+        if ((named >> id & 1u) != 0 && stood && is_led_away(page, id)) {
             joins.joints |= 1u << id;
         }
     }

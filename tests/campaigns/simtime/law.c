@@ -519,11 +519,6 @@ void law_typed(const char *line)
 }
 
 /* Handles buttons of the remote or the panel: 256 pauses, 512 stops, the others are codes. */
-static bool is_stop_of(unsigned buttons)
-{
-    return buttons >= 512 || buttons == 255;
-}
-
 void law_remote(unsigned buttons)
 {
     const bool is_stop = is_stop_of(buttons) && (!is_stop_of(law.buttons) || session.tick - law.buttons_tick > SILENT);

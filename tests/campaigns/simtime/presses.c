@@ -13,7 +13,7 @@
 #define BUTTONS 0xFFu              /* buttons that make codes */
 #define ANSWERED (4u * SECOND)     /* by then the result of a press, or the reason for none, is reported */
 #define QUICK 8000u                /* half microseconds; adapters up to this latency keep to ANSWERED */
-enum { BUTTON_PAUSE = 256, BUTTON_STOP = 512, CODE_STOP = 255, NO_CODE = 256, ARROWS = 15, START = 16 };
+enum { BUTTON_PAUSE = 256, CODE_STOP = 255, NO_CODE = 256, ARROWS = 15, START = 16 };
 
 typedef struct {
     unsigned down, code;           /* by the newest packet */
@@ -50,7 +50,7 @@ static void forgive(hand_t *hand)
 static void holds(hand_t *hand, unsigned buttons)
 {
     const unsigned down = buttons & BUTTONS;
-    const bool is_stop = buttons >= BUTTON_STOP || down == CODE_STOP;
+    const bool is_stop = is_stop_of(buttons);
     const unsigned code = is_stop ? CODE_STOP : buttons == BUTTON_PAUSE ? NO_CODE : down;
     hand->spent &= down;
     if (code != 0 && code < CODE_STOP && code != hand->code && (down & ~hand->spent) != 0) {

@@ -117,6 +117,8 @@ void world_forget_line(void);   /* discards what is in transit on the console */
 const uint8_t *page_at(unsigned page);   /* in flash, PAGE_BYTES; numbers wrap at PAGES */
 uint8_t sum_of(const uint8_t *page);     /* 0xFF: the page is undamaged */
 uint16_t crc_of(const uint8_t *bytes, unsigned count);   /* CRC-16/CCITT-FALSE */
+uint32_t joints_named(const char *words);   /* a bit for each joint number, until a word that is none */
+bool is_stop_of(unsigned buttons);       /* button 6, or the first eight together (REMOTE.md) */
 bool begins_with_one_of(const char *line, const char *const *texts);   /* texts: ends with NULL */
 
 /* rules.c */

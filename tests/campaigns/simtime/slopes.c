@@ -6,7 +6,6 @@
 #include "session.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "servo_fault.h"
@@ -123,19 +122,6 @@ static uint32_t joints_of_first_step(unsigned page)
         joints |= (at[2 * id] | (unsigned)at[2 * id + 1] << 8) < 1024 ? bit(id) : 0;
     }
     return joints;
-}
-
-/* Returns the joints that a line names. */
-static uint32_t joints_named(const char *words)
-{
-    uint32_t joints = 0;
-    for (char *end; ; words = end) {
-        const unsigned long id = strtoul(words, &end, 10);
-        if (end == words) {
-            return joints;
-        }
-        joints |= id < JOINTS ? bit((unsigned)id) : 0;
-    }
 }
 
 static void asks_for_layer(unsigned page, uint32_t joints)
