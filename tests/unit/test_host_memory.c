@@ -15,6 +15,7 @@
 
 #define PAGE_BYTES JOURNAL_TARGET_BYTES
 #define SEEDS 20u
+#define FEW_SEEDS 4u   /* for two saves, which have more writes to cut */
 #define LAST_PAGE 255u
 
 static uint8_t old[PAGE_BYTES], new[PAGE_BYTES];
@@ -143,6 +144,65 @@ static void test_a_power_cut_at_any_byte_leaves_the_old_settings_or_the_new_ones
     }
 }
 
+/* As in a motion: nothing is settled unless the second save asks for it. */
+static bool set_twice_with_cut(uint32_t write, uint32_t seed)
+{
+    static settings_store_t store;   /* static: kept across longjmp */
+    static settings_t settings;
+    jmp_buf cut;
+    setUp();
+    (void)begin();
+    (void)settings_load(&store, &settings);
+    settings.approach_deg_s = 33;
+    settings_save_start(&store);
+    settings_save_finish(&store, &settings);
+    host_settle();
+    fake_machine_cut(write, seed, &cut);
+    if (setjmp(cut) == 0) {
+        for (uint8_t approach_deg_s = 44; approach_deg_s <= 55; approach_deg_s += 11u) {
+            settings.approach_deg_s = approach_deg_s;
+            settings_save_start(&store);
+            settings_save_finish(&store, &settings);
+        }
+        fake_machine_cut(0, 0, NULL);
+        return false;
+    }
+    (void)begin();
+    (void)settings_load(&store, &settings);
+    TEST_ASSERT_TRUE_MESSAGE(settings.approach_deg_s == 33 || settings.approach_deg_s == 44 || settings.approach_deg_s == 55,
+                             "one of three");
+    return true;
+}
+
+static void test_a_power_cut_after_two_saves_in_one_motion_leaves_one_of_them(void)
+{
+    for (uint32_t seed = 0; seed < FEW_SEEDS; seed++) {
+        uint32_t write = 1;
+        while (set_twice_with_cut(write, seed)) {
+            write++;
+        }
+        TEST_ASSERT_TRUE(write > 2);
+    }
+}
+
+static void test_a_second_save_waits_until_the_first_is_settled(void)
+{
+    settings_store_t store;
+    settings_t settings;
+    (void)begin();
+    (void)settings_load(&store, &settings);
+    settings_save_start(&store);
+    while (settings_save_poll(&store, &settings)) {
+    }
+    settings_save_start(&store);
+    for (uint16_t i = 0; i < 1000; i++) {
+        TEST_ASSERT_TRUE(settings_save_poll(&store, &settings));
+    }
+    host_settle();
+    while (settings_save_poll(&store, &settings)) {
+    }
+}
+
 static void test_what_is_no_page_is_not_written(void)
 {
     uint8_t bytes[FLASH_PAGE_BYTES] = {0};
@@ -159,6 +219,8 @@ int main(void)
     RUN_TEST(test_what_is_saved_is_there_the_next_time);
     RUN_TEST(test_a_power_cut_at_any_write_leaves_the_old_page_or_the_new_one);
     RUN_TEST(test_a_power_cut_at_any_byte_leaves_the_old_settings_or_the_new_ones);
+    RUN_TEST(test_a_power_cut_after_two_saves_in_one_motion_leaves_one_of_them);
+    RUN_TEST(test_a_second_save_waits_until_the_first_is_settled);
     RUN_TEST(test_what_is_no_page_is_not_written);
     return UNITY_END();
 }
