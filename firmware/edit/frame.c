@@ -83,7 +83,7 @@ void frame_label_text(uint8_t y, char text[FRAME_LABEL_BYTES])
         uint16_t word = session_pose(y);
         bool follows = cell_is_off(word) || !performer_is_idle(&the_performer);
         uint16_t live = cell_is_off(word) ? word & PAGE_POS_MAX : the_servos.present_pos[y];
-        if (follows && live != 0 && live <= PAGE_POS_MAX) {
+        if (follows && live <= PAGE_POS_MAX) {
             cell_digits(live, 4, the_session.hex, &text[FRAME_LIVE_COLUMN]);
         }
     }

@@ -223,6 +223,9 @@ def test_live_position_of_a_released_joint_follows_the_hand_five_times_a_second(
             seen.add(r.text(6, 13, 6))
             assert r.cell(0, 5) == "????"
         assert len(seen) >= 9, seen
+        r.board.servos[5].push_to(0)
+        r.settle(400)
+        assert r.text(6, 13, 6) == "(0000)"
 
 
 def test_redraw_asks_for_the_size_again_and_rows_sets_it():
