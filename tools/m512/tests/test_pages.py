@@ -51,6 +51,35 @@ def test_pages_list_as_table_and_json(m512, lib):
     assert rows[1]["name"] == "walk" and rows[1]["seconds"] == round(120 / 128, 3) and rows[1]["links"]["link1"] == 7
 
 
+@pytest.mark.parametrize("option", ["--help", "-h"])
+@pytest.mark.parametrize(
+    "before, after",
+    [
+        ([], ["list"]),
+        (["list"], []),
+        (["list"], ["LIB"]),
+        (["list", "LIB"], []),
+        (["LIB", "list"], []),
+        (["LIB"], ["list"]),
+        (["none.bin", "list"], []),
+        (["none.bin"], []),
+        (["LIB", "lst"], []),
+    ],
+)
+def test_pages_shows_help_wherever_it_is_asked_for(m512, lib, option, before, after):
+    words = [str(lib) if word == "LIB" else word for word in [*before, option, *after]]
+    result = m512("pages", *words)
+    # click's own rule for a group: --help in the first place is about the group
+    about = "Number, name, steps, play time" if "list" in before + after and before else "List, check, edit, merge"
+    assert result.exit_code == 0 and about in " ".join(result.stdout.split()) and not result.stderr, result.stderr
+
+
+def test_pages_without_a_question_for_help_says_what_is_wrong(m512, lib):
+    assert "No such command 'lst'" in m512("pages", lib, "lst").stderr
+    renamed = m512("pages", lib, "rename", "walk", "--in-place", "--", "-h")
+    assert renamed.exit_code == 0 and image(lib)[3].name == b"-h", renamed.stderr
+
+
 def test_pages_show_is_the_text_format(m512, lib):
     out = m512("pages", lib, "show", "walk").stdout
     assert "page 3 walk" in out and "link1 L left" in out and "pause 20" in out

@@ -108,7 +108,14 @@ replacing = click.option("--replace", is_flag=True, help="Overwrite a page that 
 
 class Actions(click.Group):
     def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
+        """Finds the action. A question for help is answered also where the file or the action is missing or in the other's place."""
         source = ctx.params["source"]
+        if args[0] not in self.commands and not set(args).isdisjoint(ctx.help_option_names):
+            asked = [word for word in (source, *args) if word in self.commands]
+            if asked:
+                return super().resolve_command(ctx, [asked[0], "--help"])
+            click.echo(ctx.get_help())
+            ctx.exit()
         if source in self.commands and args[0] not in self.commands:
             ctx.fail(f"the file comes first: m512 pages {args[0]} {source}")
         return super().resolve_command(ctx, args)
