@@ -331,8 +331,9 @@ def test_pages_of_a_backup_are_in_its_file(m512, tmp_path):
     assert found.exit_code == 4 and "motions.bin" in found.stderr
 
 
-def test_pages_time_of_an_empty_page_is_an_error(m512, lib):
-    result = m512("pages", lib, "time", "12")
+def test_pages_time_of_a_page_without_steps_is_an_error(m512, lib):
+    assert m512("pages", lib, "rename", "12", "later", "--in-place").exit_code == 0
+    result = m512("pages", lib, "time", "later")
     assert result.exit_code == 4 and "page 12 has no action" in result.stderr and not result.stdout
 
 

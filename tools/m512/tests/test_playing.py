@@ -2,6 +2,7 @@
 """`m512 play` and `pose` on a line that loses bytes, and when Ctrl-C or a signal comes at any moment: the robot does what is said."""
 
 import json
+from contextlib import nullcontext
 
 import pytest
 from play_peer import PlayPeer
@@ -43,10 +44,13 @@ def test_a_play_is_refused_while_another_one_goes_on(m512):
         assert "stop" not in robot.asked and robot.state == "playing"
 
 
-def test_a_page_that_is_refused_stops_nothing(m512):
+@pytest.mark.parametrize("words", [("play", "9"), ("play", "9", "--wait"), ("drive", "9"), ("layer", "9")])
+def test_an_empty_page_of_a_board_is_refused_by_its_number_and_stops_nothing(m512, words, monkeypatch):
+    """With the exit code that an empty page of a file has."""
+    monkeypatch.setattr("m512.cli.shape._keys", lambda: nullcontext())
     with PlayPeer() as robot:
-        result = m512("play", "9", "--wait", "-p", robot.path)
-    assert result.exit_code == 8 and "has no action" in result.stderr and "stop" not in robot.asked
+        result = m512(*words, "-p", robot.path)
+    assert result.exit_code == 4 and "page 9 has no action" in result.stderr and "stop" not in robot.asked, result.stderr
 
 
 @pytest.mark.parametrize("words", [("play", "2"), ("play", "2", "--wait"), ("pose", "1:900")])

@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from m512.errors import FileError, WordError
+from m512.errors import EmptyPageError, FileError, WordError
 from m512.files import selection
 from m512.files.image import Image
 from m512.files.page import Page
@@ -59,22 +59,7 @@ def test_what_arguments_mean(words, expected):
 
 @pytest.mark.parametrize(
     "word",
-    [
-        "wave:4o",
-        "wave:",
-        "wave:-1",
-        "wave:+5",
-        "wave:1_0",
-        "wave: 4",
-        "wave:\uff14",
-        "3:256",
-        "3:99999999999",
-        "all:4",
-        "3..5:x",
-        "9..4",
-        "8..11",
-        "wave:4:o",
-    ],
+    ["wave:4o", "wave:", "wave:-1", "wave:+5", "wave:1_0", "wave: 4", "wave:\uff14", "3:256", "3:99999999999", "all:4", "3..5:x", "9..4", "wave:4:o"],
 )
 def test_what_means_nothing_is_an_error_that_names_the_word(word):
     with pytest.raises(WordError) as caught:
@@ -85,6 +70,12 @@ def test_what_means_nothing_is_an_error_that_names_the_word(word):
 @pytest.mark.parametrize("word", ["waves", "", "\u00b3", "200", "9" * 5000, "3..", ":4"])
 def test_a_page_that_is_not_there(word):
     with pytest.raises(FileError):
+        selection.moves([word], IMAGE)
+
+
+@pytest.mark.parametrize("word, said", [("8", "page 8 holds nothing"), ("8..11", "8..11: none of these pages holds anything")])
+def test_pages_that_hold_nothing(word, said):
+    with pytest.raises(EmptyPageError, match=said):
         selection.moves([word], IMAGE)
 
 
@@ -155,20 +146,34 @@ def selection_image(path):
         ("pages", "LIB", "renumber", "50", "60", "-o", "NEW"),
         ("pages", "LIB", "mirror", "50", "60", "-o", "NEW"),
         ("pages", "LIB", "retime", "50", "2", "-o", "NEW"),
+        ("pages", "LIB", "time", "50"),
+        ("pages", "LIB", "show", "50..60"),
+        ("convert", "LIB", "CSV", "--page", "50"),
     ],
 )
 def test_an_empty_page_is_refused_by_its_number_as_in_a_range(m512, lib, words):
-    files = {"LIB": lib, "OTHER": lib.with_name("other.m512"), "NEW": lib.with_name("new.bin")}
+    files = {"LIB": lib, "OTHER": lib.with_name("other.m512"), "NEW": lib.with_name("new.bin"), "CSV": lib.with_name("new.csv")}
     result = m512(*(files.get(word, word) for word in words))
     number = "99" if "99" in words else "50"
-    assert result.exit_code in (2, 5) and re.search(rf"\b{number}\b.* holds nothing", result.stderr), result.stderr
-    assert not lib.with_name("new.bin").exists()
+    assert result.exit_code == 4 and re.search(rf"\b{number}\b.* holds (nothing|anything)", result.stderr), result.stderr
+    assert not lib.with_name("new.bin").exists() and not lib.with_name("new.csv").exists()
+
+
+@pytest.mark.parametrize("words", [("show", "50"), ("time", "50"), ("copy", "50", "60", "--in-place"), ("rename", "50", "new", "--in-place")])
+def test_an_erased_page_is_an_empty_one(m512, lib, words):
+    path = lib.with_name("erased.bin")
+    data = bytearray(selection_image(lib).to_bytes())
+    data[512 * 50 : 512 * 51] = b"\xff" * 512
+    path.write_bytes(data)
+    result = m512("pages", path, *words)
+    assert result.exit_code == 4 and "page 50 holds nothing" in result.stderr and not result.stdout, result.stderr
+    assert path.read_bytes() == data
 
 
 def test_an_empty_page_of_a_board_is_refused_by_its_number(m512, started, lib):
     edit = started("edit-cm5.hex", text=TEXT)
     result = m512("get", "3", "50", "-o", lib.with_name("got.bin"), "-p", edit.path)
-    assert result.exit_code == 2 and "50: this page holds nothing" in result.stderr and not lib.with_name("got.bin").exists()
+    assert result.exit_code == 4 and "page 50 holds nothing" in result.stderr and not lib.with_name("got.bin").exists()
     assert m512("get", "0", "-o", lib.with_name("got.bin"), "-p", edit.path).exit_code == 0  # the trim may be absent
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 # Exit codes. 0 is success, 1 is Python's for a crash, 2 is click's for a wrong command line.
 EXIT_DIFFERENT = 3  # a comparison, check or verification found something
-EXIT_BAD_FILE = 4  # a file is missing, damaged or of the wrong kind
+EXIT_BAD_FILE = 4  # a file is missing, damaged or of the wrong kind, or the page that is asked for is empty
 EXIT_REFUSED = 5  # the request would do harm, or the user said no
 EXIT_PORT = 6  # no port, no access, or the cable was unplugged
 EXIT_NO_ANSWER = 7  # the port exists, but nobody answers as expected
@@ -40,6 +40,10 @@ class WordError(ValueError):
     def __init__(self, message: str):
         part = WORDS_MOST // 2
         super().__init__(message if len(message) <= WORDS_MOST else f"{message[:part]} ... {message[-part:]}")
+
+
+class EmptyPageError(M512Error):
+    """A page that is asked for holds nothing, or no action to play."""
 
 
 class RefusedError(M512Error):

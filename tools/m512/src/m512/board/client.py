@@ -12,14 +12,14 @@ from collections.abc import Sequence
 
 from m512.board.link import Link
 from m512.crc16 import crc16
-from m512.errors import BoardError, NoAnswerError
+from m512.errors import EXIT_BAD_FILE, BoardError, NoAnswerError
 from m512.files import selection
 from m512.files.page import JOINTS, PAGE_BYTES, Page
 
 ANSWER_SECONDS = 3.0
 TRIES = 3
 DATA_BYTES = 32
-ERR_WORD, ERR_EDITS, ERR_LINE, ERR_ASKED = 1, 12, 15, 16
+ERR_WORD, ERR_EMPTY, ERR_EDITS, ERR_LINE, ERR_ASKED = 1, 6, 12, 15, 16
 # Fields of @where: the pattern of each, and its value when it is missing ("": it is mandatory).
 WHERE = {
     **{word: ("[0-9]+", "") for word in ("page", "repetition")},
@@ -89,17 +89,22 @@ class Client:
             if match:
                 if int(match.group(1)) == ERR_LINE:  # the board did not execute it
                     continue
-                raise self._error(word, int(match.group(1)), match.group(2))
+                raise self._error(request, int(match.group(1)), match.group(2))
         raise NoAnswerError(f"no answer to {word}")
 
-    def _error(self, word: str, number: int, text: str) -> BoardError:
+    def _error(self, request: str, number: int, text: str) -> BoardError:
+        word, *rest = f"@{request}".split()
         if number == ERR_WORD:
             image = self.version.get("image", "this image")
             other = {"edit": "Play", "play": "Edit"}.get(image)
             text = f"{image.capitalize()} does not know {word}" + (f", {other} does" if other else "")
             if other and self.version.get("board") != "pc":  # the programs for an adapter cannot be flashed
                 text += f": m512 run {self.file_of(other)}"
-        return BoardError(text or f"error {number}", number)
+        error = BoardError(text or f"error {number}", number)
+        if number == ERR_EMPTY and rest:
+            error = BoardError(f"page {rest[0]} has no action: there is nothing to play", number)
+            error.exit_code = EXIT_BAD_FILE  # that of an EmptyPageError for a page of a file
+        return error
 
     def _answer(self, word: str, seconds: float) -> str | None:
         """Returns the text after the word in the first complete line that answers. A refusal of a damaged line (ERR_LINE) counts under

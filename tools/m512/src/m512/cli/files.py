@@ -158,7 +158,7 @@ def convert(
     bad = conversion.treat_damaged(image, source, damaged, notes)
     image, lost = conversion.fitted(image, count and int(count), target)
     losses += lost
-    losses += formats.save(target, image, image.find(number) if number else None, mtn_version or "1.01")
+    losses += formats.save(target, image, selection.holding(number, image) if number else None, mtn_version or "1.01")
     if as_json:
         ui.show(
             json.dumps(

@@ -14,8 +14,8 @@ import click
 from m512 import ui
 from m512.cli.board import FilePath, Finite, board_option
 from m512.cli.files import PAGE_NUMBER, one_of_csv, page_moves, page_numbers
-from m512.errors import EXIT_DIFFERENT, FileError, WordError
-from m512.files import conversion, formats
+from m512.errors import EXIT_DIFFERENT, EmptyPageError, FileError, WordError
+from m512.files import conversion, formats, selection
 from m512.files.page import Page
 
 
@@ -325,9 +325,9 @@ def time(source: Source, page: str, volts: float, as_json: bool) -> None:
     from m512.motion import speed
     from m512.pages import operations
 
-    number = source.image.find(page)
+    number = selection.holding(page, source.image)
     if not source.image[number].is_playable and not source.image[number].fault(source.image.kind):
-        raise FileError(f"page {number} has no action: there is nothing to play")
+        raise EmptyPageError(f"page {number} has no action: there is nothing to play")
     parts, end = operations.chain(source.image, number)
     fast = speed.too_fast(source.image, number, volts)
     total = sum(seconds for _, _, seconds in parts)

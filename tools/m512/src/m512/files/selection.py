@@ -7,6 +7,7 @@
     wave:40        page `wave` becomes number 40; 20..25:60 becomes 60..65
 
 A name takes precedence over everything but a number: a page may be called "a:b" or "1..2". WordError: the input means no page.
+EmptyPageError: the pages hold nothing.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ import re
 from collections.abc import Iterable, Mapping
 from typing import Callable, Protocol
 
-from m512.errors import M512Error, WordError
+from m512.errors import EmptyPageError, M512Error, WordError
 
 NUMBER_MOST = 255  # the largest page number on any board
 RANGE = r"([0-9]{1,9})\.\.([0-9]{1,9})"
@@ -45,6 +46,14 @@ def find(word: str, names: Mapping[int, str], error: Callable[[str], M512Error],
     if word == "all" or re.fullmatch(RANGE, word):
         raise error(f"{word} means several pages, and one is asked for")
     raise error(f"no page{whose} is called {word!r}")
+
+
+def holding(word: str, pages: Pages) -> int:
+    """The number of one page. EmptyPageError: it holds nothing."""
+    number = pages.find(word)
+    if number and number not in pages.used():
+        raise EmptyPageError(f"page {number} holds nothing")
+    return number
 
 
 def page_number(text: str) -> int | None:
@@ -99,12 +108,9 @@ def _meant(word: str, pages: Pages) -> list[int]:
         return [pages.find(word)]
     span = number_range(word)
     if word != "all" and not span:
-        number = pages.find(word)
-        if number and number not in pages.used():
-            raise WordError(f"{word}: this page holds nothing")
-        return [number]
+        return [holding(word, pages)]
     low, high = span or (1, NUMBER_MOST)
     found = [number for number in pages.used() if low <= number <= high]
     if not found:
-        raise WordError(f"{word}: none of these pages holds anything")
+        raise EmptyPageError(f"{word}: none of these pages holds anything")
     return found

@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from m512.errors import RefusedError, WordError
+from m512.errors import EmptyPageError, RefusedError, WordError
 from m512.files.image import Image, is_erased
 from m512.files.page import JOINTS, SCHEDULE_TIME, STEPS, Page, is_used
 from m512.files.selection import page_number
@@ -85,7 +85,7 @@ def _goes_on(image: Image, target: int) -> bool:
 def need_good(image: Image, number: int) -> Page:
     page = image[number]
     if is_erased(page):
-        raise RefusedError(f"page {number} is erased flash: nothing is there")
+        raise EmptyPageError(f"page {number} holds nothing: it is erased flash")
     if page.fault(image.kind):
         raise RefusedError(f"page {number} is damaged ({page.fault_text(image.kind)}); repair or delete it first")
     return page
@@ -94,7 +94,7 @@ def need_good(image: Image, number: int) -> Page:
 def _need_motion(image: Image, number: int) -> Page:
     page = need_good(image, number)
     if number and page.is_empty:
-        raise RefusedError(f"page {number} holds nothing")
+        raise EmptyPageError(f"page {number} holds nothing")
     return page
 
 
