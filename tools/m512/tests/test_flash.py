@@ -579,13 +579,42 @@ def test_backup_that_was_changed_is_not_restored(m512, tmp_path):
     (folder / "motions.bin").write_bytes(EMPTY * 128)
     (folder / "manifest.json").write_text(
         json.dumps(
-            {"format": "m512-backup", "version": 1, "files": {"motions": {"file": "motions.bin", "bytes": 65536, "crc16": "0000", "sha256": ""}}}
+            {
+                "format": "m512-backup",
+                "version": 1,
+                "files": {"motions": {"file": "motions.bin", "address": 0xE000, "bytes": 65536, "crc16": "0000", "sha256": ""}},
+            }
         )
     )
     result = m512("restore", folder)
     assert result.exit_code == 4 and "not what the manifest says" in result.stderr
     (folder / "manifest.json").write_text("{")
     assert m512("restore", folder).exit_code == 4
+
+
+@pytest.mark.parametrize(
+    "area, address, expected, found",
+    [("motions", 0x1E000, "0x0E000", "0x1E000"), ("app", 256, "0x00000", "0x00100"), ("eeprom", 1, "0x00000", "0x00001")],
+)
+def test_backup_of_another_address_is_not_restored(m512, tmp_path, area, address, expected, found):
+    with BlockPeer(bytearray(b"\xff" * 0xE000 + motion_area() + b"\xff" * 0x2000)) as board:
+        assert m512("backup", tmp_path / "b", "-p", board.path).exit_code == 0
+        manifest = json.loads((tmp_path / "b" / "manifest.json").read_text())
+        manifest["files"][area]["address"] = address
+        (tmp_path / "b" / "manifest.json").write_text(json.dumps(manifest))
+        board.flash[0xE000 + 512 + 66] ^= 1
+        before = bytes(board.flash)
+        result = m512("restore", tmp_path / "b", "-p", board.path, "--yes")
+        assert result.exit_code == 4 and expected in result.stderr and found in result.stderr and area in result.stderr, result.stderr
+        assert bytes(board.flash) == before
+    assert m512("diff", tmp_path / "b", tmp_path / "b").exit_code == 4
+
+
+def test_backup_without_an_address_is_damaged(m512, tmp_path):
+    entry = {"file": "motions.bin", "bytes": 65536, "crc16": "0000", "sha256": ""}
+    (tmp_path / "manifest.json").write_text(json.dumps({"format": "m512-backup", "version": 1, "files": {"motions": entry}}))
+    result = m512("restore", tmp_path)
+    assert result.exit_code == 4 and "manifest.json is damaged" in result.stderr
 
 
 def test_port_that_is_not_there(m512, motions):

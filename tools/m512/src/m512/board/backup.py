@@ -140,20 +140,24 @@ def load(folder: Path) -> Backup:
         if not all(isinstance(entry["file"], str) for entry in manifest["files"].values()):
             raise ValueError
         files = {
-            area: (entry["file"], int(entry["bytes"]), int(entry["crc16"], 16), entry["sha256"])
+            area: (entry["file"], int(entry["address"]), int(entry["bytes"]), int(entry["crc16"], 16), entry["sha256"])
             for area, entry in manifest["files"].items()
             if area in AREAS
         }
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         raise FileError(f"{folder / MANIFEST} is damaged") from None
     data = {}
-    for area, (name, size, crc, sha) in files.items():
+    for area, (name, address, size, crc, sha) in files.items():
         if Path(name).name != name:
             raise FileError(f"{folder / MANIFEST}: {name} is not beside it")
+        low, high = AREAS[area]
+        if address != low:
+            raise FileError(
+                f"{folder / MANIFEST}: the address of {area} is 0x{address:05X} and not 0x{low:05X}. Is this the backup of another board?"
+            )
         found = formats.read_bytes(folder / name)
         if (len(found), crc16(found), hashlib.sha256(found).hexdigest()) != (size, crc, sha):
             raise FileError(f"{folder / name} is not what the manifest says: damaged or changed")
-        low, high = AREAS[area]
         if size != high - low:
             raise FileError(f"{folder / name} has {size} bytes and not {high - low}")
         data[area] = found
