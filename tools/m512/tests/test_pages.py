@@ -424,6 +424,16 @@ def test_pages_time_says_where_a_servo_cannot_follow(m512, tmp_path):
     assert m512("pages", path, "time", "fast", "--volts", "2").exit_code == 2
 
 
+@pytest.mark.parametrize("fast", ["step 12 | 640 512", "step 12 pause 10 | 640 512", "step 2 | 440 512", "step 1 | 420 512"])
+@pytest.mark.parametrize("page", ["", "  next 2\npage 2 slow\n  accel 0\n"])
+def test_pages_time_does_not_blame_the_step_after_the_fast_one(m512, tmp_path, fast, page):
+    """The fast step moves 20 units in each tick, which are 750 degrees/s. The one after it moves on by half a unit in each tick."""
+    path = tmp_path / "fast.m512"
+    path.write_text(f"motion512 1\nrow 1..2\npage 1 fast\n  accel 0\n  step 50 | 400 512\n  {fast}\n{page}  step 48 | - 536\n")
+    found = json.loads(m512("pages", path, "time", "fast", "--json").stdout)["too_fast"]
+    assert found == [{"page": 1, "step": 2, "joint": 1, "degrees_s": 750}]
+
+
 TWELVE = """motion512 1
 bits 12
 page 1 slow

@@ -7,9 +7,9 @@ faster: the joint lags, and the motion differs from the intended one.
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import groupby
 
 from m512.files.image import Image
 from m512.files.page import JOINTS, is_used
@@ -20,7 +20,7 @@ NO_LOAD_RPM, SHEET_V = 59.0, 12.0
 BATTERY_V = 9.6  # a CM-5's pack: 8 cells of 1.2 V
 TICKS_PER_SECOND = 128
 LOOKED_SECONDS = 60.0  # of a play; it takes this PC some seconds
-WINDOW = 4  # ticks over which the speed is measured, because goals are integers
+WINDOW = 4  # ticks of a step over which the speed is measured, because goals are integers; a shorter step is measured as a whole
 
 
 @dataclass
@@ -48,16 +48,16 @@ def too_fast(
     supply. `pose`: the initial pose; by default that of the page's first step, because the robot approaches it slowly."""
     limit, degrees_s = no_load_units_per_tick(volts, image.bits), float(degrees_per_unit(image.bits)) * TICKS_PER_SECOND
     found: dict[tuple[int, int], TooFast] = {}
-    recent: deque[list[int]] = deque(maxlen=WINDOW + 1)
-    for tick in play(image, number, pose or _first_pose(image, number), int(seconds * TICKS_PER_SECOND)):
-        if tick.goals is None:
-            continue
-        recent.append(tick.goals)
-        speed, joint = max((abs(tick.goals[j] - recent[0][j]) / WINDOW, j) for j in range(JOINTS))
-        if len(recent) > WINDOW and speed > limit:
-            place = tick.page, tick.step
-            if place not in found or found[place].degrees_s < speed * degrees_s:
+    start = list(pose or _first_pose(image, number))
+    ticks = play(image, number, start, int(seconds * TICKS_PER_SECOND))
+    for place, step in groupby(ticks, lambda tick: (tick.page, tick.step)):
+        goals = [start] + [tick.goals for tick in step if tick.goals is not None]
+        window = min(WINDOW, len(goals) - 1)
+        for before, after in zip(goals, goals[window:]):
+            speed, joint = max((abs(after[j] - before[j]) / window, j) for j in range(JOINTS))
+            if speed > limit and (place not in found or found[place].degrees_s < speed * degrees_s):
                 found[place] = TooFast(*place, joint, speed * degrees_s)
+        start = goals[-1]
     return list(found.values())
 
 
