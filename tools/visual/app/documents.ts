@@ -12,7 +12,6 @@ import type { Backup, DocumentStorage, KeptDocument } from '../view/document-sto
 import type { Documents, DocumentsState } from '../view/session/documents.ts';
 import { Store } from '../view/store.ts';
 import { TEXTS } from '../view/texts/texts.ts';
-import { HOLDS_NOTHING } from './hold-document.ts';
 import type { Release } from './hold-document.ts';
 import { Turns } from './turns.ts';
 
@@ -50,16 +49,17 @@ export class KeptDocuments implements Documents {
     readonly state = new Store<DocumentsState>({ documents: [], openId: '', backups: [], unreadable: [], forgotten: 0, saving: 'saved' });
     private readonly parts: DocumentsParts;
     private readonly shown: Shown;
-    private underWay = 0;
     private log: HistoryLog = EMPTY_LOG;
-    /** The last version of each document that this tab has stored, by id. */
-    private readonly newest = new Map<string, KeptDocument>();
+    /** The last version of each document that is not stored yet, by id. */
+    private readonly unstored = new Map<string, KeptDocument>();
+    /** Those of them that the storage has refused. They are tried again when it takes something. */
+    private readonly refused = new Set<string>();
     /** The open document is an unedited copy. It is dropped when the tab closes or another document opens. */
     private isUntouched = false;
     /** Counts what is opened or created. The last request wins, even if the storage answers an earlier one later. */
     private chosen = 0;
-    /** Lock of the open document. */
-    private release = HOLDS_NOTHING;
+    /** Locks of the open document and of those that are not stored yet: another tab would read an older version. */
+    private readonly locks = new Map<string, Release>();
     /** What is opened takes its lock one after the other. Nobody gets a lock twice, not even this tab. */
     private readonly turns = new Turns();
 
@@ -88,9 +88,8 @@ export class KeptDocuments implements Documents {
     }
 
     private async holdNew(id: string): Promise<void> {
-        const release = (await this.parts.hold(id)) ?? HOLDS_NOTHING; // no other tab knows this id
-        if (id === this.state.get().openId) this.release = release;
-        else release();
+        await this.lock(id); // no other tab knows this id
+        this.letGo(id);
     }
 
     /** Opens a new document and returns its id. */
@@ -117,7 +116,10 @@ export class KeptDocuments implements Documents {
     async remove(id: string): Promise<void> {
         this.drop(id);
         if (id === this.state.get().openId) await this.openOther(id);
-        this.newest.delete(id);
+        this.unstored.delete(id);
+        this.refused.delete(id);
+        this.letGo(id);
+        this.tellSaving();
         await this.parts.storage.removeDocument(id).catch((error: unknown) => this.parts.failed(error));
     }
 
@@ -145,20 +147,42 @@ export class KeptDocuments implements Documents {
         this.isUntouched = false;
         const { log, change } = advance(this.log, history);
         this.log = log;
-        this.follow(this.put({ ...entry, image: imageOf(document), position: positionOf(log, history) }, change));
+        this.unstored.set(openId, { ...entry, image: imageOf(document), position: positionOf(log, history) });
+        void this.put(openId, change).then(isStored => (isStored ? this.tryRefused() : undefined));
+    }
+
+    /** Stores the last version of a document. false: the storage has refused it, which has been reported. */
+    private async put(id: string, change: StepsChange): Promise<boolean> {
+        this.tellSaving();
+        try {
+            await this.tryToPut(id, change);
+            this.refused.delete(id);
+            this.letGo(id);
+            return true;
+        } catch (error) {
+            if (!this.unstored.has(id)) return true; // a later try has stored it
+            this.refused.add(id);
+            this.parts.failed(error);
+            return false;
+        } finally {
+            this.tellSaving();
+        }
     }
 
     /** The document matters more than its history: if both do not fit, the history is dropped. By then the document may have been edited
-     *  again or removed. */
-    private async put(document: KeptDocument, change: StepsChange): Promise<void> {
-        const { storage } = this.parts;
-        this.newest.set(document.id, document);
-        try {
-            await storage.putDocument(document, change);
-        } catch {
-            const newest = this.newest.get(document.id);
-            if (newest) await storage.putDocument(newest, DROP_ALL);
-        }
+     *  again, stored or removed. */
+    private async tryToPut(id: string, change: StepsChange): Promise<void> {
+        const store = async (steps: StepsChange): Promise<void> => {
+            const document = this.unstored.get(id);
+            if (!document) return;
+            await this.parts.storage.putDocument(document, steps);
+            if (this.unstored.get(id) === document) this.unstored.delete(id);
+        };
+        await store(change).catch(() => store(DROP_ALL));
+    }
+
+    private async tryRefused(): Promise<void> {
+        for (const id of [...this.refused]) if (!(await this.put(id, DROP_ALL))) return;
     }
 
     /** Stores a robot's pages unless its newest backup has the same content. */
@@ -175,11 +199,11 @@ export class KeptDocuments implements Documents {
     /** Opens a stored document with its history, or a copy if another tab has it open. */
     private async take(id: string): Promise<void> {
         const mine = this.chosen;
-        const release = await this.parts.hold(id);
+        const isHeld = await this.lock(id);
         const kept = await this.find(id); // now that nobody else stores it
-        if (!kept || mine !== this.chosen) return release?.();
+        if (!kept || mine !== this.chosen) return this.letGo(id);
         const document = documentFrom(kept.image, kept.name);
-        if (!release) {
+        if (!isHeld) {
             const name = copyName(
                 kept.name,
                 this.state.get().documents.map(one => one.name),
@@ -191,18 +215,32 @@ export class KeptDocuments implements Documents {
             return this.holdNew(copy);
         }
         const steps = await this.parts.storage.readSteps(id).catch(() => []); // the history is then lost, and the page says so
-        if (mine !== this.chosen) return release();
-        this.show(id, restored(document, kept.position ?? 0, steps), release);
+        if (mine !== this.chosen) return this.letGo(id);
+        this.show(id, restored(document, kept.position ?? 0, steps));
     }
 
-    private show(id: string, { document, history, log }: Edited & { readonly log: HistoryLog }, release = HOLDS_NOTHING): void {
-        if (this.isUntouched) this.drop(this.state.get().openId);
+    private show(id: string, { document, history, log }: Edited & { readonly log: HistoryLog }): void {
+        const { openId: before } = this.state.get();
+        if (this.isUntouched) this.drop(before);
         this.isUntouched = false;
-        this.release();
-        this.release = release;
         this.log = log;
         this.state.set({ openId: id, forgotten: log.base });
+        this.letGo(before);
         this.shown.open(document, history);
+    }
+
+    /** false: another tab has it. */
+    private async lock(id: string): Promise<boolean> {
+        const release = this.locks.get(id) ?? (await this.parts.hold(id));
+        if (release) this.locks.set(id, release);
+        return release !== null;
+    }
+
+    /** Lets another tab have a document, unless it is open or not stored yet. */
+    private letGo(id: string): void {
+        if (id === this.state.get().openId || this.unstored.has(id)) return;
+        this.locks.get(id)?.();
+        this.locks.delete(id);
     }
 
     private drop(id: string): void {
@@ -221,6 +259,8 @@ export class KeptDocuments implements Documents {
 
     /** undefined: it is not stored any more or could not be read, which has been reported. */
     private async find(id: string): Promise<KeptDocument | undefined> {
+        const unstored = this.unstored.get(id);
+        if (unstored) return unstored;
         try {
             const found = await this.parts.storage.readDocument(id);
             const entry = this.state.get().documents.find(one => one.id === id);
@@ -235,20 +275,9 @@ export class KeptDocuments implements Documents {
         }
     }
 
-    private follow(put: Promise<void>): void {
-        this.underWay++;
-        if (this.parts.isKept) this.state.set({ saving: 'saving' });
-        put.then(
-            () => this.ended(null),
-            (error: unknown) => this.ended(error),
-        );
-    }
-
-    private ended(error: unknown): void {
-        this.underWay--;
-        if (error !== null) this.parts.failed(error);
-        const saving = error !== null || !this.parts.isKept ? 'off' : this.underWay === 0 ? 'saved' : 'saving';
-        this.state.set({ saving });
+    private tellSaving(): void {
+        const isOff = !this.parts.isKept || this.refused.size > 0;
+        this.state.set({ saving: isOff ? 'off' : this.unstored.size > 0 ? 'saving' : 'saved' });
     }
 }
 

@@ -453,6 +453,47 @@ test('a disk that is full is told of, and the work goes on', async () => {
     expect(editor.page(2).name).toBe('curtsy');
 });
 
+test('a document that could not be stored is not called saved when another one is, is shown as it was edited, and stored when there is room', async () => {
+    const disk = new PassingStorage();
+    const { held, hold } = makeLocks();
+    const { editor, documents, gone } = await openTab(disk, { hold });
+    const bows = documents.state.get().openId;
+    const put = disk.putDocument.bind(disk);
+    disk.putDocument = (document, steps) => (document.id === bows ? Promise.reject(new Error('QuotaExceededError')) : put(document, steps));
+    editor.dispatch(editor.edits.rename(now(editor), 2, 'curtsy'));
+    await settle();
+    await documents.create('Dances');
+    await settle();
+    expect(documents.state.get().saving).toBe('off'); // so the browser asks before it closes the page
+    expect(held).toContain(bows); // another tab would edit the older version
+    await documents.open(bows);
+    expect(editor.page(2).name).toBe('curtsy');
+    expect(gone).toEqual([]);
+    await documents.create('Kicks');
+    disk.putDocument = put;
+    editor.dispatch(editor.edits.rename(now(editor), 3, 'kick'));
+    await settle();
+    expect(documents.state.get().saving).toBe('saved');
+    expect([...held]).toEqual([documents.state.get().openId]);
+    await documents.open(bows);
+    expect(editor.page(2).name).toBe('curtsy');
+    expect((await disk.readDocument(bows))?.image).toEqual(imageOf(now(editor)));
+});
+
+test('a document that could not be stored is deleted: all that is left is saved', async () => {
+    const disk = new PassingStorage();
+    const { editor, documents } = await openTab(disk);
+    const put = vi.spyOn(disk, 'putDocument').mockRejectedValue(new Error('QuotaExceededError'));
+    editor.dispatch(editor.edits.rename(now(editor), 2, 'curtsy'));
+    await settle();
+    put.mockRestore();
+    const bows = documents.state.get().openId;
+    await documents.remove(bows);
+    await settle();
+    expect(documents.state.get().saving).toBe('saved');
+    expect((await disk.load()).documents.map(({ id }) => id)).toEqual([documents.state.get().openId]);
+});
+
 test('what cannot be read is named, not dropped', () => {
     const good = { id: 'a', name: 'good', image: imageOf(library), savedMs: 1 };
     const kept = sortKept([good, { id: 'b', name: 'half', image: new Uint8Array(100) }, null], [{ id: 'c', robot: 'old robot' }]);

@@ -20,7 +20,7 @@ export interface DocumentsState {
     readonly unreadable: readonly string[];
     /** Number of the oldest steps of the open document's history that are no longer stored. */
     readonly forgotten: number;
-    /** 'off': this browser stores nothing. */
+    /** 'off': this browser stores nothing, or not the last version of each document. */
     readonly saving: 'saved' | 'saving' | 'off';
 }
 
