@@ -26,6 +26,8 @@ export class RobotImages {
     private readonly parts: ImageParts;
     /** The robot that leaves Edit. Its answer may not come while another one is used. */
     private leaving: { readonly robot: unknown; readonly done: Promise<void> } | null = null;
+    /** Counts changes of the image. The last one counts. */
+    private asked = 0;
 
     constructor(parts: ImageParts) {
         this.parts = parts;
@@ -33,7 +35,8 @@ export class RobotImages {
 
     /** For a button press: errors are reported, not thrown. */
     run(image: ImageName): void {
-        void this.restart(image).catch((error: unknown) => this.parts.fail(error));
+        const { source } = this.state;
+        void this.restart(image).catch((error: unknown) => source === this.state.source && this.parts.fail(error));
     }
 
     /** Restarts the robot in its factory state. */
@@ -46,16 +49,18 @@ export class RobotImages {
 
     /** Only Edit saves pages. The robot restarts with Edit, stands up, and keeps Edit until somebody drives it. */
     async becomeEdit(): Promise<void> {
+        const { source } = this.state;
         if (this.state.image !== 'edit') {
             this.tell(TEXTS.robot.startsEdit);
             await this.restart('edit');
         }
-        await this.untilReady();
+        await this.untilReady(source);
         await this.parts.robot().prepare();
     }
 
     /** Only Play receives a remote control. Resolves when Play runs and the robot is on its feet. Rejects with RobotError. */
     async becomeDriven(): Promise<void> {
+        const { source } = this.state;
         if (this.state.image !== 'play') {
             const robot = this.parts.robot();
             if (this.leaving?.robot !== robot) this.leaving = { robot, done: this.leaveEdit() };
@@ -64,7 +69,7 @@ export class RobotImages {
                 if (this.leaving === leaving) this.leaving = null;
             });
         }
-        await this.untilReady();
+        await this.untilReady(source);
         await this.parts.robot().prepare();
     }
 
@@ -80,35 +85,39 @@ export class RobotImages {
     /** A remote key must not discard edits: if there are unsaved ones, Edit keeps running, and while the page writes. Rejects with RobotError:
      *  page-unsaved, transfer-busy, or as a request does. */
     private async leaveEdit(): Promise<void> {
+        const { source } = this.state;
         if (this.parts.isWriting()) throw new RobotError('transfer-busy');
         if (this.state.stopped === null) {
             // a stopped robot has no edits in RAM to lose
-            await this.untilReady();
+            await this.untilReady(source);
             if (this.state.image === 'play') return; // changed meanwhile
             const { connection } = this.parts.robot();
             if (!connection) throw new RobotError('not-connected');
             if (await hasUnsavedEdits(connection.requests, this.parts.format)) throw new RobotError('page-unsaved');
+            if (source !== this.state.source) throw new RobotError('cancelled');
         }
         this.tell(TEXTS.robot.startsPlay);
         await this.restart('play');
     }
 
-    /** Rejects with RobotError if the image cannot be had. The robot then keeps running as before. */
+    /** Rejects with RobotError if the image cannot be had. The robot then keeps running as before. By then another one may be used. */
     private async restart(image: ImageName): Promise<void> {
         const { state, robot } = this.parts;
-        const before = state.get().image;
+        const { source, image: before } = state.get();
+        const mine = ++this.asked;
         state.set({ image });
         try {
             await robot().restart(image);
         } catch (cause) {
             const { version } = state.get();
             const runs = version?.image === 'play' || version?.image === 'edit' ? version.image : before;
-            if (state.get().image === image) state.set({ image: runs });
+            if (mine === this.asked && source === state.get().source) state.set({ image: runs });
             throw refusal(cause);
         }
     }
 
-    private untilReady(): Promise<void> {
+    /** used: the robot that is waited for. Rejects if another one is chosen. */
+    private untilReady(used: SessionState['source']): Promise<void> {
         return new Promise((resolve, reject) => {
             let unwatch = (): void => undefined;
             const timer = setTimeout(() => end(() => reject(new RobotError('no-answer'))), READY_MS);
@@ -119,7 +128,8 @@ export class RobotImages {
             };
             unwatch = this.parts.state.watch(({ source, connection, version, image, physics, stopped }) => {
                 const isThere = connection === 'ready' && version?.image === image && (source !== 'simulated' || physics !== 'loading');
-                if (stopped !== null) end(() => reject(new RobotError('no-answer')));
+                if (source !== used) end(() => reject(new RobotError('cancelled')));
+                else if (stopped !== null) end(() => reject(new RobotError('no-answer')));
                 else if (isThere) end(resolve);
             });
         });

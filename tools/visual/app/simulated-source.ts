@@ -32,6 +32,7 @@ const WHERE_MS = 3000;
 const MOST_FRAMES = 60;
 
 interface Parts {
+    readonly image: ImageName;
     readonly module: WebAssembly.Module;
     readonly images: Images;
 }
@@ -77,6 +78,11 @@ export class SimulatedSource {
     private stops = 0;
     /** Floor, battery and faults as the person has set them. The next robot gets them, too. */
     private readonly room = new Map<string, ToSim>();
+    /** Counts changes of the image. The last one counts. */
+    private asked = 0;
+    private running: ImageName = 'play';
+    /** What runs, or will as soon as it is loaded. */
+    image: ImageName = 'play';
     connection: Connection | null = null;
 
     constructor(body: Body, events: SourceEvents) {
@@ -94,13 +100,20 @@ export class SimulatedSource {
 
     /** Restarts the robot with this image. Its memories are kept. Rejects if the image cannot be had; the robot then keeps running as
      *  before. */
-    restart(image: ImageName): Promise<void> {
-        return this.turns.run(async () => {
-            const parts = await this.parts(image);
-            const kept = await this.memories();
-            await this.end();
-            this.begin(parts, kept);
-        });
+    async restart(image: ImageName): Promise<void> {
+        const mine = ++this.asked;
+        this.image = image;
+        try {
+            await this.turns.run(async () => {
+                const parts = await this.parts(image);
+                const kept = await this.memories();
+                await this.end();
+                this.begin(parts, kept);
+            });
+        } catch (error) {
+            if (mine === this.asked) this.image = this.running;
+            throw error;
+        }
     }
 
     /** Starts a factory-new robot. Rejects as restart() does. */
@@ -116,7 +129,7 @@ export class SimulatedSource {
 
     private async parts(image: ImageName): Promise<Parts> {
         const [module, images] = await Promise.all([boardModule(), robotImages(image)]);
-        return { module, images };
+        return { image, module, images };
     }
 
     /** The robot's current memories, or after a crash the last stored ones. */
@@ -131,7 +144,8 @@ export class SimulatedSource {
         }
     }
 
-    private begin({ module, images }: Parts, kept: KeptRobot | null): void {
+    private begin({ image, module, images }: Parts, kept: KeptRobot | null): void {
+        this.running = image;
         const worker = new Worker(new URL('../sim/worker.ts', import.meta.url), { type: 'module' });
         const robot: SimulatedRobot = new SimulatedRobot(worker, { message: message => this.robot === robot && this.take(message) });
         this.robot = robot;

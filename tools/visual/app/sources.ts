@@ -38,8 +38,6 @@ export class RobotSources {
     private readonly servos: ServosSource;
     /** The motion pages in the flash of the robot in the page. */
     private inPage: readonly Uint8Array[] = [];
-    /** Image of the robot in the page, restored when it is used again. */
-    private imageOfPage: SessionState['image'] = 'play';
     private wasHidden = false;
     /** Counts choices of a robot. The last one counts, even if an earlier one takes longer. */
     private chosen = 0;
@@ -71,7 +69,7 @@ export class RobotSources {
         this.chosen++;
         if (this.isSimulated) return;
         this.parts.left();
-        this.parts.state.set({ source: 'simulated', adapter: null, image: this.imageOfPage });
+        this.parts.state.set({ source: 'simulated', adapter: null, image: this.simulated.image });
         void this.yours.close();
         void this.servos.close();
         this.simulated.resume();
@@ -127,7 +125,6 @@ export class RobotSources {
     }
 
     private leave(source: 'yours' | 'servos'): void {
-        if (this.isSimulated) this.imageOfPage = this.parts.state.get().image;
         this.parts.left();
         this.simulated.pause();
         this.parts.state.set({ source, version: null, where: null, pages: [], stopped: null, adapter: null });

@@ -287,6 +287,18 @@ test('nothing answers at the port: chosen again, the browser lets the person cho
     expect(requestPort).toHaveBeenCalledTimes(1);
 });
 
+test('Edit cannot be had for the robot in the page, which is known when yours is used already: the page knows that Play runs', async () => {
+    const { session, connect } = await page('play');
+    let offline = (_: Error): void => undefined;
+    vi.mocked(SimulatedSource.prototype.restart).mockReturnValue(new Promise((_, reject) => (offline = reject)));
+    session.runImage('edit');
+    await connect();
+    offline(new TypeError('Failed to fetch'));
+    await soon();
+    session.useSimulated();
+    expect(session.state.get().image).toBe('play'); // otherwise a key would wait for Edit
+});
+
 test('a paste of a whole file reaches no robot, and it is said', async () => {
     const { session, inPage } = await page('play');
     const before = inPage.sent.length;

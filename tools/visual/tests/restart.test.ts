@@ -110,6 +110,7 @@ test('an image that cannot be loaded: the robot goes on as it was, and the next 
     await expect(source.forget('edit')).rejects.toThrow('Failed to fetch');
     expect(seen.connections).toEqual([]);
     expect(source.connection?.state).toBe('ready');
+    expect(source.image).toBe('play');
     files.missing = '';
     await source.restart('edit');
     await runs(source, 'edit');

@@ -126,3 +126,44 @@ test('no image can be had, twice at once: the page knows which one goes on', asy
     await vi.waitFor(() => expect(fail).toHaveBeenCalledTimes(2));
     expect(state.get().image).toBe('play');
 });
+
+test('another robot is chosen before it is known that the image cannot be had: nothing is changed or said there', async () => {
+    const state = new Store({ source: 'simulated', image: 'edit', version: { image: 'edit' } } as unknown as SessionState);
+    let offline = (_: Error): void => undefined;
+    const restart = () => new Promise<void>((_, reject) => (offline = reject));
+    const fail = vi.fn();
+    const images = imagesWith({
+        state,
+        robot: () => ({ restart, forget: vi.fn(), prepare: vi.fn(), connection: null }),
+        fail,
+    });
+    images.run('play');
+    state.set({ source: 'servos', image: 'play', version: null });
+    offline(new TypeError('Failed to fetch'));
+    await new Promise(resolve => setTimeout(resolve));
+    expect(state.get().image).toBe('play');
+    expect(fail).not.toHaveBeenCalled();
+});
+
+test('another robot is chosen while the one before is asked for unsaved edits: it is not restarted in its place', async () => {
+    const ready = { source: 'simulated', image: 'edit', connection: 'ready', version: { image: 'edit' }, physics: 'on', stopped: null };
+    const state = new Store(ready as unknown as SessionState);
+    let answer = (_: string): void => undefined;
+    const ask = vi.fn(() => new Promise<string>(resolve => (answer = resolve)));
+    const asked = { requests: { ask } } as unknown as Connection;
+    const inPage = { restart: vi.fn(), forget: vi.fn(), prepare: vi.fn(), connection: asked };
+    const servos = { restart: vi.fn(), forget: vi.fn(), prepare: vi.fn(), connection: null };
+    let robot: ReturnType<ImageParts['robot']> = inPage;
+    const images = imagesWith({
+        state,
+        format: { crc: () => 0 } as unknown as PageFormat,
+        robot: () => robot,
+    });
+    const becomes = expect(images.becomeDriven()).rejects.toMatchObject({ code: 'cancelled' });
+    await vi.waitFor(() => expect(ask).toHaveBeenCalled());
+    robot = servos;
+    state.set({ source: 'servos', image: 'play', version: null, connection: 'closed' });
+    answer('0000'); // the empty page
+    await becomes;
+    expect(servos.restart).not.toHaveBeenCalled();
+}, 2000);
