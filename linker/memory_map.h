@@ -38,7 +38,6 @@
 /* EEPROM, 4 KiB. Settings are ours; the mailbox and the loader's bytes have fixed meanings. */
 #define MEM_EEPROM_BYTES 0x1000
 #define MEM_EE_SETTINGS 0x0000
-#define MEM_EE_SETTINGS_COPY 0x0040 /* bytes of each of two copies */
 #define MEM_EE_SETTINGS_END 0x0100
 #define MEM_EE_MAILBOX 0x0800
 #define MEM_EE_MAILBOX_END 0x0A02

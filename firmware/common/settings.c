@@ -16,7 +16,7 @@ typedef struct {
     uint8_t body_bytes;
 } head_t;
 
-#define COPY_BYTES ((uint16_t)MEM_EE_SETTINGS_COPY)
+#define COPY_BYTES 64u
 #define MAGIC 'S'
 #define LAYOUT 1u
 /* A save clears the magic, writes everything after it, and writes the magic last. So a mixture of old and new bytes never

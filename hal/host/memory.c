@@ -17,18 +17,7 @@
 
 static uint8_t flash[TARGET_FLASH_END];   /* the chip's flash, and the pages above it */
 static uint8_t eeprom[EEPROM_BYTES];
-
-/* One copy of the settings may be unsettled, never both: a power cut leaves the other one whole. */
-static struct {
-    bool is_unsettled;
-    bool is_refused;   /* a write to another place waits until this one is settled */
-    uint16_t place;
-} writing;
-
-static uint16_t place_of(uint16_t address)
-{
-    return address / MEM_EE_SETTINGS_COPY;
-}
+static bool eeprom_is_unsettled;
 
 void host_recall(const void *record, uint16_t bytes)
 {
@@ -45,8 +34,8 @@ void host_recall(const void *record, uint16_t bytes)
 
 void host_settle(void)
 {
-    if (writing.is_unsettled) {
-        writing.is_unsettled = writing.is_refused = false;
+    if (eeprom_is_unsettled) {
+        eeprom_is_unsettled = false;
         machine_settle(MACHINE_EEPROM);
     }
 }
@@ -120,44 +109,26 @@ uint8_t eeprom_byte(uint16_t address)
 
 bool eeprom_is_busy(void)
 {
-    return writing.is_refused;
+    return false;
 }
 
 void eeprom_wait(void)
 {
-    if (writing.is_refused) {
-        host_settle();
-    }
 }
 
 /* Bytes that cannot be kept stay in force until the program ends; the machine reports the failure. */
-static void keep(uint16_t address, const uint8_t *from, uint16_t count)
-{
-    memcpy(eeprom + address, from, count);
-    (void)machine_keep(MACHINE_EEPROM, address, from, count, false);
-    writing.is_unsettled = true;
-    writing.place = place_of(address);
-}
-
 void eeprom_update(uint16_t address, const void *from, uint16_t count)
 {
     ASSERT((uint32_t)address + count <= sizeof eeprom);
     if (memcmp(eeprom + address, from, count) != 0) {
-        keep(address, from, count);
-        host_settle();
+        memcpy(eeprom + address, from, count);
+        (void)machine_keep(MACHINE_EEPROM, address, from, count, false);
+        eeprom_is_unsettled = true;
     }
 }
 
 bool eeprom_start(uint16_t address, uint8_t byte)
 {
-    ASSERT(address < sizeof eeprom);
-    if (eeprom[address] == byte) {
-        return true;
-    }
-    if (writing.is_unsettled && writing.place != place_of(address)) {
-        writing.is_refused = true;
-        return false;
-    }
-    keep(address, &byte, 1);
+    eeprom_update(address, &byte, 1);
     return true;
 }

@@ -224,17 +224,15 @@ static bool by_chance(void)
     return (memory.random >> 31) != 0;
 }
 
-/* Each byte that is not yet durable becomes the old or the new one. */
-static void cut(void)
+/* Each byte of the write that is cut becomes the old or the new one. */
+static void cut(machine_memory_t which, uint32_t at, uint32_t count)
 {
-    for (uint32_t which = 0; which < MACHINE_MEMORIES; which++) {
-        for (uint32_t i = 0; i < MEMORY_BYTES; i++) {
-            if (memory.sure[which][i] != memory.now[which][i] && by_chance()) {
-                memory.sure[which][i] = memory.now[which][i];
-            }
+    for (uint32_t i = at; i < at + count; i++) {
+        if (by_chance()) {
+            memory.sure[which][i] = memory.now[which][i];
         }
-        memcpy(memory.now[which], memory.sure[which], MEMORY_BYTES);
     }
+    memcpy(memory.now, memory.sure, sizeof memory.now);
     memory.cut_at = 0;
     longjmp(*memory.cut_to, 1);
 }
@@ -255,9 +253,13 @@ bool machine_recall(machine_memory_t which, uint8_t *bytes, uint32_t count)
 bool machine_keep(machine_memory_t which, uint32_t at, const uint8_t *bytes, uint32_t count, bool sure)
 {
     ASSERT(memory.is_there[which] && at + count <= MEMORY_BYTES);
+    const bool is_written = sure || by_chance();   /* the computer writes when it likes, too */
+    if (!sure && is_written) {
+        machine_settle(which);
+    }
     memcpy(memory.now[which] + at, bytes, count);
     if (++memory.writes == memory.cut_at) {
-        cut();
+        cut(which, at, is_written ? count : 0);
     }
     if (sure) {
         memcpy(memory.sure[which], memory.now[which], MEMORY_BYTES);

@@ -31,8 +31,8 @@ uint32_t fake_machine_rate(void);
 void fake_machine_type(const char *text);         /* console input; not copied */
 
 /* ---- memory ---- */
-/* Cuts the power at machine_keep call number `write` from now on (0: never). That write and earlier ones that are not
- * yet durable leave a random mixture of old and new bytes. */
+/* Cuts the power at machine_keep call number `write` from now on (0: never). That write leaves a random mixture of old
+ * and new bytes; writes before it that are not yet durable are lost, or the last of them. */
 void fake_machine_cut(uint32_t write, uint32_t seed, jmp_buf *where);
 uint32_t fake_machine_writes(void);               /* machine_keep calls since fake_machine_cut */
 

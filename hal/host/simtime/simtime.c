@@ -255,13 +255,9 @@ void simtime_tear(machine_memory_t memory, uint32_t at, const uint8_t *bytes, ui
     }
 }
 
-void simtime_tear_unsettled(bool (*choose)(void))
+void simtime_lose_unsettled(void)
 {
-    for (uint32_t i = 0; i < sizeof eeprom; i++) {
-        if (eeprom[i] != settled_eeprom[i] && choose()) {
-            eeprom[i] = settled_eeprom[i];
-        }
-    }
+    memcpy(eeprom, settled_eeprom, sizeof eeprom);
 }
 
 uint8_t *simtime_memory(machine_memory_t memory)

@@ -59,9 +59,9 @@ uint8_t *simtime_memory(machine_memory_t memory);
 uint32_t simtime_bytes(machine_memory_t memory);
 
 /* Tears a write: each of these bytes becomes new or stays old, as `choose` decides. Call before simtime_cut(), from within
- * keep(). simtime_tear_unsettled does the same to EEPROM bytes that are not settled yet (machine_settle). */
+ * keep(). simtime_lose_unsettled takes the EEPROM back to what machine_settle has made certain. */
 void simtime_tear(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uint32_t count, bool (*choose)(void));
-void simtime_tear_unsettled(bool (*choose)(void));
+void simtime_lose_unsettled(void);
 
 /* A servo has sent a byte; the adapter delivers it `delay` later. */
 void simtime_hear(uint8_t byte, uint32_t delay);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #define CYCLES 8u                  /* of the servos' clock per half microsecond */
+#define UNASKED_WRITE 16u          /* one byte of EEPROM in so many: the computer writes all that was kept before it to its disk */
 #define BYTE_TIME 347u             /* of the console's line at 57,600 8N1, half microseconds */
 
 static struct {
@@ -187,12 +188,15 @@ static void cut_write(machine_memory_t memory, uint32_t at, const uint8_t *bytes
     } else {
         memcpy(simtime_memory(memory) + at, bytes, session_random() % (count + 1));
     }
-    simtime_tear_unsettled(toss);
+    simtime_lose_unsettled();
     simtime_cut();
 }
 
 static bool keep(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uint32_t count)
 {
+    if (memory == MACHINE_EEPROM && session_random() % UNASKED_WRITE == 0) {
+        machine_settle(MACHINE_EEPROM);
+    }
     session.writes++;
     rules_kept(memory, at, bytes, count);
     if (session.cut_at_write != 0 && --session.cut_at_write == 0) {
@@ -400,7 +404,7 @@ static void tick(void)
     if (session.cut_now) {
         session.cut_now = false;
         marks_cut("power cut");
-        simtime_tear_unsettled(toss);
+        simtime_lose_unsettled();
         simtime_cut();
     }
 }
