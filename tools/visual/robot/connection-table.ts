@@ -7,14 +7,15 @@
 //     |                  v   |                v    v             v
 //     +----stop------- waiting <---lost--- silent  foreign     waiting --gave-up--> closed
 //
-// Each open state --named-other--> other-board, which ends with stop or lost.
+// silent and foreign are asked again periodically, and become what they answer. Each open state --named-other--> other-board, which ends
+// with stop or lost.
 
 export type ConnectionState =
     | 'closed' // nothing is open
     | 'opening' // the port is being opened
     | 'asking' // open; `@ver` was sent
     | 'ready' // a firmware with our protocol answers
-    | 'silent' // open, but nothing we know answers; a terminal still works, and it is asked again periodically
+    | 'silent' // open, but nothing we know answers; a terminal still works
     | 'foreign' // open, and a firmware with another protocol answers
     | 'other-board' // open, but a boot loader has named a board that is not ours; it is asked nothing
     | 'waiting'; // the port was lost; retried with growing pauses
@@ -38,8 +39,8 @@ const table: Record<ConnectionState, Partial<Record<ConnectionEvent, ConnectionS
     opening: { opened: 'asking', 'open-failed': 'waiting', 'gave-up': 'closed', stop: 'closed' },
     asking: { known: 'ready', unknown: 'foreign', 'named-other': 'other-board', 'no-answer': 'silent', lost: 'waiting', stop: 'closed' },
     ready: { lost: 'waiting', 'ask-again': 'asking', 'named-other': 'other-board', stop: 'closed' },
-    silent: { 'ask-again': 'asking', 'named-other': 'other-board', lost: 'waiting', stop: 'closed' },
-    foreign: { 'ask-again': 'asking', 'named-other': 'other-board', lost: 'waiting', stop: 'closed' },
+    silent: { known: 'ready', unknown: 'foreign', 'no-answer': 'silent', 'named-other': 'other-board', lost: 'waiting', stop: 'closed' },
+    foreign: { known: 'ready', unknown: 'foreign', 'no-answer': 'silent', 'named-other': 'other-board', lost: 'waiting', stop: 'closed' },
     'other-board': { lost: 'waiting', stop: 'closed' },
     waiting: { retry: 'opening', 'gave-up': 'closed', stop: 'closed' },
 };

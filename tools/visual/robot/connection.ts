@@ -14,11 +14,16 @@ import type { Version } from './protocol.ts';
 import { Requests } from './requests.ts';
 import { RobotError } from './robot-error.ts';
 
+const CR = 13;
 const RETRY_FIRST_MS = 250;
 const RETRY_MOST_MS = 4000;
 const GIVE_UP_MS = 120_000;
 const ASK_MS = 700;
 const ASK_AGAIN_MS = 400;
+/** Another board may be put on the cable. */
+const ASK_FOREIGN_MS = 3000;
+/** A question ends a line that a person is typing, so it waits for this long after the last key. */
+const TYPING_MS = 5000;
 
 export interface ConnectionEvents {
     /** Return values are ignored. */
@@ -36,6 +41,8 @@ export class Connection {
     private cancelTimer: () => void = () => undefined;
     private retryMs = RETRY_FIRST_MS;
     private lostAtMs = 0;
+    /** When the last character of a line that has not ended was typed. */
+    private typedAtMs = -Infinity;
     /** The firmware on the board; null until known. */
     version: Version | null = null;
     /** Why the state is silent, foreign, other-board or waiting. */
@@ -85,6 +92,7 @@ export class Connection {
     /** Sends typed characters or the bytes of a remote. Rejects if there is no line. */
     async write(bytes: Uint8Array): Promise<void> {
         if (!this.line) throw new RobotError('not-connected');
+        this.typedAtMs = bytes.at(-1) === CR ? -Infinity : this.clock.now();
         await this.line.write(bytes);
     }
 
@@ -94,6 +102,10 @@ export class Connection {
         this.cancelTimer();
         this.cancelTimer = () => undefined;
         this.current = next;
+        if (next === 'asking' || next === 'waiting') {
+            this.version = null; // it may be another board now
+            this.typedAtMs = -Infinity;
+        }
         this.events.state(next);
         this.enter(next);
     }
@@ -105,7 +117,9 @@ export class Connection {
             case 'asking':
                 return void this.ask();
             case 'silent':
-                return this.later(ASK_AGAIN_MS, 'ask-again');
+                return this.askLater(ASK_AGAIN_MS);
+            case 'foreign':
+                return this.askLater(ASK_FOREIGN_MS);
             case 'waiting':
                 return this.wait();
             case 'closed':
@@ -113,7 +127,6 @@ export class Connection {
             case 'other-board':
                 return this.asked?.end('not-connected');
             case 'ready':
-            case 'foreign':
                 return;
             default:
                 state satisfies never;
@@ -122,6 +135,12 @@ export class Connection {
 
     private later(delayMs: number, event: ConnectionEvent): void {
         this.cancelTimer = this.clock.after(delayMs, () => this.on(event));
+    }
+
+    /** Its state stays until something else is known: people read what it means. */
+    private askLater(delayMs: number): void {
+        const isTyping = (): boolean => this.clock.now() - this.typedAtMs < TYPING_MS;
+        this.cancelTimer = this.clock.after(delayMs, () => (isTyping() ? this.askLater(delayMs) : void this.ask()));
     }
 
     private async open(): Promise<void> {
@@ -150,17 +169,18 @@ export class Connection {
     }
 
     private async ask(): Promise<void> {
-        this.version = null;
-        const { asked } = this;
+        const { asked, current } = this;
         if (!asked) return; // closed meanwhile
         try {
             const version = await askVersion(asked, { timeoutMs: ASK_MS });
+            if (this.asked !== asked || this.current !== current) return; // the line was replaced or closed, or the board was named
             this.version = version;
             this.retryMs = RETRY_FIRST_MS;
             this.error = version.protocol === PROTOCOL ? null : new RobotError('foreign', `protocol ${version.protocol}`);
             this.on(this.error ? 'unknown' : 'known');
         } catch (cause) {
-            if (this.asked !== asked || this.current !== 'asking') return; // the line was replaced or closed meanwhile
+            if (this.asked !== asked || this.current !== current) return;
+            this.version = null;
             this.error = cause instanceof RobotError ? cause : new RobotError('foreign', String(cause));
             this.on(this.error.code === 'no-answer' ? 'no-answer' : 'unknown');
         }

@@ -34,9 +34,9 @@ test('every state is reached, and ready only by an answer', () => {
         for (const event of EVENTS) {
             const next = nextState(state, event);
             if (next) reached.add(next);
-            if (next === 'ready') ways.push(`${state} ${event}`);
+            if (next === 'ready') ways.push(event);
         }
     }
     expect([...reached].sort()).toEqual([...STATES].sort());
-    expect(ways).toEqual(['asking known']);
+    expect(new Set(ways)).toEqual(new Set(['known']));
 });

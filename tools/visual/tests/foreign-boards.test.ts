@@ -102,6 +102,28 @@ test.each(['CM5', 'CM-2+', 'Motion512'])('a board whose loader says that it is a
     await connection.close();
 });
 
+test('another board is put on a cable where a foreign firmware answered: it is found, and until then the state stays', async () => {
+    const clock = new SimulatedClock();
+    let answer = '@ver image=other protocol=9 OK';
+    const port: BytePort = new BytePort('a cable', () => port.push(new TextEncoder().encode(`\x1e${answer}\r\n`)));
+    const states: ConnectionState[] = [];
+    const connection = new Connection(port, clock, { state: state => states.push(state), text: () => undefined });
+    const pass = async (ms: number): Promise<void> => {
+        for (let done = 0; done < ms; done += 50) {
+            clock.advance(50);
+            await settle();
+        }
+    };
+    connection.connect();
+    await pass(10_000);
+    expect(new Set(states.slice(2))).toEqual(new Set(['foreign']));
+    answer = '@ver image=play version=1.0.0 board=cm5 protocol=1 can=list OK';
+    await pass(4000);
+    expect(connection.state).toBe('ready');
+    expect(connection.version?.image).toBe('play');
+    await connection.close();
+});
+
 test("m512's strange boards: a state with a sentence, and every question ends", async () => {
     const random = randomNumbers(SEED);
     const clock = new SimulatedClock();
@@ -141,7 +163,7 @@ test("m512's strange boards: a state with a sentence, and every question ends", 
         }
         const { state, error } = connection;
         states.set(state, (states.get(state) ?? 0) + 1);
-        expect(connectionText(state), where).toMatch(/^[^\n]{10,}[.!…]$/);
+        expect(connectionText(state), where).toMatch(/^[^\n]{10,}([.!…]|m512 flash edit-cm5.hex)$/);
         if (state === 'silent' || state === 'foreign') expect(error, where).toBeInstanceOf(RobotError);
         await connection.close();
     }

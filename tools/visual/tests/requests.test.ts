@@ -39,14 +39,18 @@ afterEach(async () => {
 
 async function connect(bench: RobotBench) {
     const states: ConnectionState[] = [];
+    const versions: (string | undefined)[] = [];
     const heard: number[] = [];
-    const connection = new Connection(bench.port, bench.clock, {
-        state: state => states.push(state),
+    const connection: Connection = new Connection(bench.port, bench.clock, {
+        state: state => {
+            states.push(state);
+            versions.push(connection.version?.image);
+        },
         text: bytes => heard.push(...bytes),
     });
     open.push(connection);
     connection.connect();
-    return { connection, states, text: () => String.fromCharCode(...heard) };
+    return { connection, states, versions, text: () => String.fromCharCode(...heard) };
 }
 
 async function ready(image: 'play' | 'edit', seed: number) {
@@ -187,7 +191,7 @@ test('cancelled by the caller, in the queue and under way', async () => {
 });
 
 test('the cable is pulled with a question under way, and put back', async () => {
-    const { bench, connection, states } = await ready('play', 19);
+    const { bench, connection, states, versions } = await ready('play', 19);
     const asked = askList(connection.requests);
     asked.catch(() => undefined);
     await bench.run(20);
@@ -197,6 +201,7 @@ test('the cable is pulled with a question under way, and put back', async () => 
     await bench.run(3000);
     expect(connection.state).toBe('ready');
     expect(states.slice(-4)).toEqual(['waiting', 'opening', 'asking', 'ready']);
+    expect(versions.slice(-4)).toEqual([undefined, undefined, undefined, 'play']); // it may be another board
     expect((await bench.until(askWhere(connection.requests))).state).toBe('idle');
 });
 
@@ -204,12 +209,13 @@ test('a board without power is silent, and found when it is switched on', async 
     const bench = await RobotBench.make('play', 20);
     bench.board.setPower(false);
     const { connection, states } = await connect(bench);
-    await bench.run(1500);
+    await bench.run(5000);
     expect(states).toContain('silent');
     expect(states).not.toContain('ready');
     bench.board.setPower(true);
     await bench.run(6000);
     expect(connection.state).toBe('ready');
+    expect(new Set(states.slice(states.indexOf('silent'), -1))).toEqual(new Set(['silent'])); // what it means can be read meanwhile
 });
 
 test('a board in its boot loader: what it says is text, and the state says silent', async () => {
@@ -222,6 +228,24 @@ test('a board in its boot loader: what it says is text, and the state says silen
     expect(states).toContain('silent');
     expect(states).not.toContain('ready');
     expect(text()).toContain('- ');
+});
+
+test('a board in its boot loader: GO, typed slowly, starts the firmware, and no question of the page ends the line', async () => {
+    const bench = await RobotBench.make('play', 31);
+    bench.board.setPower(false);
+    bench.board.writeEeprom(4095, Uint8Array.of(0xff));
+    bench.board.setPower(true);
+    const { connection, text } = await connect(bench);
+    await bench.run(2500);
+    expect(connection.state).toBe('silent');
+    const before = text().length;
+    for (const key of 'GO\r') {
+        await connection.write(new TextEncoder().encode(key));
+        await bench.run(1500);
+    }
+    expect(text().slice(before)).not.toContain('Bad Command');
+    await bench.run(4000);
+    expect(connection.state).toBe('ready');
 });
 
 test('closing while something waits rejects it', async () => {
