@@ -214,7 +214,9 @@ export class RobotSession implements Session {
     }
 
     private async needEdit(): Promise<void> {
-        if (!this.state.get().version?.can.has('save')) throw new RobotError('needs-edit');
+        const { connection, version } = this.state.get();
+        if (connection !== 'ready') throw this.connection.error ?? new RobotError('no-answer');
+        if (!version?.can.has('save')) throw new RobotError('needs-edit');
     }
 
     onFrame(listener: (state: RobotState) => void): () => void {

@@ -193,6 +193,7 @@ test('a board that is not known yet gets no key of the remote, which it might ta
     session.remote(new Set());
     await vi.waitFor(() => expect(got).toContain('@stop'), { timeout: 10_000 });
     expect(got).not.toContain('\xff\x55');
+    expect(await session.transfer.write([2])).toMatchObject({ isDone: false, error: { code: 'no-answer' } }); // nobody knows of a Play
 });
 
 test('a port that another program has is said to be busy; one whose cable was pulled is said to be unplugged, also when it was tried again', async () => {
