@@ -12,29 +12,29 @@ function pad(pressed: readonly number[], right = 0) {
 
 test('buttons and stick drive; a pad that is unplugged lets go', () => {
     const one = new GamePad();
-    one.read(pad([]), true);
-    expect(one.read(pad([12, 1], 0.5), true)).toEqual({ buttons: ['up', 'b2'], stick: { x: 0.5, y: -0 } });
-    expect(one.read(pad([], 0.2), true)).toEqual(NOTHING);
-    expect(one.read(null, true)).toEqual(NOTHING);
+    one.read(pad([]), 'remote');
+    expect(one.read(pad([12, 1], 0.5), 'remote')).toEqual({ buttons: ['up', 'b2'], stick: { x: 0.5, y: -0 } });
+    expect(one.read(pad([], 0.2), 'remote')).toEqual(NOTHING);
+    expect(one.read(null, 'remote')).toEqual(NOTHING);
 });
 
 test('in a dialog and in a window without the focus it only stops; what is still pushed afterwards drives only when all was let go', () => {
     const one = new GamePad();
-    expect(one.read(pad([12], 1), false)).toEqual(NOTHING);
-    expect(one.read(pad([0, 12], 1), false)).toEqual({ buttons: ['b6'], stick: null });
-    expect(one.read(pad([12], 1), true)).toEqual(NOTHING);
-    expect(one.read(pad([12]), true)).toEqual(NOTHING);
-    one.read(pad([]), true);
-    expect(one.read(pad([12], 1), true)).toEqual({ buttons: ['up'], stick: { x: 1, y: -0 } });
+    expect(one.read(pad([12], 1), null)).toEqual(NOTHING);
+    expect(one.read(pad([0, 12], 1), null)).toEqual({ buttons: ['b6'], stick: null });
+    expect(one.read(pad([12], 1), 'remote')).toEqual(NOTHING);
+    expect(one.read(pad([12]), 'remote')).toEqual(NOTHING);
+    one.read(pad([]), 'remote');
+    expect(one.read(pad([12], 1), 'remote')).toEqual({ buttons: ['up'], stick: { x: 1, y: -0 } });
 });
 
 test('a stick drives when it has been at rest once, on each pad that is plugged in: the axis of a wheel may rest anywhere', () => {
     const one = new GamePad();
-    expect(one.read(pad([12], 1), true)).toEqual({ buttons: ['up'], stick: null });
-    one.read(pad([]), true);
-    expect(one.read(pad([], 1), true).stick).toEqual({ x: 1, y: -0 });
-    one.read(null, true);
-    expect(one.read(pad([], 1), true).stick).toBeNull();
+    expect(one.read(pad([12], 1), 'remote')).toEqual({ buttons: ['up'], stick: null });
+    one.read(pad([]), 'remote');
+    expect(one.read(pad([], 1), 'remote').stick).toEqual({ x: 1, y: -0 });
+    one.read(null, 'remote');
+    expect(one.read(pad([], 1), 'remote').stick).toBeNull();
 });
 
 test('a keyboard that the browser lists as a pad does not take the place of a real one; a pad of another layout is better than none', () => {
@@ -43,3 +43,16 @@ test('a keyboard that the browser lists as a pad does not take the place of a re
     expect(padOf([null, keyboard])).toBe(keyboard);
     expect(padOf([null])).toBeNull();
 });
+
+test.each(['steps', 'curves', 'pages', 'links', 'checks', 'terminal'] as const)(
+    'a stick that is nudged while somebody edits or types (%s) does not drive; the button that stops does',
+    tab => {
+        const one = new GamePad();
+        one.read(pad([]), 'remote');
+        expect(one.read(pad([12], 1), tab)).toEqual(NOTHING);
+        expect(one.read(pad([0]), tab)).toEqual({ buttons: ['b6'], stick: null });
+        expect(one.read(pad([], 1), 'remote')).toEqual(NOTHING); // not yet let go
+        one.read(pad([]), 'remote');
+        expect(one.read(pad([], 1), 'robot')).toEqual({ buttons: [], stick: { x: 1, y: -0 } });
+    },
+);

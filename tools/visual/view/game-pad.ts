@@ -2,6 +2,7 @@
 // A gamepad as a remote: its buttons, and its stick, which drives.
 
 import type { RemoteButton } from '../robot/remote.ts';
+import type { Tab } from './session/session.ts';
 
 /** Button indexes of the standard gamepad layout: directions at 12..15, face buttons at 0..3, left shoulder at 4, start at 9. */
 const BUTTONS: readonly (readonly [number, RemoteButton])[] = [
@@ -17,6 +18,8 @@ const BUTTONS: readonly (readonly [number, RemoteButton])[] = [
     [9, 'b5'],
 ];
 const STICK_REST = 0.25;
+/** Areas where nobody edits or types: there a stick that is nudged would move the robot by surprise. */
+const DRIVES: readonly Tab[] = ['remote', 'robot'];
 
 export interface PadInput {
     readonly buttons: readonly RemoteButton[];
@@ -35,8 +38,9 @@ export class GamePad {
     /** A wheel or a worn stick may have no rest where it is expected, and would drive as soon as the browser shows it. */
     private canRest = false;
 
-    /** pad: null if there is none. drives: false while the pad is for a dialog or for another window; then it only stops the robot. */
-    read(pad: (Pick<Gamepad, 'axes'> & { readonly buttons: readonly Pick<GamepadButton, 'pressed'>[] }) | null, drives: boolean): PadInput {
+    /** pad: null if there is none. tab: the open area; null: the pad is for a dialog or for another window. */
+    read(pad: (Pick<Gamepad, 'axes'> & { readonly buttons: readonly Pick<GamepadButton, 'pressed'>[] }) | null, tab: Tab | null): PadInput {
+        const drives = tab !== null && DRIVES.includes(tab); // otherwise it only stops the robot
         const [x = 0, y = 0] = pad?.axes ?? [];
         const buttons = BUTTONS.filter(([index]) => pad?.buttons[index]?.pressed).map(([, name]) => name);
         const isAtRest = Math.hypot(x, y) < STICK_REST;

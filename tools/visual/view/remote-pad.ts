@@ -131,7 +131,7 @@ export class RemotePad extends HTMLElement {
 
     /** null: it is disconnected; all its buttons are released. */
     private readPad(pad: Gamepad | null): void {
-        const { buttons, stick } = this.pad.read(pad, document.hasFocus() && !isInDialog());
+        const { buttons, stick } = this.pad.read(pad, document.hasFocus() && !isInDialog() ? this.session.state.get().tab : null);
         this.session.drive(stick);
         this.held.pad = new Set(buttons);
         this.tell();
