@@ -107,5 +107,6 @@ export async function runProgram(module: WebAssembly.Module, parts: MachineParts
         await promising(api.program_start)();
     } catch (cause) {
         if (!(cause instanceof Ended)) throw cause;
+        await keepAll(); // what was set in a motion is not settled yet
     }
 }

@@ -121,6 +121,23 @@ test('what Edit saves is kept, and is there at the next start', async () => {
     });
 });
 
+test('a setting made in a motion is kept when the program ends in that motion', async () => {
+    const first = await withProgram('play', {}, async servos => {
+        await servos.until(() => servos.text.includes('18 servos: 1-18'));
+        await typeAndWait(servos, 'play walk', 'Playing');
+        await typeAndWait(servos, 'settings approach 33', 'approach 33');
+        await servos.until(() => servos.text.includes('Next link'));
+        servos.isAskedToEnd = true;
+        await new Promise(() => undefined); // until the program has ended
+    });
+    await withProgram('play', { kept: first.written.at(-1) ?? [null, null, null] }, async servos => {
+        await servos.until(() => servos.text.includes('18 servos'));
+        servos.type('settings\r');
+        await servos.until(() => /approach +\d/.test(servos.text));
+        expect(servos.text).toMatch(/approach +33\b/);
+    });
+});
+
 test('who is missing is named', async () => {
     await withProgram('play', { ids: [1, 2, 4] }, servos => servos.until(() => servos.text.includes('3 servos: 1-2 4')));
     await withProgram('play', { ids: [] }, servos => servos.until(() => servos.text.includes('0 servos')));
