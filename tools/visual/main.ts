@@ -17,7 +17,7 @@ import { TEXTS } from './view/texts/texts.ts';
 
 async function start(): Promise<void> {
     await useLanguage(); // before any text is used
-    if (typeof WebAssembly === 'undefined') return fail(TEXTS.page.noWebAssembly);
+    if (typeof WebAssembly === 'undefined') return; // old-browser.js says so
     const [body, parts, storage] = await Promise.all([robotBody(), editorParts(), documentStorage()]);
     const session = new RobotSession(body, parts, fileFormats(), storage);
     document.addEventListener('visibilitychange', takeTyped); // the last event that a page receives, also on reload

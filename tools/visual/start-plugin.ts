@@ -24,7 +24,8 @@ import { LANGUAGES } from './view/texts/languages.ts';
 import type { Language } from './view/texts/languages.ts';
 import type { Texts } from './view/texts/texts.ts';
 
-const TEXTS: Readonly<Record<Language, Texts>> = { en: EN, de: DE, es: ES, ja: JA, ko: KO };
+/** Of all languages. */
+export const TEXTS: Readonly<Record<Language, Texts>> = { en: EN, de: DE, es: ES, ja: JA, ko: KO };
 const BUILD = new URL('../../build/', import.meta.url);
 
 async function cards(): Promise<Card[]> {

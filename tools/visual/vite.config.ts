@@ -4,15 +4,16 @@ import { defineConfig } from 'vite';
 import { mujocoWithoutEval } from './mujoco-plugin.ts';
 import { pythonHandedOver } from './python-plugin.ts';
 import { licences } from './licences-plugin.ts';
-import { start } from './start-plugin.ts';
+import { TEXTS, start } from './start-plugin.ts';
 import { offline } from './offline-plugin.ts';
+import { oldBrowser } from './old-browser-plugin.ts';
 
 const { bundled, page } = licences();
 
 export default defineConfig({
     base: './',
     publicDir: false,
-    plugins: [mujocoWithoutEval(), bundled(), page, start(), offline()],
+    plugins: [mujocoWithoutEval(), bundled(), page, start(), oldBrowser(TEXTS), offline()],
     build: {
         outDir: '../../build/visual',
         emptyOutDir: true,

@@ -20,8 +20,8 @@ const DE: Texts = {
         couldNotStart: why => `Die Seite konnte nicht starten. Lade sie neu. (${why})`,
         noWebGl:
             'Dieser Browser zeigt kein 3D-Bild (WebGL ist aus). Alles andere funktioniert; um den Roboter zu sehen, schalte WebGL in den Einstellungen ein und lade die Seite neu.',
-        noWebAssembly:
-            'Dieser Browser führt kein WebAssembly aus, das der Roboter braucht. Schalte es in den Einstellungen ein oder öffne die Seite in einem anderen Browser.',
+        lacks: missing =>
+            `Diesem Browser fehlt ${missing}, was diese Seite braucht: Schalte es in den Einstellungen ein oder öffne die Seite in Chrome, Edge oder Chromium 110, Firefox 115, Safari 16.4 oder neuer.`,
         newVersion: 'Es gibt eine neue Version dieser Seite. Deine Arbeit ist gespeichert.',
         reload: 'Neue Version: neu laden',
         toAreas: 'Zu den Bereichen',

@@ -349,8 +349,8 @@ export const EN = {
         couldNotStart: (why: string) => `The page could not start. Reload it. (${why})`,
         noWebGl:
             'This browser draws no 3D picture (WebGL is off). Everything else works; to see the robot, switch WebGL on in the settings, then reload.',
-        noWebAssembly:
-            'This browser runs no WebAssembly, which the robot needs. Switch it on in the settings, or open this page in another browser.',
+        lacks: (missing: string) =>
+            `This browser lacks ${missing}, which this page needs: switch it on in the settings, or open the page in Chrome, Edge or Chromium 110, Firefox 115, Safari 16.4 or later.`,
         newVersion: 'There is a new version of this page. Your work is saved.',
         reload: 'New version: reload',
         toAreas: 'To the areas',

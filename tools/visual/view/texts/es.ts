@@ -19,8 +19,8 @@ const ES: Texts = {
         couldNotStart: why => `La página no pudo arrancar. Vuelve a cargarla. (${why})`,
         noWebGl:
             'Este navegador no muestra la imagen en 3D (WebGL está desactivado). Todo lo demás funciona; para ver el robot, activa WebGL en los ajustes y vuelve a cargar la página.',
-        noWebAssembly:
-            'Este navegador no ejecuta WebAssembly, que el robot necesita. Actívalo en los ajustes o abre esta página en otro navegador.',
+        lacks: missing =>
+            `A este navegador le falta ${missing}, que esta página necesita: actívalo en los ajustes o abre la página en Chrome, Edge o Chromium 110, Firefox 115, Safari 16.4 o posterior.`,
         newVersion: 'Hay una versión nueva de esta página. Tu trabajo está guardado.',
         reload: 'Versión nueva: recargar',
         toAreas: 'Ir a las áreas',

@@ -16,7 +16,8 @@ const KO: Texts = {
         couldNotStart: why => `페이지를 시작하지 못했습니다. 새로 고침하세요. (${why})`,
         noWebGl:
             '이 브라우저는 3D 화면을 표시하지 못합니다(WebGL이 꺼져 있음). 다른 기능은 모두 쓸 수 있습니다. 로봇을 보려면 설정에서 WebGL을 켜고 새로 고침하세요.',
-        noWebAssembly: '이 브라우저는 로봇에 필요한 WebAssembly를 실행하지 못합니다. 설정에서 켜거나 다른 브라우저에서 이 페이지를 여세요.',
+        lacks: missing =>
+            `이 브라우저에는 이 페이지에 필요한 ${missing} 기능이 없습니다. 설정에서 켜거나 Chrome, Edge, Chromium 110, Firefox 115, Safari 16.4 또는 그 이후 버전에서 이 페이지를 여세요.`,
         newVersion: '이 페이지의 새 버전이 있습니다. 작업한 내용은 저장되어 있습니다.',
         reload: '새 버전: 새로 고침',
         toAreas: '영역으로 이동',
