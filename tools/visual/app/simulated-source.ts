@@ -28,6 +28,8 @@ const READY_PAGE = 1;
 const STAND_LIMIT_MS = 8000;
 const ASK_MS = 50;
 const WHERE_MS = 3000;
+/** Then the robot goes on without physics. What a slow line brings later is still used. */
+const PHYSICS_MS = 120_000;
 /** Frames to wait for the worker to report that the hand has let go. */
 const MOST_FRAMES = 60;
 
@@ -72,6 +74,8 @@ export class SimulatedSource {
     private readonly waiting: ((state: RobotState) => void)[] = [];
     /** Tells who waits for the robot to stand up that it never will. */
     private giveUp: (why: RobotError) => void = () => undefined;
+    /** Ends the wait for physics. */
+    private physicsCame: () => void = () => undefined;
     /** Why it does not run any more; null: it runs. */
     private stopped: string | null = null;
     /** Counts Stop. */
@@ -240,11 +244,15 @@ export class SimulatedSource {
     }
 
     private async addPhysics(robot: SimulatedRobot): Promise<void> {
+        const giveUp = (): void => this.events.change({ physics: 'off', message: { text: TEXTS.robot.noPhysics, tone: 'bad' } });
+        const limit = setTimeout(giveUp, PHYSICS_MS);
+        this.physicsCame = () => clearTimeout(limit);
         try {
             const { bodyXml, wasm } = await physics();
             robot.post({ kind: 'physics', bodyXml, wasm }, [wasm]);
         } catch {
-            this.events.change({ physics: 'off', message: { text: TEXTS.robot.noPhysics, tone: 'bad' } });
+            clearTimeout(limit);
+            if (this.robot === robot) giveUp();
         }
     }
 
@@ -258,6 +266,7 @@ export class SimulatedSource {
             case 'started':
                 return this.events.change({ faultNames: message.faults });
             case 'physics':
+                this.physicsCame();
                 return this.events.change(
                     message.error === null
                         ? { physics: 'on' }
@@ -287,6 +296,7 @@ export class SimulatedSource {
         const robot = this.robot;
         this.robot = null;
         this.waiting.length = 0;
+        this.physicsCame();
         this.giveUp(new RobotError('cancelled'));
         await this.connection?.close();
         this.connection = null;

@@ -13,7 +13,7 @@ import type { KeptRobot } from '../view/robot-store.ts';
 import { NodeWorker } from './node-worker.ts';
 import * as bench from './robot-bench.ts';
 
-const files = vi.hoisted(() => ({ missing: '', broken: '' }));
+const files = vi.hoisted(() => ({ missing: '', broken: '', physics: () => Promise.reject(new Error('not here')) }));
 const browser = vi.hoisted(() => ({ keeps: true, kept: null as KeptRobot | null }));
 
 vi.mock('../app/assets.ts', () => ({
@@ -24,7 +24,7 @@ vi.mock('../app/assets.ts', () => ({
         return files.broken === image ? { ...images, application: 'no HEX' } : images;
     },
     motionLibrary: async () => (await bench.robotImages('play')).motions,
-    physics: () => Promise.reject(new Error('not here')),
+    physics: () => files.physics(),
 }));
 vi.mock('../view/robot-store.ts', () => {
     const tried = async (): Promise<void> => {
@@ -198,3 +198,28 @@ test('who waits for the robot to stand up does not wait for one that was restart
     await expect(source.prepare()).rejects.toMatchObject({ code: 'no-answer' });
     vi.restoreAllMocks();
 }, 60_000);
+
+test('physics does not come: after two minutes the robot goes on without, and what comes later is used; that of a robot before is not waited for', async () => {
+    vi.useFakeTimers();
+    const { source, seen } = page();
+    const posted: string[] = [];
+    vi.spyOn(SimulatedRobot.prototype, 'post').mockImplementation(({ kind }) => void posted.push(kind));
+    vi.spyOn(SimulatedRobot.prototype, 'memories').mockRejectedValue(new Error('not needed here'));
+    const coming = vi.spyOn(files, 'physics');
+    let come = (_: unknown): void => undefined;
+    coming.mockImplementation(() => new Promise<never>(resolve => (come = resolve as typeof come)));
+    const off = (): number => seen.changes.filter(({ physics }) => physics === 'off').length;
+    await source.start('play');
+    vi.advanceTimersByTime(60_000);
+    await source.restart('edit');
+    vi.advanceTimersByTime(119_000);
+    expect(off()).toBe(0);
+    vi.advanceTimersByTime(2000);
+    expect(off()).toBe(1);
+    expect(seen.changes.at(-1)?.message?.text).toMatch(/^Physics could not be loaded/);
+    come({ bodyXml: '', wasm: new ArrayBuffer(0) });
+    await vi.advanceTimersByTimeAsync(1);
+    expect(posted).toContain('physics');
+    vi.useRealTimers();
+    vi.restoreAllMocks();
+});
