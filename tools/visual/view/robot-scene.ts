@@ -125,10 +125,11 @@ export class RobotScene {
         object.position.setFromSpherical(from).applyQuaternion(TO_Y_UP.clone().invert()).add(target);
     }
 
-    /** Shows the robot. The camera follows the trunk, and if it chases, turns behind it. elapsedMs: since the last call; null: it stays. */
-    look(trunk: Place, elapsedMs: number | null, chases: boolean): void {
-        this.figure.root.visible = true;
-        if (elapsedMs !== null) this.follow(trunk, glide(FOLLOW, elapsedMs), chases);
+    /** Shows the robot; null: there is nothing to show. The camera follows the trunk, and if it chases, turns behind it. elapsedMs: since the
+     *  last call; null: it stays. */
+    look(trunk: Place | null, elapsedMs: number | null, chases: boolean): void {
+        this.figure.root.visible = trunk !== null;
+        if (trunk && elapsedMs !== null) this.follow(trunk, glide(FOLLOW, elapsedMs), chases);
         this.place.goWith(this.followed);
     }
 
@@ -156,6 +157,7 @@ export class RobotScene {
 
     /** What is at a point of the picture (-1..1, y up). */
     pick(x: number, y: number): Picked | null {
+        if (!this.figure.root.visible) return null;
         this.raycaster.setFromCamera(new Vector2(x, y), this.camera);
         const hit = this.raycaster.intersectObjects(this.figure.meshes, false)[0];
         const link: unknown = hit?.object.userData.link;

@@ -21,6 +21,7 @@ import { Store } from './store.ts';
 import { pushRobot } from './push.ts';
 import { jointTitle } from './texts/robot.ts';
 import { TEXTS } from './texts/texts.ts';
+import { watchRobot } from './watch-robot.ts';
 import './robot-view.css';
 
 /** Mark in the browser's performance timeline: the robot is visible for the first time. */
@@ -41,6 +42,7 @@ export class RobotView extends HTMLElement {
     private pose: PoseTool | null = null;
     private scene: RobotScene | null = null;
     private quality = new PictureQuality(false);
+    /** Last state of the robot in use; null: unknown. */
     private state: RobotState | null = null;
     private grabbed: (Picked & { target: Picked['world'] }) | null = null;
     private taught: readonly number[] = [];
@@ -69,7 +71,7 @@ export class RobotView extends HTMLElement {
         this.watchSize(this.scene);
         this.watchTheme(this.scene);
         this.listen();
-        this.disposals.push(this.session.onFrame(state => (this.state = state)));
+        this.disposals.push(watchRobot(this.session, state => (this.state = state)));
         this.drawFrames(this.scene);
     }
 
@@ -135,14 +137,9 @@ export class RobotView extends HTMLElement {
     }
 
     private place(scene: RobotScene, elapsedMs: number): void {
-        if (!this.state) return;
         this.pose?.show(this.state, this.holder !== null);
-        if (!this.label.hidden) this.showJoint(this.labelled); // the joint moves under the mouse
-        scene.look(
-            this.pose?.figureTrunk ?? this.state.trunk,
-            this.grabbed === null && !this.pose?.isDragging ? elapsedMs : null,
-            this.chases(),
-        );
+        if (!this.label.hidden) this.showJoint(this.pose?.figureTrunk ? this.labelled : null); // the joint moves under the mouse
+        scene.look(this.pose?.figureTrunk ?? null, this.grabbed === null && !this.pose?.isDragging ? elapsedMs : null, this.chases());
     }
 
     /** The camera chases a driven robot until the user turns the camera. */
@@ -236,7 +233,7 @@ export class RobotView extends HTMLElement {
 
     private grab(event: PointerEvent): void {
         if (this.fingers.isHandingOver || !this.fingers.add(event)) return;
-        if (event.button === 0 && this.pick(event) && this.state) this.pose?.showStep(this.state);
+        if (event.button === 0 && this.pick(event)) this.pose?.showStep(this.state);
         const picked = event.button === 0 ? this.pick(event) : null;
         const isPosing = this.pose?.isPosing === true;
         if (!picked || !this.scene || (!isPosing && this.session.state.get().source !== 'simulated')) return;

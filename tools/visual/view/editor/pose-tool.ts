@@ -41,7 +41,7 @@ export class PoseTool {
     private readonly edited: EditedPose;
     private readonly arrows: JointTurn;
     private drag: Drag | null = null;
-    /** Trunk of the figure, which the camera follows. */
+    /** Trunk of the figure, which the camera follows; null: there is nothing to show. */
     figureTrunk: Place | null = null;
     /** Balance of the edited step; null: it is not shown, or balance is switched off. */
     private balance: Balance | null = null;
@@ -85,36 +85,37 @@ export class PoseTool {
         return this.edited.positions;
     }
 
-    /** Updates figure and ghosts. isInHand: the user drags the figure, so no ghost may cover it. true: drags edit the shown step. */
-    show(robot: RobotState, isInHand: boolean): boolean {
+    /** Updates figure and ghosts. robot: null if nothing is known of it. isInHand: the user drags the figure, so no ghost may cover it.
+     *  true: drags edit the shown step. */
+    show(robot: RobotState | null, isInHand: boolean): boolean {
         this.edited.robot = robot;
-        const real: Posed = { trunk: robot.trunk, angles: robotAngles(this.body, robot) };
+        const real: Posed | null = robot && { trunk: robot.trunk, angles: robotAngles(this.body, robot) };
         const { preview } = this.session;
         const shown = preview.pose();
         const edited = isEditing(this.session.state.get().tab) && preview.state.get().figure === 'step' ? this.shown() : null;
         const isPosing = edited !== null && this.isPosing;
-        const alarms = new Set(robot.servos.filter(servo => servo.alarms !== 0).map(servo => servo.id));
+        const alarms = new Set(robot?.servos.filter(servo => servo.alarms !== 0).map(servo => servo.id));
         const figure = shown
             ? { trunk: shown.trunk, angles: anglesOf(this.body, shown.positions, new Map()) }
             : isPosing && edited
               ? edited
               : real;
-        this.figureTrunk = figure.trunk;
+        this.figureTrunk = figure?.trunk ?? null;
         this.scene.figure.touch(new Set(this.touches.flatMap(({ links }) => links)));
-        this.scene.figure.show(figure.trunk, figure.angles, isPosing || shown ? new Set() : alarms);
-        this.scene.figure.light(robot.leds);
+        if (figure) this.scene.figure.show(figure.trunk, figure.angles, isPosing || shown ? new Set() : alarms);
+        this.scene.figure.light(robot?.leds ?? 0);
         this.scene.figure.choose(isPosing ? this.chosenLinks() : new Set());
         const other = isInHand ? null : isPosing ? real : edited;
-        this.layer.show('ghost', other && edited && !isSame(real.angles, edited.angles) ? other : null, figure);
+        this.layer.show('ghost', other && !(real && edited && isSame(real.angles, edited.angles)) ? other : null, figure);
         this.showOnion(isInHand ? null : edited, figure);
         this.balance = edited && this.editing.get().balance ? balanceOf(this.body, edited) : null;
         this.layer.showBalance(this.balance);
-        this.touchWatch.look(edited ? (isPosing ? this.shownPose : robotPose(robot)) : null);
+        this.touchWatch.look(edited ? (isPosing ? this.shownPose : robot && robotPose(robot)) : null);
         return isPosing;
     }
 
     /** Before a drag: makes the figure the edited step, so that the drag changes a step and not a previewed motion or the robot. */
-    showStep(robot: RobotState): void {
+    showStep(robot: RobotState | null): void {
         if (!this.isPosing || this.session.preview.state.get().figure === 'step') return;
         this.session.preview.showStep();
         this.show(robot, false);
@@ -200,7 +201,7 @@ export class PoseTool {
         return this.edited.posed(angles, this.drag?.held.stance ?? this.edited.stance(angles));
     }
 
-    private showOnion(edited: Posed | null, figure: Posed): void {
+    private showOnion(edited: Posed | null, figure: Posed | null): void {
         const { step } = this.session.editor.state.get();
         const skin = (at: number): Posed | null => (edited && this.editing.get().onionSkin ? this.edited.atStep(at) : null);
         this.layer.show('before', skin(step - 1), figure);

@@ -4,11 +4,12 @@
 import { stepsFromText, stepsToText } from '../../model/step-text.ts';
 import { easyStep, robotPositions } from './editing.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
-import type { Session, SessionState } from '../session/session.ts';
+import type { Session } from '../session/session.ts';
 import { copyText } from '../clipboard.ts';
 import { keyOf } from '../key-of.ts';
 import { define, make } from '../element.ts';
 import { TEXTS } from '../texts/texts.ts';
+import { watchRobot } from '../watch-robot.ts';
 
 interface Action {
     /** Key of its texts. */
@@ -21,9 +22,8 @@ interface Action {
 
 export class StepActions extends HTMLElement {
     session!: Session; // set before it is connected
-    /** Last state of the robot in use. */
+    /** Last state of the robot in use; null: unknown. */
     private robot: RobotState | null = null;
-    private source: SessionState['source'] = 'simulated';
     private readonly buttons = new Map<Action, HTMLButtonElement>();
     private readonly disposals: (() => void)[] = [];
     readonly actions: readonly Action[] = [
@@ -52,11 +52,7 @@ export class StepActions extends HTMLElement {
         );
         this.disposals.push(
             this.session.editor.state.watch(() => this.render()),
-            this.session.onFrame(robot => (this.robot = robot)),
-            this.session.state.watch(({ source }) => {
-                if (source !== this.source) this.robot = null;
-                this.source = source;
-            }),
+            watchRobot(this.session, robot => (this.robot = robot)),
         );
     }
 
