@@ -42,9 +42,10 @@ export async function boardModule(): Promise<WebAssembly.Module> {
     return WebAssembly.compile(await (await get(boardUrl)).arrayBuffer());
 }
 
-/** Play or Edit as a program for servos. */
+/** Play or Edit as a program for servos. Rejects when it does not come within two minutes. */
 export async function servosModule(image: 'play' | 'edit'): Promise<WebAssembly.Module> {
-    return WebAssembly.compile(await (await get(image === 'play' ? servosPlayUrl : servosEditUrl)).arrayBuffer());
+    const signal = AbortSignal.timeout(FIRMWARE_MS);
+    return WebAssembly.compile(await (await get(image === 'play' ? servosPlayUrl : servosEditUrl, signal)).arrayBuffer());
 }
 
 /** An instance of motion.wasm for one owner. */

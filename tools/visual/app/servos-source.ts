@@ -10,6 +10,7 @@ import type { FromServos, PortHint } from '../servos/messages.ts';
 import { ServosClient } from '../servos/servos-client.ts';
 import type { ImageName } from '../view/session/session.ts';
 import { forgetServos, loadServos, saveServos } from '../view/robot-store.ts';
+import { errorText } from '../view/texts/robot.ts';
 import { TEXTS } from '../view/texts/texts.ts';
 import { motionLibrary, servosModule } from './assets.ts';
 import { FollowedRobot } from './followed-robot.ts';
@@ -33,6 +34,10 @@ export class ServosSource {
     private release: Release | null = null;
     /** false: another robot was chosen. A program that is being restarted then stays ended. */
     private isUsed = false;
+    /** What the browser could not store. The next program gets it all the same. */
+    private unstored: readonly Uint8Array[] | null = null;
+    /** false: what is stored could not be read, and must not be replaced by what the program then has: the motions of a new robot. */
+    private mayStore = true;
 
     constructor(body: Body, events: SourceEvents, mayAsk: () => boolean) {
         this.events = events;
@@ -62,10 +67,12 @@ export class ServosSource {
             this.release ??= await holdServos(); // two tabs would overwrite each other's memories
             if (!this.release) throw new RobotError('second-tab');
             this.isUsed = true;
-            await this.begin(image).catch((error: unknown) => {
+            try {
+                await this.begin(image, await programOf(image));
+            } catch (error) {
                 this.letGo();
                 throw error;
-            });
+            }
         });
     }
 
@@ -82,7 +89,10 @@ export class ServosSource {
     /** Like restart(), but with the memories of a new robot. */
     forget(image: ImageName): Promise<void> {
         return this.turns.run(async () => {
-            await this.again(image, () => forgetServos().catch(() => this.say(TEXTS.robot.notKept, 'bad')));
+            await this.again(image, () => {
+                this.unstored = null;
+                return forgetServos().catch(() => this.say(TEXTS.robot.notKept, 'bad'));
+            });
         });
     }
 
@@ -107,23 +117,25 @@ export class ServosSource {
 
     private async again(image: ImageName, meanwhile: () => Promise<void> = () => Promise.resolve()): Promise<void> {
         if (!this.isUsed) return;
+        const module = await programOf(image); // if it cannot be had, the robot goes on as it was
+        if (!this.isUsed) return;
         this.events.change({ connection: 'closed', version: null, where: null, adapter: null, stopped: null });
         await this.end();
         await meanwhile();
         if (!this.isUsed) return;
-        await this.begin(image);
+        try {
+            await this.begin(image, module);
+        } catch (error) {
+            this.stop(error instanceof RobotError ? errorText(error) : TEXTS.robot.servosCrashed);
+            throw error;
+        }
         if (this.isUsed) this.connect();
     }
 
-    private async begin(image: ImageName): Promise<void> {
+    private async begin(image: ImageName, module: WebAssembly.Module): Promise<void> {
         const { chosen } = this;
         if (!chosen) throw new RobotError('not-connected');
-        const [module, kept] = await Promise.all([
-            servosModule(image).catch((cause: unknown) => {
-                throw new RobotError('no-image', '', { cause });
-            }),
-            this.memories(),
-        ]);
+        const kept = await this.memories();
         const worker = new Worker(new URL('../servos/worker.ts', import.meta.url), { type: 'module', name: 'servos' });
         let runs = false;
         await new Promise<void>((resolve, reject) => {
@@ -182,19 +194,36 @@ export class ServosSource {
         this.events.change({ stopped: why, doing: { text: why, tone: 'bad' } });
     }
 
-    /** The stored memories, or those of a new robot: the motion library. */
+    /** The memories of the program before, or those of a new robot: the motion library. */
     private async memories(): Promise<(Uint8Array | null)[]> {
-        const kept = await loadServos().catch(() => null);
+        if (this.unstored) return [...this.unstored];
+        this.mayStore = true;
+        const kept = await loadServos().catch(() => {
+            this.mayStore = false;
+            this.say(TEXTS.robot.notKept, 'bad');
+            return null;
+        });
         return kept ? [...kept] : [await motionLibrary(), null, null];
     }
 
     private async keep(memories: readonly Uint8Array[]): Promise<boolean> {
         try {
+            if (!this.mayStore) throw new Error('what is stored could not be read');
             await saveServos(memories);
+            this.unstored = null;
             return true;
         } catch {
+            this.unstored = memories;
             this.say(TEXTS.robot.notKept, 'bad');
             return false;
         }
+    }
+}
+
+async function programOf(image: ImageName): Promise<WebAssembly.Module> {
+    try {
+        return await servosModule(image);
+    } catch (cause) {
+        throw new RobotError('no-image', '', { cause });
     }
 }

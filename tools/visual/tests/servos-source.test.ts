@@ -5,11 +5,26 @@ import { afterEach, expect, test, vi } from 'vitest';
 import { ServosSource } from '../app/servos-source.ts';
 import type { Body } from '../model/body.ts';
 
+const LIBRARY = new Uint8Array([0]);
+const browser = vi.hoisted(() => ({ missing: '', reads: true, saves: true, kept: null as readonly Uint8Array[] | null }));
+
 vi.mock('../app/assets.ts', () => ({
-    servosModule: () => Promise.resolve(null),
-    motionLibrary: () => Promise.resolve(new Uint8Array()),
+    servosModule: async (image: string) => {
+        if (browser.missing === image) throw new TypeError('Failed to fetch');
+        return null;
+    },
+    motionLibrary: () => Promise.resolve(LIBRARY),
 }));
-vi.mock('../view/robot-store.ts', () => ({ loadServos: () => Promise.resolve(null) }));
+vi.mock('../view/robot-store.ts', () => ({
+    loadServos: async () => {
+        if (!browser.reads) throw new DOMException('the disk does not answer', 'UnknownError');
+        return browser.kept;
+    },
+    saveServos: async (memories: readonly Uint8Array[]) => {
+        if (!browser.saves) throw new DOMException('the disk is full', 'QuotaExceededError');
+        browser.kept = memories;
+    },
+}));
 
 const BODY = JSON.parse(await readFile(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
 
@@ -29,15 +44,28 @@ class Refused {
 /** A worker whose program runs until it is asked to end. */
 class Runs {
     static made = 0;
+    /** What the programs were asked. */
+    static readonly asked: string[] = [];
+    /** The memories that each program got. */
+    static readonly given: unknown[] = [];
+    static isAdapterOut = false;
+    static last: Runs;
     onmessage: ((event: { data: object }) => void) | null = null;
 
     constructor() {
         Runs.made++;
+        Runs.last = this;
     }
 
-    postMessage({ kind }: { kind: string }): void {
-        const answer = { start: 'started', end: 'ended' }[kind];
-        if (answer) setTimeout(() => this.onmessage?.({ data: { kind: answer } }), 20);
+    postMessage({ kind, kept }: { kind: string; kept?: unknown }): void {
+        Runs.asked.push(kind);
+        if (kind === 'start') Runs.given.push(kept);
+        const answer = { start: Runs.isAdapterOut ? 'refused' : 'started', end: 'ended' }[kind];
+        if (answer) setTimeout(() => this.tell({ kind: answer, text: 'there is no such port' }), 20);
+    }
+
+    tell(message: object): void {
+        this.onmessage?.({ data: message });
     }
 
     terminate(): void {
@@ -45,8 +73,25 @@ class Runs {
     }
 }
 
+/** My servos run Play. */
+async function runs() {
+    const port = { getInfo: () => ({}) };
+    const serial = { requestPort: () => Promise.resolve(port), getPorts: () => Promise.resolve([port]) };
+    vi.stubGlobal('navigator', { serial });
+    vi.stubGlobal('Worker', Runs);
+    const events = { frame: vi.fn(), text: vi.fn(), connection: vi.fn(), change: vi.fn(), motions: vi.fn() };
+    const source = new ServosSource(BODY, events, () => false);
+    await source.choose();
+    await source.start('play');
+    source.connect();
+    return { source, events };
+}
+
 afterEach(() => {
     vi.unstubAllGlobals();
+    Object.assign(browser, { missing: '', reads: true, saves: true, kept: null });
+    Object.assign(Runs, { made: 0, isAdapterOut: false });
+    Runs.asked.length = Runs.given.length = 0;
 });
 
 test('a tab whose adapter could not be opened does not keep My servos from another tab', async () => {
@@ -69,15 +114,7 @@ test('a tab whose adapter could not be opened does not keep My servos from anoth
 });
 
 test('another robot is chosen while My servos change to Edit: they do not start again, nor report as the robot in use', async () => {
-    const port = { getInfo: () => ({}) };
-    const serial = { requestPort: () => Promise.resolve(port), getPorts: () => Promise.resolve([port]) };
-    vi.stubGlobal('navigator', { serial });
-    vi.stubGlobal('Worker', Runs);
-    const events = { frame: vi.fn(), text: vi.fn(), connection: vi.fn(), change: vi.fn(), motions: vi.fn() };
-    const source = new ServosSource(BODY, events, () => false);
-    await source.choose();
-    await source.start('play');
-    source.connect();
+    const { source, events } = await runs();
     const restarted = source.restart('edit');
     await new Promise(resolve => setTimeout(resolve, 5)); // the program is asked to end
     events.connection.mockClear();
@@ -87,4 +124,42 @@ test('another robot is chosen while My servos change to Edit: they do not start 
     await new Promise(resolve => setTimeout(resolve, 100));
     expect(events.connection.mock.calls).toEqual([]);
     expect(Runs.made).toBe(1);
+});
+
+test('another image cannot be loaded: the program that runs goes on, as the page says', async () => {
+    const { source } = await runs();
+    browser.missing = 'edit';
+    await expect(source.restart('edit')).rejects.toMatchObject({ code: 'no-image' });
+    expect(Runs.asked).not.toContain('end');
+    await source.close();
+});
+
+test('the adapter is out when another image starts: the page says so, and does not look for servos for ever', async () => {
+    const { source, events } = await runs();
+    Runs.isAdapterOut = true;
+    await expect(source.restart('edit')).rejects.toMatchObject({ code: 'port-busy' });
+    const stopped = events.change.mock.calls.flatMap(([change]) => ('stopped' in change ? [change.stopped] : []));
+    expect(stopped.at(-1)).toContain('there is no such port');
+    Runs.isAdapterOut = false;
+    await source.restart('edit'); // once it is back
+    await source.close();
+});
+
+test('a browser that stores nothing: Play has what Edit has saved', async () => {
+    const { source } = await runs();
+    browser.saves = false;
+    const saved = [new Uint8Array([7]), new Uint8Array(), new Uint8Array()];
+    Runs.last.tell({ kind: 'keep', id: 1, memories: saved });
+    await source.restart('edit');
+    expect(Runs.given).toEqual([[LIBRARY, null, null], saved]);
+    await source.close();
+});
+
+test('what is stored cannot be read: it is not replaced by the motions of a new robot', async () => {
+    Object.assign(browser, { reads: false, kept: [new Uint8Array([7])] });
+    const { source, events } = await runs();
+    Runs.last.tell({ kind: 'keep', id: 1, memories: [LIBRARY] });
+    await source.close();
+    expect(browser.kept).toEqual([new Uint8Array([7])]);
+    expect(events.change.mock.calls.some(([change]) => change.message?.text.startsWith('This browser does not save'))).toBe(true);
 });
