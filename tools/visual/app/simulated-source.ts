@@ -70,6 +70,8 @@ export class SimulatedSource {
     private clock = new TickClock();
     /** Only one tab stores its robot's memories. Two would overwrite each other. */
     private readonly mayKeep = holdRobot();
+    /** false: what is stored could not be read, and must not be replaced by what the robot then has: the motions of a new one. */
+    private mayStore = true;
     private isSecondShown = false;
     private readonly waiting: ((state: RobotState) => void)[] = [];
     /** Tells who waits for the robot to stand up that it never will. */
@@ -126,7 +128,10 @@ export class SimulatedSource {
             const parts = await this.parts(image);
             await this.end();
             if (await this.mayKeep)
-                await forgetRobot(KEY).catch(() => this.events.change({ message: { text: TEXTS.robot.notKept, tone: 'bad' } }));
+                await forgetRobot(KEY).then(
+                    () => (this.mayStore = true),
+                    () => this.events.change({ message: { text: TEXTS.robot.notKept, tone: 'bad' } }),
+                );
             this.begin(parts, null);
         });
     }
@@ -307,8 +312,11 @@ export class SimulatedSource {
 
     private async load(): Promise<KeptRobot | null> {
         try {
-            return await loadRobot(KEY);
+            const kept = await loadRobot(KEY);
+            this.mayStore = true;
+            return kept;
         } catch {
+            this.mayStore = false;
             this.events.change({ message: { text: TEXTS.robot.notKept, tone: 'bad' } });
             return null;
         }
@@ -318,6 +326,7 @@ export class SimulatedSource {
         this.events.motions(motionsIn(memories));
         if (!(await this.mayKeep)) return this.tellSecond();
         try {
+            if (!this.mayStore) throw new Error('what is stored could not be read');
             await saveRobot(KEY, memories);
         } catch {
             this.events.change({ message: { text: TEXTS.robot.notKept, tone: 'bad' } });

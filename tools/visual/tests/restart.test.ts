@@ -140,6 +140,19 @@ test('a browser that keeps nothing: another image has the motions of the one bef
     expect(seen.motions[5000]).toBe(0x77);
 });
 
+test('what is stored cannot be read: it is not replaced by the memory of a new robot', async () => {
+    const { source, seen } = page();
+    browser.keeps = false;
+    const kept = { flash: new Uint8Array(0x20000).fill(0x5a), eeprom: new Uint8Array(4096), servos: new Uint8Array() };
+    browser.kept = kept;
+    await source.start('play');
+    browser.keeps = true; // the disk answers again
+    const told = seen.changes.length;
+    await source.restart('edit'); // which stores the robot's memory
+    expect(browser.kept === kept).toBe(true);
+    expect(seen.changes.slice(told).some(({ message }) => message?.text.startsWith('This browser does not save'))).toBe(true);
+});
+
 test('the next robot stands on the floor that the page shows, with its battery and its faults', async () => {
     const { source } = page();
     const posted: ToSim[] = [];
