@@ -152,6 +152,7 @@ export class Adapter {
     private async comeBack(): Promise<void> {
         if (this.isClosed) return;
         await this.open(this.rate);
+        if (!this.isThere()) return; // lost again meanwhile, which has been told
         this.events.isThere(true);
         this.events.news();
     }

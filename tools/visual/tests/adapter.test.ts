@@ -129,3 +129,17 @@ test('a plug that is pulled out while the rate changes is lost, and taken again 
     await vi.advanceTimersByTimeAsync(LONG_MS);
     expect(bench.told).toEqual([false, true]);
 });
+
+test('a plug that has a loose contact, and is out again right after it is taken, is not said to be back', async () => {
+    const bench = await opened();
+    bench.port.unplug();
+    await vi.advanceTimersByTimeAsync(1050); // it is open again, and settles
+    expect(bench.rates).toHaveLength(2);
+    bench.isPlugged = false;
+    bench.port.unplug();
+    await vi.advanceTimersByTimeAsync(LONG_MS);
+    expect(bench.told.at(-1)).toBe(false);
+    bench.isPlugged = true;
+    await vi.advanceTimersByTimeAsync(LONG_MS);
+    expect(bench.told.at(-1)).toBe(true);
+});
