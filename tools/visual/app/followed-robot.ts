@@ -19,6 +19,8 @@ export class FollowedRobot {
     private readonly mayAsk: () => boolean;
     private readonly standing: Standing;
     private startedMs = 0;
+    /** The last position of each servo, by ID. */
+    private readonly positions = new Map<number, number>();
     private follower: PoseFollower | null = null;
     connection: Connection | null = null;
 
@@ -31,6 +33,7 @@ export class FollowedRobot {
     connect(port: Port): void {
         this.follower?.stop();
         this.standing.begin();
+        this.positions.clear();
         this.startedMs = performance.now();
         // Ignore what an old connection still reports while it closes.
         const connection: Connection = new Connection(port, wallClock, {
@@ -51,11 +54,13 @@ export class FollowedRobot {
     }
 
     private show(pose: readonly JointPose[]): void {
-        const positions = new Map(pose.map(joint => [joint.id, joint.position]));
+        const { positions } = this;
+        for (const { id, position } of pose) if (position !== null) positions.set(id, position);
         const servos: ServoState[] = pose.map(({ id, position, torque }) => ({
             id,
             goalPos: null,
-            position: position ?? POSITION_MIDDLE,
+            position: positions.get(id) ?? POSITION_MIDDLE,
+            isSilent: position === null,
             torque,
             alarms: 0,
             celsius: 0,

@@ -8,6 +8,8 @@ export interface ServoState {
     /** Servo units; null if unknown (a real servo's goal is not read). */
     readonly goalPos: number | null;
     readonly position: number;
+    /** It does not answer now. Its position is the last one that it told, or the middle. */
+    readonly isSilent?: boolean;
     readonly torque: boolean;
     /** Error bits of protocol 1.0: 0 voltage, 1 angle limit, 2 heat, 3 range, 4 checksum, 5 overload, 6 instruction. */
     readonly alarms: number;

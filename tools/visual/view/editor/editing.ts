@@ -65,10 +65,12 @@ export function robotAngles(body: Body, robot: RobotState): Angles {
     return new Map(body.joints.map(joint => [joint.servo, jointAngle(joint, positions.get(joint.servo) ?? joint.zero)]));
 }
 
-/** The robot's pose (servo units by ID; null: no such servo). For a joint with torque it is the goal, not the position under load. */
+/** The robot's pose (servo units by ID; null: no such servo, or it does not answer). For a joint with torque it is the goal, not the
+ *  position under load. */
 export function robotPositions(robot: RobotState): (number | null)[] {
     const positions = new Array<number | null>(JOINTS).fill(null);
-    for (const servo of robot.servos) positions[servo.id] = Math.round((servo.torque ? servo.goalPos : null) ?? servo.position);
+    for (const servo of robot.servos)
+        if (!servo.isSilent) positions[servo.id] = Math.round((servo.torque ? servo.goalPos : null) ?? servo.position);
     return positions;
 }
 
