@@ -75,14 +75,14 @@ export class RobotTransfer implements Transfer {
         return this.reading;
     }
 
-    write(pages: readonly number[]): Promise<TransferEnd> {
+    write(pages: readonly number[], seen: readonly (Uint8Array | null)[] = []): Promise<TransferEnd> {
         if (this.isBusy) return Promise.resolve(BUSY);
         const document = this.parts.document();
         this.under = null;
         this.goesOn = () =>
             this.during('writing', async left => {
                 await this.orStopped(this.parts.becomeEdit());
-                const write = this.under ?? (await this.begin(document, pages, left));
+                const write = this.under ?? (await this.begin(document, pages, seen, left));
                 left.throwIfAborted();
                 this.under = write;
                 await this.run(write, left);
@@ -119,16 +119,22 @@ export class RobotTransfer implements Transfer {
         if (!left.aborted) this.state.set(change);
     }
 
-    private async begin(document: MotionDocument, pages: readonly number[], left: AbortSignal): Promise<PageWrite> {
+    private async begin(
+        document: MotionDocument,
+        pages: readonly number[],
+        seen: readonly (Uint8Array | null)[],
+        left: AbortSignal,
+    ): Promise<PageWrite> {
+        const { format, backUp } = this.parts;
         const robot = await this.readRobot(left);
-        await this.parts.backUp(robot);
+        await backUp(robot);
         const wanted = pages.flatMap(page => {
             const [before, after] = [robot[page], pageOf(document, page)];
-            return before && !this.parts.format.isSame(before, after) && this.parts.format.fault(after) === null
-                ? [{ page, before, after }]
-                : [];
+            return before && !format.isSame(before, after) && format.fault(after) === null ? [{ page, before, after }] : [];
         });
-        return new PageWrite(wanted, this.parts.format);
+        const changed = wanted.find(({ page, before }) => !format.isSame(seen[page] ?? before, before));
+        if (changed) throw new RobotError('page-changed', String(changed.page));
+        return new PageWrite(wanted, format);
     }
 
     /** Records the written pages as the robot's, even if the rest failed. */

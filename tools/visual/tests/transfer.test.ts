@@ -308,6 +308,19 @@ test('the page: Play cannot save, and a robot that cannot be kept is not written
     expect(flashPage(bench, 1)).toEqual(pageOf(library, 1));
 });
 
+test('the page: another board is on the cable than the one that was compared; nothing is written over what nobody has seen', async () => {
+    const { bench, connection } = await ready('edit', 52);
+    const pages = twenty(bench);
+    const { transfer, before } = transferOn(bench, connection, pages);
+    const [one, two] = pages.map(({ page }) => page);
+    const seen = before.map((bytes, page) => (page === two ? pageOf(library, 5) : bytes));
+    const written = transfer.write([Number(one), Number(two)], seen);
+    expect(await bench.until(written, 60_000)).toMatchObject({ isDone: false, error: { code: 'page-changed', words: String(two) } });
+    expect(flashPage(bench, Number(one))).toEqual(before[Number(one)]);
+    for (const _ of ['it was seen as it is', 'it is there already'])
+        expect(await bench.until(transfer.write([Number(one)], seen), 60_000)).toEqual({ isDone: true });
+});
+
 /** Lets a test change the bytes on the line: a byte lost in noise, a request that never arrives. */
 function onTheLine(bench: RobotBench, change: (line: string) => string): string[] {
     const send = bench.board.send.bind(bench.board);

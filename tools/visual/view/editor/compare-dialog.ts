@@ -231,7 +231,7 @@ export class CompareDialog extends HTMLElement {
     private async action(): Promise<void> {
         this.trouble = null;
         if (this.key !== 'robot') return this.takeOver(this.chosen);
-        await this.session.transfer.write(this.chosen);
+        await this.session.transfer.write(this.chosen, this.other);
         this.fillWhich(this.key); // adds the new backup
         if (this.session.transfer.state.get().phase === 'written') await this.look();
     }

@@ -23,8 +23,9 @@ export interface Transfer {
     readonly state: Store<TransferState>;
     /** Reads the robot's pages; known ones are not read again. */
     read(): Promise<TransferEnd>;
-    /** Backs up the robot, then writes these pages of the document. */
-    write(pages: readonly number[]): Promise<TransferEnd>;
+    /** Backs up the robot, then writes these pages of the document. seen: the robot's pages that the person has compared; if one of them is
+     *  another one by now (another board is on the cable, or somebody has saved it), nothing is written. */
+    write(pages: readonly number[], seen?: readonly (Uint8Array | null)[]): Promise<TransferEnd>;
     /** Continues a stopped transfer. */
     tryAgain(): Promise<TransferEnd>;
     /** Stops at once or between two pages. */
