@@ -30,7 +30,7 @@ test('a cable pulled while four pages are written: each is told as old or new, "
     await person.untilStanding();
     await person.open('Robot');
     await person.button('Run Edit').click();
-    await person.page.getByText(/^Edit runs:/).waitFor();
+    await person.doing.filter({ hasText: /^Edit runs:/ }).waitFor();
     await person.open('Motions');
     const card = (name: RegExp) => page.getByRole('option', { name });
     await card(/^motion 7 stand/).click();
