@@ -44,7 +44,7 @@ JUDGED = {  # the code that each part's figures judge
     "endurance": IMAGES,
     "static": IMAGES,
     "physics": MOTIONS,
-    "shape": ("firmware/common", "firmware/play", "hal", "linker", "motion", *MOTIONS),
+    "shape": ("firmware/common", "firmware/play", "hal", ":!hal/host", "linker", "motion", *MOTIONS),
     "sessions": IMAGES,
 }
 BY_GOALS = ("physics",)  # parts that judge the player by its goals (goals_of_motions), not by its source
