@@ -102,10 +102,8 @@ export class Connection {
         this.cancelTimer();
         this.cancelTimer = () => undefined;
         this.current = next;
-        if (next === 'asking' || next === 'waiting') {
-            this.version = null; // it may be another board now
-            this.typedAtMs = -Infinity;
-        }
+        if (next === 'waiting') this.version = null; // it may be another board when the port is back
+        if (next === 'asking') this.typedAtMs = -Infinity;
         this.events.state(next);
         this.enter(next);
     }

@@ -203,6 +203,8 @@ test('the cable is pulled with a question under way, and put back', async () => 
     expect(states.slice(-4)).toEqual(['waiting', 'opening', 'asking', 'ready']);
     expect(versions.slice(-4)).toEqual([undefined, undefined, undefined, 'play']); // it may be another board
     expect((await bench.until(askWhere(connection.requests))).state).toBe('idle');
+    connection.askAgain(); // an answer was late: a key that is held is sent meanwhile, and let go
+    expect([connection.state, connection.version?.image]).toEqual(['asking', 'play']);
 });
 
 test('a board without power is silent, and found when it is switched on', async () => {
