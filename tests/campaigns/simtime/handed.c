@@ -29,7 +29,8 @@ void machine_bus_write(const uint8_t *bytes, uint16_t count)
     if (is_of_tick && under_way > 0) {
         session_fail("one packet at a time is on the bus", "%02x to %u, while one is leaving", bytes[4], bytes[2]);
     }
-    for (unsigned id = 0; id < IDS && long_ago(session.trouble_tick, TROUBLE) && !rules_somebody_is_late(); id++) {
+    const bool is_quiet = long_ago(session.trouble_tick, TROUBLE) && !rules_somebody_is_late();
+    for (unsigned id = 0; is_quiet && id < IDS; id++) {
         if (answers_now(&session.joint[id])) {
             session_fail("no packet begins in an answer", "%02x to %u, while servo %u answers", bytes[4], bytes[2], id);
         }
