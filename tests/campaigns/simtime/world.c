@@ -7,7 +7,7 @@
 #include <string.h>
 
 #define CYCLES 8u                  /* of the servos' clock per half microsecond */
-#define UNASKED_WRITE 16u          /* one byte of EEPROM in so many: the computer writes all that was kept before it to its disk */
+#define UNASKED_WRITE 16u          /* one in so many bytes of EEPROM: the computer writes to its disk what was kept before */
 #define BYTE_TIME 347u             /* of the console's line at 57,600 8N1, half microseconds */
 
 static struct {
