@@ -107,7 +107,8 @@ static void test_a_power_cut_at_any_write_leaves_the_old_page_or_the_new_one(voi
     }
 }
 
-static bool set_with_cut(uint32_t write, uint32_t seed)
+/* As in a motion: nothing is settled between the saves of 44 (and 55). */
+static bool set_with_cut(uint32_t write, uint32_t seed, uint8_t last)
 {
     static settings_store_t store;   /* static: kept across longjmp */
     static settings_t settings;
@@ -121,45 +122,7 @@ static bool set_with_cut(uint32_t write, uint32_t seed)
     host_settle();
     fake_machine_cut(write, seed, &cut);
     if (setjmp(cut) == 0) {
-        settings.approach_deg_s = 44;
-        settings_save_start(&store);
-        settings_save_finish(&store, &settings);
-        fake_machine_cut(0, 0, NULL);
-        return false;
-    }
-    (void)begin();
-    (void)settings_load(&store, &settings);
-    TEST_ASSERT_TRUE_MESSAGE(settings.approach_deg_s == 33 || settings.approach_deg_s == 44, "old or new");
-    return true;
-}
-
-static void test_a_power_cut_at_any_byte_leaves_the_old_settings_or_the_new_ones(void)
-{
-    for (uint32_t seed = 0; seed < SEEDS; seed++) {
-        uint32_t write = 1;
-        while (set_with_cut(write, seed)) {
-            write++;
-        }
-        TEST_ASSERT_TRUE(write > 2);
-    }
-}
-
-/* As in a motion: nothing is settled between the saves. */
-static bool set_twice_with_cut(uint32_t write, uint32_t seed)
-{
-    static settings_store_t store;   /* static: kept across longjmp */
-    static settings_t settings;
-    jmp_buf cut;
-    setUp();
-    (void)begin();
-    (void)settings_load(&store, &settings);
-    settings.approach_deg_s = 33;
-    settings_save_start(&store);
-    settings_save_finish(&store, &settings);
-    host_settle();
-    fake_machine_cut(write, seed, &cut);
-    if (setjmp(cut) == 0) {
-        for (uint8_t approach_deg_s = 44; approach_deg_s <= 55; approach_deg_s += 11u) {
+        for (uint8_t approach_deg_s = 44; approach_deg_s <= last; approach_deg_s += 11u) {
             settings.approach_deg_s = approach_deg_s;
             settings_save_start(&store);
             settings_save_finish(&store, &settings);
@@ -169,20 +132,30 @@ static bool set_twice_with_cut(uint32_t write, uint32_t seed)
     }
     (void)begin();
     (void)settings_load(&store, &settings);
-    TEST_ASSERT_TRUE_MESSAGE(settings.approach_deg_s == 33 || settings.approach_deg_s == 44 || settings.approach_deg_s == 55,
-                             "one of three");
+    const uint8_t found = settings.approach_deg_s;
+    TEST_ASSERT_TRUE_MESSAGE(found == 33 || found == 44 || found == last, "old or new");
     return true;
 }
 
-static void test_a_power_cut_after_two_saves_in_one_motion_leaves_one_of_them(void)
+static void cut_at_each_write(uint32_t seeds, uint8_t last)
 {
-    for (uint32_t seed = 0; seed < FEW_SEEDS; seed++) {
+    for (uint32_t seed = 0; seed < seeds; seed++) {
         uint32_t write = 1;
-        while (set_twice_with_cut(write, seed)) {
+        while (set_with_cut(write, seed, last)) {
             write++;
         }
         TEST_ASSERT_TRUE(write > 2);
     }
+}
+
+static void test_a_power_cut_at_any_byte_leaves_the_old_settings_or_the_new_ones(void)
+{
+    cut_at_each_write(SEEDS, 44);
+}
+
+static void test_a_power_cut_after_two_saves_in_one_motion_leaves_one_of_them(void)
+{
+    cut_at_each_write(FEW_SEEDS, 55);
 }
 
 static void test_what_is_no_page_is_not_written(void)
