@@ -262,7 +262,7 @@ bool machine_keep(machine_memory_t which, uint32_t at, const uint8_t *bytes, uin
         cut(which, at, is_written ? count : 0);
     }
     if (sure) {
-        memcpy(memory.sure[which], memory.now[which], MEMORY_BYTES);
+        machine_settle(which);
     }
     return true;
 }

@@ -175,7 +175,8 @@ static bool toss(void)
     return (session_random() & 1u) != 0;
 }
 
-/* Cuts the power while these bytes are written. The chip changes them in order; a computer's disk may use any order. */
+/* Cuts the power while these bytes are written. The chip changes them in order; a computer's disk may use any order.
+ * Of the EEPROM only what was settled before stays. */
 static void cut_write(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uint32_t count)
 {
     static const char *const names[MACHINE_MEMORIES] = {

@@ -130,7 +130,7 @@ export class SimulatedSource {
             if (await this.mayKeep)
                 await forgetRobot(KEY).then(
                     () => (this.mayStore = true),
-                    () => this.events.change({ message: { text: TEXTS.robot.notKept, tone: 'bad' } }),
+                    () => this.tellNotKept(),
                 );
             this.begin(parts, null);
         });
@@ -317,7 +317,7 @@ export class SimulatedSource {
             return kept;
         } catch {
             this.mayStore = false;
-            this.events.change({ message: { text: TEXTS.robot.notKept, tone: 'bad' } });
+            this.tellNotKept();
             return null;
         }
     }
@@ -329,8 +329,12 @@ export class SimulatedSource {
             if (!this.mayStore) throw new Error('what is stored could not be read');
             await saveRobot(KEY, memories);
         } catch {
-            this.events.change({ message: { text: TEXTS.robot.notKept, tone: 'bad' } });
+            this.tellNotKept();
         }
+    }
+
+    private tellNotKept(): void {
+        this.events.change({ message: { text: TEXTS.robot.notKept, tone: 'bad' } });
     }
 
     private tellSecond(): void {

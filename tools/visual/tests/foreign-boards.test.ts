@@ -61,16 +61,21 @@ function loaderThatSays(banner: string) {
     return { port, sent, say };
 }
 
-async function loaderIsMet(banner: string) {
-    const clock = new SimulatedClock();
-    const { port, sent, say } = loaderThatSays(banner);
-    const connection = new Connection(port, clock, { state: () => undefined, text: () => undefined });
-    const pass = async (ms: number): Promise<void> => {
+/** Lets time pass in steps that the page can follow. */
+function passesOn(clock: SimulatedClock): (ms: number) => Promise<void> {
+    return async ms => {
         for (let done = 0; done < ms; done += 50) {
             clock.advance(50);
             await settle();
         }
     };
+}
+
+async function loaderIsMet(banner: string) {
+    const clock = new SimulatedClock();
+    const { port, sent, say } = loaderThatSays(banner);
+    const connection = new Connection(port, clock, { state: () => undefined, text: () => undefined });
+    const pass = passesOn(clock);
     connection.connect();
     await pass(1000);
     say(); // MODE was pressed
@@ -108,12 +113,7 @@ test('another board is put on a cable where a foreign firmware answered: it is f
     const port: BytePort = new BytePort('a cable', () => port.push(new TextEncoder().encode(`\x1e${answer}\r\n`)));
     const states: ConnectionState[] = [];
     const connection = new Connection(port, clock, { state: state => states.push(state), text: () => undefined });
-    const pass = async (ms: number): Promise<void> => {
-        for (let done = 0; done < ms; done += 50) {
-            clock.advance(50);
-            await settle();
-        }
-    };
+    const pass = passesOn(clock);
     connection.connect();
     await pass(10_000);
     expect(new Set(states.slice(2))).toEqual(new Set(['foreign']));

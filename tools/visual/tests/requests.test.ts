@@ -220,25 +220,25 @@ test('a board without power is silent, and found when it is switched on', async 
     expect(new Set(states.slice(states.indexOf('silent'), -1))).toEqual(new Set(['silent'])); // what it means can be read meanwhile
 });
 
-test('a board in its boot loader: what it says is text, and the state says silent', async () => {
-    const bench = await RobotBench.make('play', 21);
+async function inLoader(seed: number) {
+    const bench = await RobotBench.make('play', seed);
     bench.board.setPower(false);
     bench.board.writeEeprom(4095, Uint8Array.of(0xff));
     bench.board.setPower(true);
-    const { states, text } = await connect(bench);
+    const connected = await connect(bench);
     await bench.run(2500);
+    return { bench, ...connected };
+}
+
+test('a board in its boot loader: what it says is text, and the state says silent', async () => {
+    const { states, text } = await inLoader(21);
     expect(states).toContain('silent');
     expect(states).not.toContain('ready');
     expect(text()).toContain('- ');
 });
 
 test('a board in its boot loader: GO, typed slowly, starts the firmware, and no question of the page ends the line', async () => {
-    const bench = await RobotBench.make('play', 31);
-    bench.board.setPower(false);
-    bench.board.writeEeprom(4095, Uint8Array.of(0xff));
-    bench.board.setPower(true);
-    const { connection, text } = await connect(bench);
-    await bench.run(2500);
+    const { bench, connection, text } = await inLoader(31);
     expect(connection.state).toBe('silent');
     const before = text().length;
     for (const key of 'GO\r') {
