@@ -198,6 +198,7 @@ export class RobotSession implements Session {
             },
             text: bytes => {
                 this.texts.tell(bytes);
+                this.status.hear(bytes);
                 this.messages.hear(bytes);
             },
             connection: state => this.arrival.connectionChanged(state),
@@ -323,6 +324,7 @@ export class RobotSession implements Session {
 
     type(bytes: Uint8Array): void {
         if (bytes.length > MOST_TYPED) return this.messages.complain(TEXTS.terminal.tooLong, 'robot');
+        this.status.typed();
         void this.write(bytes).catch(this.messages.fail);
     }
 

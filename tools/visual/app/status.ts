@@ -13,6 +13,8 @@ import { doingText } from '../view/texts/robot.ts';
 const WHERE_MS = 300;
 /** Fewest rows of a screen that Edit draws. */
 const ROWS_LEAST = 24;
+/** Clears the screen. Edit begins a whole screen with it. */
+const CLEAR = '\x1b[2J';
 /** In robot time, so that a slow computer does not count as silence. The robot in the page normally answers long before. */
 const START_TICKS = 10 * TICKS_PER_SECOND;
 
@@ -33,6 +35,9 @@ export class Status {
     private startedTicks: number | null = null;
     private terminal: TerminalSize | null = null;
     private isDrawingDue = false;
+    /** Edit has drawn its screen since it was last asked to. It does not while a line or a question is open. */
+    private isDrawn = true;
+    private heardLast = '';
 
     constructor(parts: StatusParts) {
         this.parts = parts;
@@ -92,10 +97,22 @@ export class Status {
         this.isDrawingDue = true;
     }
 
+    /** The robot's text. */
+    hear(bytes: Uint8Array): void {
+        const text = this.heardLast + new TextDecoder('latin1').decode(bytes);
+        this.isDrawn ||= text.includes(CLEAR);
+        this.heardLast = text.slice(1 - CLEAR.length);
+    }
+
+    /** A person has typed: what kept Edit from drawing its screen may have ended. */
+    typed(): void {
+        if (!this.isDrawn) this.look();
+    }
+
     /** Edit draws only when the reported terminal size changes, so a different size is reported first. Not while the robot moves. */
     private draw(connection: Connection): void {
         if (!this.isDrawingDue || !this.isEditOnScreen || !this.terminal) return;
-        this.isDrawingDue = false;
+        this.isDrawingDue = this.isDrawn = false;
         const { rows, columns } = this.terminal;
         const other = rows === ROWS_LEAST ? rows + 1 : ROWS_LEAST;
         const reports = `\x1b[${other};${columns}R\x1b[${rows};${columns}R`;
