@@ -31,16 +31,16 @@ export class Keyboard {
                 '';
             // Its own outline, one of the element around it, or a frame (in a node of the chart).
             const marks = [active, active.closest('terminal-pane'), active.querySelector(':scope > rect')].filter(one => one !== null);
-            const isMarked = marks.some(one => {
+            // The marked element is what a person sees; the terminal's own field has no width before the terminal's first letter.
+            const isSeen = marks.some(one => {
                 const style = getComputedStyle(one);
-                return (
+                const { width, height } = one.getBoundingClientRect();
+                const isMarked =
                     (style.outlineStyle !== 'none' && Number.parseFloat(style.outlineWidth) >= 1) ||
-                    (one.tagName === 'rect' && Number.parseFloat(style.strokeWidth) >= 4)
-                );
+                    (one.tagName === 'rect' && Number.parseFloat(style.strokeWidth) >= 4);
+                return isMarked && width > 0 && height > 0;
             });
-            const box = active.getBoundingClientRect();
-            const isThere = box.width > 0 && box.height > 0;
-            return { name: name.trim(), isSeen: isMarked && isThere };
+            return { name: name.trim(), isSeen };
         });
     }
 

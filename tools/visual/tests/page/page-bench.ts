@@ -231,6 +231,24 @@ export class Visitor {
         await this.page.evaluate(() => new Promise(resolve => requestAnimationFrame(() => requestAnimationFrame(resolve))));
     }
 
+    /** Waits in the robot's own time, which is slower than the clock on a busy computer. */
+    async robotSeconds(seconds: number): Promise<void> {
+        await this.page.evaluate(ticks => {
+            const { session } = document.querySelector('app-shell') as unknown as {
+                session: { onFrame(listener: (state: { ticks: number }) => void): () => void };
+            };
+            return new Promise<void>(resolve => {
+                let first = -1;
+                const end = session.onFrame(state => {
+                    if (first < 0) first = state.ticks;
+                    if (state.ticks - first < ticks) return;
+                    end();
+                    resolve();
+                });
+            });
+        }, seconds * 128);
+    }
+
     /** The terminal's screen as text. */
     screen(): Promise<string> {
         return this.page.locator('terminal-pane').evaluate(pane => (pane as unknown as { screenText: string }).screenText);

@@ -124,7 +124,7 @@ test('without WebAssembly a sentence says so, and names no other browser', async
     const person = await Visitor.come(suite.browser, suite.address, {
         before: page => page.addInitScript(() => Reflect.deleteProperty(globalThis, 'WebAssembly')),
     });
-    await person.page.getByRole('alert').filter({ hasText: 'This browser runs no WebAssembly' }).waitFor();
+    await person.page.getByRole('alert').filter({ hasText: 'This browser lacks WebAssembly, which' }).waitFor();
     await person.leave();
 });
 

@@ -1,31 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Legs that were limp and bent do not carry the robot. The hand keeps holding it after "Hold" until "Let go" or a play. A limb whose release
 // was refused is not shown as limp.
-import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
 import { Visitor } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
 
 const suite = pageSuite();
 const HELD = 'A hand holds the robot.';
-
-/** Two seconds of robot time. A hand needs 0.4 s of it to let go. */
-function twoSeconds(page: Page): Promise<void> {
-    return page.evaluate(() => {
-        const { session } = document.querySelector('app-shell') as unknown as {
-            session: { onFrame(listener: (state: { ticks: number }) => void): () => void };
-        };
-        return new Promise<void>(resolve => {
-            let first = -1;
-            const end = session.onFrame(({ ticks }) => {
-                if (first < 0) first = ticks;
-                if (ticks - first < 256) return;
-                end();
-                resolve();
-            });
-        });
-    });
-}
 
 test('the hand stays over legs that were let go, and over an arm beside them, until "Let go", and the next time until a play', async () => {
     const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false });
@@ -40,7 +21,7 @@ test('the hand stays over legs that were let go, and over an arm beside them, un
             .getByRole('log', { name: 'Last message' })
             .filter({ hasText: /^The legs were limp, so the hand still holds the robot/ })
             .waitFor();
-        await twoSeconds(page);
+        await person.robotSeconds(2); // a hand needs 0.4 s to let go
         expect(await doing.textContent()).toContain(HELD);
         if (limbs.length === 1) await person.button('Let go').click();
         else {
