@@ -13,6 +13,8 @@ import { doingText } from '../view/texts/robot.ts';
 const WHERE_MS = 300;
 /** Fewest rows of a screen that Edit draws. */
 const ROWS_LEAST = 24;
+/** Edit's screen is not drawn again so soon after a key: a question that the key has opened would be drawn over. */
+const TYPING_MS = 1000;
 /** Clears the screen. Edit begins a whole screen with it. */
 const CLEAR = '\x1b[2J';
 /** In robot time, so that a slow computer does not count as silence. The robot in the page normally answers long before. */
@@ -38,6 +40,7 @@ export class Status {
     /** Edit has drawn its screen since it was last asked to. It does not while a line or a question is open. */
     private isDrawn = true;
     private heardLast = '';
+    private typedAtMs = -Infinity;
 
     constructor(parts: StatusParts) {
         this.parts = parts;
@@ -106,12 +109,14 @@ export class Status {
 
     /** A person has typed: what kept Edit from drawing its screen may have ended. */
     typed(): void {
+        this.typedAtMs = Date.now();
         if (!this.isDrawn) this.look();
     }
 
     /** Edit draws only when the reported terminal size changes, so a different size is reported first. Not while the robot moves. */
     private draw(connection: Connection): void {
         if (!this.isDrawingDue || !this.isEditOnScreen || !this.terminal) return;
+        if (Date.now() - this.typedAtMs < TYPING_MS) return;
         this.isDrawingDue = this.isDrawn = false;
         const { rows, columns } = this.terminal;
         const other = rows === ROWS_LEAST ? rows + 1 : ROWS_LEAST;

@@ -10,8 +10,8 @@ beforeEach(() => void vi.useFakeTimers());
 afterEach(() => void vi.useRealTimers());
 
 const bytesOf = (text: string): Uint8Array => new TextEncoder().encode(text);
-/** More than the page waits between two of its questions. */
-const MEANWHILE_MS = 1000;
+/** More than the page waits after a key and between two of its questions. */
+const MEANWHILE_MS = 2000;
 
 /** A robot with Edit that stands still. reports: how often the page has reported the size of its terminal. */
 function editAtTerminal() {
@@ -51,4 +51,17 @@ test('a size that Edit ignored is reported again when the person has typed, unti
     status.typed();
     await vi.advanceTimersByTimeAsync(MEANWHILE_MS);
     expect(robot.reports).toBe(2);
+});
+
+test('it is not reported while the person types', async () => {
+    const { robot, status } = editAtTerminal();
+    void status.ask();
+    status.terminalSize({ rows: 32, columns: 80 });
+    for (let i = 0; i < 10; i++) {
+        status.typed();
+        await vi.advanceTimersByTimeAsync(MEANWHILE_MS / 4);
+    }
+    expect(robot.reports).toBe(0);
+    await vi.advanceTimersByTimeAsync(MEANWHILE_MS);
+    expect(robot.reports).toBe(1);
 });
