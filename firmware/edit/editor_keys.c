@@ -19,17 +19,20 @@
 enum { REPEAT_TICKS = 20 };   /* 150 ms: a key that comes sooner is held down, not pressed again */
 enum { PAGE_ROWS = 8, ESC_QUIET_TICKS = 7 };
 enum { SWALLOW_TICKS = 60, STREAM_TICKS = 4 };   /* longest gap between a person's letters; between bytes of a stream */
+enum { PACKET_START = 0xFF, PACKET_BYTES = 6 };   /* of a remote control: REMOTE.md */
 enum { MESSAGE_COLUMN_MAX = 40 };   /* after a longer line a message would be cut */
 enum { BACKSLASH = '\\', FIRST_WORD_KEY = '0', LAST_WORD_KEY = 'Z', FIRST_LOWER_KEY = '^', LAST_LOWER_KEY = 'z' };
 
 static keys_t keys;
 static bool swallow;    /* ignore the rest of a line whose first letters answered a question or were typed during a play */
 static bool after_cr;   /* the last byte was CR, so an LF now belongs to it */
+static uint8_t packet_left, packet_tick;   /* bytes of a remote's packet that have not come; when its last one came */
 
 void editor_keys_init(void)
 {
     keys_init(&keys);
     swallow = after_cr = false;
+    packet_left = 0;
 }
 
 /* ---- running a complete line, again after each answered question ---- */
@@ -336,9 +339,30 @@ static bool is_left_over(uint8_t byte, uint16_t quiet_ticks)
     return the_dialog.mode == DIALOG_ASK && quiet_ticks < STREAM_TICKS && !keys_is_open(&keys);
 }
 
+/* A remote control may share the line. Edit has no use for its packets, and among their bytes are U for UNDO, and CR. The bytes of a
+ * packet follow each other at once, and nobody types 0xFF. */
+static bool is_of_remote(uint8_t byte, uint8_t now)
+{
+    if ((uint8_t)(now - packet_tick) > 1) {
+        packet_left = 0;
+    }
+    if (packet_left == 0) {
+        if (byte != PACKET_START) {
+            return false;
+        }
+        packet_left = PACKET_BYTES;
+    }
+    packet_left--;
+    packet_tick = now;
+    return true;
+}
+
 void editor_byte(uint8_t byte)
 {
     uint16_t now = tick_now16(), quiet_ticks = now - the_dialog.quiet_since;
+    if (is_of_remote(byte, (uint8_t)now)) {
+        return;
+    }
     bool end_of_cr = byte == KEY_LF && after_cr;
     after_cr = byte == KEY_CR;
     the_dialog.quiet_since = now;

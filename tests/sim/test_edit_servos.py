@@ -4,7 +4,8 @@
 
 import pytest
 
-from tests.sim.edit_robot import UNUSED, page
+from m512.files.image import Image
+from tests.sim.edit_robot import UNUSED, page, robot
 from tests.sim.edit_servos import goals, start, writes_since
 
 
@@ -160,6 +161,17 @@ def test_a_page_is_played_with_the_trim_while_page_0_is_open():
         assert r.cell(0, 3) == "0650"  # the work pose has no trim here, and neither has GO
         r.line("go 0", ms=1000)
         assert r.board.servos[3].goal == 512
+
+
+def test_a_damaged_trim_is_told_at_the_start():
+    image = Image.empty()
+    image[0] = page("Offset", [(0, {3: 512}), (0, {3: 500}), (0, {3: 50})])
+    motions = bytearray(image.to_bytes())
+    with robot(motions=bytes(motions)) as r:
+        assert "trim" not in r.show()
+    motions[192 + 2 * 3] ^= 1
+    with robot(motions=bytes(motions)) as r:
+        assert "Page 0 is damaged: no trim" in r.show()
 
 
 @pytest.mark.parametrize("line", ["go 2", "mirror 2", "write", "write 2", "move 0 2"])

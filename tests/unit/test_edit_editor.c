@@ -66,6 +66,23 @@ static void test_what_was_typed_ahead_answers_no_question(void)
     TEST_ASSERT_TRUE(the_session.is_changed);
 }
 
+/* D+R and U+L+R: the packets have U (UNDO), LF and CR among their bytes (REMOTE.md). */
+static void test_packets_of_a_remote_are_not_keys(void)
+{
+    static const uint8_t packets[][6] = {{0xFF, 0x55, 0x0A, 0xF5, 0x00, 0xFF}, {0xFF, 0x55, 0x0D, 0xF2, 0x00, 0xFF}};
+    change_a_cell();
+    type("name\r");
+    for (uint8_t i = 0; i < 20; i++) {
+        fake_console_type_bytes(packets[i & 1u], sizeof packets[0]);
+        run_ms(50);
+    }
+    fake_console_type_bytes(packets[0], 3);   /* the rest of it is lost */
+    run_ms(50);
+    type("wave\r");
+    TEST_ASSERT_EQUAL_STRING("wave", (const char *)the_session.cells);
+    TEST_ASSERT_EQUAL_UINT16(700, word_at(70));
+}
+
 static void test_empty_or_long_names_keep_the_old_one(void)
 {
     type("name\r");
@@ -551,6 +568,7 @@ int main(void)
     RUN_TEST(test_any_key_but_y_says_no);
     RUN_TEST(test_rest_of_a_line_that_answered_a_question_is_no_command);
     RUN_TEST(test_what_was_typed_ahead_answers_no_question);
+    RUN_TEST(test_packets_of_a_remote_are_not_keys);
     RUN_TEST(test_empty_or_long_names_keep_the_old_one);
     RUN_TEST(test_space_behind_the_end_of_a_list_switches_nothing);
     RUN_TEST(test_delete_of_a_step_that_is_not_used_says_so);
