@@ -339,8 +339,8 @@ static bool is_left_over(uint8_t byte, uint16_t quiet_ticks)
     return the_dialog.mode == DIALOG_ASK && quiet_ticks < STREAM_TICKS && !keys_is_open(&keys);
 }
 
-/* A remote control may share the line. Edit has no use for its packets, and among their bytes are U for UNDO, and CR. The bytes of a
- * packet follow each other at once, and nobody types 0xFF. */
+/* A remote control may share the line. Edit has no use for its packets, and among their bytes are U for UNDO, and CR. The
+ * bytes of a packet follow each other at once, and nobody types 0xFF. */
 static bool is_of_remote(uint8_t byte, uint8_t now)
 {
     if ((uint8_t)(now - packet_tick) > 1) {

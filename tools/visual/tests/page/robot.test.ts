@@ -217,6 +217,7 @@ test('somebody who debugs breaks servos, lowers the battery, tilts the floor: th
     await person.open('Robot');
 
     await fault(13, 'blocked'); // a knee
+    await expect.poll(async () => (await servo(person, 13)).position).not.toBeNaN();
     const before = (await servo(person, 13)).position;
     await person.button('Bow').click();
     await expect.poll(async () => Math.abs((await servo(person, 13)).goal - before), PATIENT).toBeGreaterThan(12); // the bow bends it more
