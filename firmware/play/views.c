@@ -44,14 +44,14 @@ static void print_page_line(uint8_t page, const uint8_t *header)
 uint8_t views_list(const shell_args_t *args)
 {
     uint8_t used = 0, damaged = 0;
-    for (uint16_t number = 1; number < PAGE_COUNT; number++) {
+    for (uint16_t number = 0; number < PAGE_COUNT; number++) {
         const uint8_t page = (uint8_t)number;
         play_service(); /* a page without a line takes up to 2 ms */
         if (page_store_is_good(&the_play.pages, page)) {
             uint8_t header[PAGE_AT_COMPLIANCE];
             page_store_read(page, 0, header, sizeof header);
-            if (header[PAGE_AT_NAME] == '\0' && header[PAGE_AT_STEPS] == 0) {
-                continue;
+            if (page == 0 || (header[PAGE_AT_NAME] == '\0' && header[PAGE_AT_STEPS] == 0)) {
+                continue;   /* page 0, the trim, is told only when it is damaged */
             }
             used++;
             print_page_line(page, header);

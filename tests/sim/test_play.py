@@ -133,6 +133,18 @@ def test_trim_of_page_0_is_added():
     assert (board.servos[1].goal, board.servos[2].goal, board.servos[3].goal) == (517, 505, 512)
 
 
+def test_a_damaged_trim_page_is_told_and_an_erased_one_is_none():
+    board = robot(pages=Image.empty().to_bytes())
+    assert b"damaged" not in board.console and ask(board, "list") == "0 pages, 0 damaged\n OK"
+    damaged = bytearray(Image.empty().to_bytes())
+    damaged[200] ^= 1
+    board = robot(pages=bytes(damaged))
+    assert b"Page 0 is damaged: no trim\r\n" in board.console
+    assert ask(board, "list") == "  0 damaged: checksum is wrong\n0 pages, 1 damaged\n OK"
+    board = robot(pages=b"\xff" * 512 + bytes(damaged[512:]))
+    assert b"damaged" not in board.console
+
+
 # --- the approach ---
 
 
