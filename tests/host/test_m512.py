@@ -2,13 +2,14 @@
 """m512 -p bus:...: the commands of m512 with a program of this PC in place of a board."""
 
 import os
+import re
 import subprocess
 import sys
 
 import pytest
 
 from m512.files.image import Image
-from tests.host.pc_robot import GOAL, SYNC_WRITE
+from tests.host.pc_robot import GOAL, SYNC_WRITE, until
 from tests.sim.made_page import page
 
 
@@ -17,6 +18,7 @@ def motions(tmp_path):
     image = Image.empty()
     image[1] = page("ready", [(40, {1: 480, 2: 544})])
     image[2] = page("bow", [(40, {11: 600, 12: 424}), (40, {})])
+    image[3] = page("nod", [(64, {1: 600}), (64, {1: 424})], next=3)
     path = tmp_path / "motions.bin"
     path.write_bytes(image.to_bytes())
     return path
@@ -28,23 +30,27 @@ def m512(make, tmp_path):
     robot = make()
     environment = dict(os.environ, M512_ROBOT=str(tmp_path / "robot"))
 
-    def run(*words, code=0, bus=f"bus:{robot.port}"):
-        done = subprocess.run(
-            [sys.executable, "-m", "m512", *(str(word).replace("BUS", bus) for word in words)],
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            text=True,
-            env=environment,
-        )
-        assert done.returncode == code, done.stdout + done.stderr
-        return done.stdout + done.stderr
+    def start(*words, bus=f"bus:{robot.port}"):
+        command = [sys.executable, "-m", "m512", *(str(word).replace("BUS", bus) for word in words)]
+        pipe = subprocess.PIPE
+        started.append(subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=pipe, stderr=pipe, text=True, env=environment))
+        return started[-1]
 
-    run.robot = robot
-    return run
+    def run(*words, code=0, **how):
+        process = start(*words, **how)
+        said = "".join(process.communicate())
+        assert process.returncode == code, said
+        return said
+
+    run.robot, run.start, started = robot, start, []
+    yield run
+    for process in started:
+        process.kill()
+        process.communicate()
 
 
 def test_pages_go_in_and_come_back_and_play(m512, motions, tmp_path):
-    assert "saved: pages 1 2" in m512("put", motions, "all", "-p", "BUS")
+    assert "saved: pages 1 2 3" in m512("put", motions, "all", "-p", "BUS")
     assert "they were there already" in m512("put", motions, "all", "-p", "BUS")
     listed = m512("pages", "BUS", "list")
     assert "ready" in listed and "bow" in listed
@@ -83,3 +89,27 @@ def test_what_would_end_with_the_program_is_refused(m512, words):
     said = m512(*words, "-p", "BUS", code=5)
     assert "ends with this command" in said and "m512 term" in said
     assert not m512.robot.frames()
+
+
+def playing(m512, motions):
+    """m512 while it plays a page without an end."""
+    m512("put", motions, "all", "-p", "BUS")
+    process = m512.start("play", "nod", "--wait", "-p", "BUS")
+    while "playing: page 3" not in process.stderr.readline():
+        assert process.poll() is None
+    return process
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux ends a child with its parent")
+def test_the_program_ends_softly_with_an_m512_that_was_killed(m512, motions):
+    process = playing(m512, motions)
+    until(lambda: any(goal.get(1, 512) != 512 for goal in m512.robot.frames()), "nothing moves")
+    said = m512("stop", "--now", "-p", "BUS", code=6)
+    program = re.search(r"in use by another program.*\(motion512-play, process (\d+)\)", said)
+    assert program, said
+    process.kill()
+    until(lambda: not os.path.exists(f"/proc/{program[1]}"), "the program goes on")
+    frames = m512.robot.frames()
+    ways = [max(abs(after[joint] - before[joint]) for joint in before) for before, after in zip(frames, frames[1:])]
+    assert ways[-1] <= 1 and max(ways) <= 12  # slows down to a stand
+    m512("pose", "-p", "BUS")

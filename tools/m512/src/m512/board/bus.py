@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import IO
 
 from m512 import ui
+from m512.board.child import ending_with_this
 from m512.errors import EXIT_BAD_FILE, FileError, M512Error, MissingError, PortError, RefusedError
 from m512.places import build_folder
 
@@ -75,8 +76,19 @@ def find_program(image: str) -> Path:
     )
 
 
+def _holder(path: str) -> str:
+    """The program that has locked a file or folder, as " (NAME, process PID)", where Linux tells it, else an empty text."""
+    try:
+        inode = os.stat(path).st_ino
+        holder = re.search(rf"FLOCK .* (\d+) \S+:{inode} ", Path("/proc/locks").read_text())
+        return f" ({Path(f'/proc/{holder[1]}/comm').read_text().strip()}, process {holder[1]})" if holder else ""
+    except OSError:
+        return ""
+
+
 class Program:
-    """Play or Edit on an adapter. `console` is the port to talk to. Other output of the program is shown as notes."""
+    """Play or Edit on an adapter. `console` is the port to talk to. Other output of the program is shown as notes. `was_unplugged`: the
+    program has reported that the adapter is gone; certain after close()."""
 
     def __init__(self, word: str, image: str):
         device, rate = parts(word)
@@ -86,11 +98,16 @@ class Program:
         self.word = word
         # A session of its own: Ctrl-C reaches only m512, which ends the program after its own last request.
         self.process = subprocess.Popen(
-            command + [device], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True
+            command + [device],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            start_new_session=True,
+            preexec_fn=ending_with_this(signal.SIGTERM),  # brings the robot to a halt
         )
         assert self.process.stderr is not None
         self.errors: IO[bytes] = self.process.stderr
-        self.said = ""
+        self.said, self.was_unplugged = "", False
         try:
             self.console = self._wait_for_console()
         except BaseException:  # Ctrl-C as well: a program left behind would keep the adapter and the robot's folder
@@ -117,6 +134,9 @@ class Program:
         """The error for a program that ended instead of opening its console."""
         self.close()
         text = self._in_our_words(self.said.strip().splitlines()[-1]) if self.said.strip() else "the program did not start"
+        in_use = re.match(r"(.+): in use by another program", text)
+        if in_use:
+            return PortError(text + _holder(in_use[1]))
         return FileError(text) if self.process.returncode == EXIT_BAD_FILE else PortError(text)
 
     def _in_our_words(self, line: str) -> str:
@@ -124,6 +144,7 @@ class Program:
         text = re.sub(r"^motion512-\w+: ", "", line)
         text = re.sub(r"^--rate \d+: ", lambda _: f"{self.word}: the rate is ", text)
         text = text.replace("--off, or m512 torque off", f"m512 torque off -p {self.word}")
+        text = re.sub("(say )?`on`", f"`m512 torque on -p {self.word}` (in `m512 term`: on)", text)
         return text.replace("with --robot", "in M512_ROBOT").replace("--robot", "M512_ROBOT")
 
     def _tell(self) -> None:
@@ -132,6 +153,7 @@ class Program:
         while True:
             *lines, rest = rest.replace("\r", "\n").split("\n")
             for line in lines:
+                self.was_unplugged |= "the servo adapter" in line and "is gone" in line
                 text = self._in_our_words(line.strip())
                 if text:
                     ui.say(f"note: {text}")

@@ -9,7 +9,6 @@ The search order for cm5sim: $M512_CM5SIM, the source tree that holds this packa
 
 from __future__ import annotations
 
-import ctypes
 import os
 import re
 import select
@@ -20,9 +19,9 @@ import sys
 import tempfile
 import time
 from pathlib import Path
-from typing import Callable
 
 from m512 import ui
+from m512.board.child import ending_with_this
 from m512.board.client import Client
 from m512.board.link import Link
 from m512.board.memory import BOARDS, Record
@@ -36,7 +35,6 @@ START_SECONDS = 300.0
 SOON = (0.6, 1.5, 4.0, 15.0)  # time limits in seconds of the first requests; the first is sent before the board listens
 LATER = (60.0, 220.0)  # limits after a note to the user; all together five minutes
 SLACK_SECONDS = 300.0
-SET_PARENT_DEATH_SIGNAL = 1  # PR_SET_PDEATHSIG of linux/prctl.h
 
 
 def find_cm5sim() -> Path:
@@ -87,14 +85,6 @@ def our_motions() -> Path | None:
     return next((place for place in places if place.exists()), None)
 
 
-def _ending_with_its_parent() -> Callable[[], None] | None:
-    """A function that ties a child process to this one on Linux: it ends with this process, even after kill -9. None on other systems."""
-    if sys.platform != "linux":
-        return None
-    libc = ctypes.CDLL(None)
-    return lambda: libc.prctl(SET_PARENT_DEATH_SIGNAL, signal.SIGKILL)
-
-
 class Simulator:
     """cm5sim with its console on a pty, with our motions unless others are given. Use as a context manager; `url` is the port."""
 
@@ -116,7 +106,7 @@ class Simulator:
                 stderr=subprocess.STDOUT,
                 stdin=subprocess.DEVNULL,
                 pass_fds=(area.fileno(),),
-                preexec_fn=_ending_with_its_parent(),
+                preexec_fn=ending_with_this(signal.SIGKILL),
             )
         self.said = b""
         try:
