@@ -113,3 +113,12 @@ def test_the_program_ends_softly_with_an_m512_that_was_killed(m512, motions):
     ways = [max(abs(after[joint] - before[joint]) for joint in before) for before, after in zip(frames, frames[1:])]
     assert ways[-1] <= 1 and max(ways) <= 12  # slows down to a stand
     m512("pose", "-p", "BUS")
+
+
+def test_an_adapter_pulled_during_a_play_is_a_lost_port(m512, motions):
+    process = playing(m512, motions)
+    m512.robot.pull()
+    _, said = process.communicate()
+    assert process.returncode == 6, said
+    assert "was unplugged" in said and "`m512 torque on -p bus:" in said and "say `on`" not in said
+    assert "no such port" in m512("play", "nod", "-p", "BUS", code=6)

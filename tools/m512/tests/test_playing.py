@@ -100,6 +100,16 @@ def test_a_robot_that_no_longer_answers_is_said_to_go_on(m512, mute, words):
     assert result.exit_code == 7 and "goes on" in result.stderr and "m512 stop" in result.stderr, result.stderr
 
 
+@pytest.mark.parametrize("board, says", [("cm5", "then search again"), ("pc", "then repeat the command")])
+def test_servos_without_power_are_said_in_words_that_help_there(m512, board, says):
+    """The program for an adapter ends with the command, and nobody can type `servos find` into it."""
+    with PlayPeer() as robot:
+        robot.do_ver = lambda: f"image=play board={board} version=1.0 pages=128 OK"
+        robot.do_play = lambda *_: "ERR 3 No servo answers: check power and cable, then search again"
+        result = m512("play", "2", "-p", robot.path)
+    assert result.exit_code == 8 and says in result.stderr, result.stderr
+
+
 @pytest.mark.parametrize("quiet, exit_code", [((), 0), (("play", "where", "stop"), 7)])
 def test_a_drive_plays_its_page_or_says_that_it_may_go_on(m512, monkeypatch, quiet, exit_code):
     from contextlib import contextmanager

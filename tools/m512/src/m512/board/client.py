@@ -100,6 +100,8 @@ class Client:
             text = f"{image.capitalize()} does not know {word}" + (f", {other} does" if other else "")
             if other and self.version.get("board") != "pc":  # the programs for an adapter cannot be flashed
                 text += f": m512 run {self.file_of(other)}"
+        if self.version.get("board") == "pc":  # each command starts the program anew, and that searches
+            text = text.replace("then search again", "then repeat the command")
         error = BoardError(text or f"error {number}", number)
         if number == ERR_EMPTY and rest:
             error = BoardError(f"page {rest[0]} has no action: there is nothing to play", number)

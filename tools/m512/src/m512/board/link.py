@@ -7,16 +7,21 @@ Every fault of the line becomes a PortError that says what to check. Nothing her
 from __future__ import annotations
 
 import time
-from typing import Any, Callable
+from typing import TYPE_CHECKING, Any, Callable
 from urllib.parse import urlsplit
 
-from m512.errors import NoAnswerError, PortError
+from m512.errors import M512Error, NoAnswerError, PortError
+
+if TYPE_CHECKING:
+    from m512.board.bus import Program
 
 BAUD = 57600
 Trace = Callable[[str, bytes], None]
 
 
 class Link:
+    program: Program | None = None  # of a bus: word
+
     def __init__(self, url: str, trace: Trace | None = None, image: str = "play"):
         """image: the program to run for a bus: word (bus.py)."""
         import serial
@@ -42,8 +47,15 @@ class Link:
     def __enter__(self) -> Link:
         return self
 
-    def __exit__(self, *_exc: object) -> None:
+    def __exit__(self, kind: type[BaseException] | None, *_exc: object) -> None:
+        """PortError: the adapter of a bus: word was unplugged meanwhile, which is the reason for any other error."""
+        program = self.program
         self.close()
+        if program and program.was_unplugged and (kind is None or issubclass(kind, M512Error)):
+            raise PortError(
+                f"the servo adapter of {self.url} was unplugged, and what played was broken off. Check its plug and cable, then "
+                f"`m512 torque on -p {self.url}`, then repeat the command"
+            ) from None
 
     def close(self) -> None:
         _let_others_in(self.port)
