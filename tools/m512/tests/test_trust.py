@@ -146,6 +146,18 @@ def test_hex_without_its_end_is_refused(tmp_path):
         formats.load(tmp_path / "x.hex")
 
 
+def test_two_hex_files_in_one_are_refused(tmp_path):
+    """The definition of Intel HEX lets nothing follow the end record. Everything behind it was once lost without a word."""
+    first = hex_file(tmp_path / "a.hex", (0xE000 + 512, bytes(read_text(TEXT)[3]))).read_text()
+    second = hex_file(tmp_path / "b.hex", (0xE000 + 1024, bytes(read_text(TEXT)[3]))).read_text()
+    (tmp_path / "x.hex").write_text(first + second)
+    for reads in (plan, formats.load):
+        with pytest.raises(FileError, match=f"not one Intel HEX file.*line {first.count(chr(10))}.*two files"):
+            reads(tmp_path / "x.hex")
+    (tmp_path / "x.hex").write_text(first + "\n\x1a")  # the end of a file of MS-DOS
+    assert formats.load(tmp_path / "x.hex").given == {1}
+
+
 def test_hex_with_some_motion_pages_changes_only_those(tmp_path):
     page = bytes(read_text(TEXT)[3])
     found = plan(hex_file(tmp_path / "x.hex", (0xE000 + 3 * 512, page), (0xE000 + 9 * 512, page)))

@@ -137,8 +137,15 @@ def hex_segments(text: str) -> list[tuple[int, bytes]]:
     """Intel HEX text as [(address, bytes)], ascending, adjacent pieces joined. FileError: not a valid or complete file."""
     from intelhex import IntelHex, IntelHexError
 
-    if not re.search(r"^:00[0-9A-Fa-f]{4}01", text, re.M):
+    end = re.search(r"^:00[0-9A-Fa-f]{4}01.*", text, re.M)
+    if not end:
         raise FileError("not a whole Intel HEX file: its end record is missing, so its end may be")
+    if re.search(r"^\s*:", text[end.end() :], re.M):
+        line = text.count("\n", 0, end.end()) + 1
+        raise FileError(
+            f"not one Intel HEX file: more follows its end record in line {line}. Are these two files? Separate them; "
+            "`m512 pages A.hex merge B.hex all` joins the motions of two"
+        )
     hexfile = IntelHex()
     try:
         hexfile.loadhex(StringIO(text))
