@@ -75,6 +75,25 @@ def test_convert_12_bit_there_and_back_is_within_rounding():
     assert down.to_bytes() == image.to_bytes() and up[1].word(0, 0) == 341  # 2048 - 512 / 0.3
 
 
+@pytest.mark.parametrize("steps", [0, 2])
+def test_a_trim_is_scaled_with_the_positions(m512, tmp_path, steps):
+    """100 and -5 units of 10 bits are 29.3 and -1.5 degrees, which 12 bits express by 333 and -17 units of 0.088 degrees."""
+    image = Image.empty()
+    image[0].steps = steps
+    for joint, words in {1: (0x4000, 0x4000, 100), 2: (0x4000, 0x4000, -5 & 0xFFFF), 3: (512, 501, -11 & 0xFFFF)}.items():
+        for step, word in enumerate(words):
+            image[0].set_word(step, joint, word)
+    image[0].seal()
+    formats.save(tmp_path / "x.bin", image)
+    result = m512("convert", tmp_path / "x.bin", tmp_path / "y.bin", "--bits", "10", "--scale", "12")
+    scaled = formats.load(tmp_path / "y.bin", 12)
+    page = scaled[0]
+    assert page.trims()[:4] == [0, 333, -17, -37] and "3 trims of page 0 scaled" in result.stderr, result.stderr
+    assert [page.word(step, 3) for step in (0, 1)] == [2048, 2011] and not page.fault(scaled.kind), "501 is 11 units from 512, 36.7 of 12 bits"
+    m512("convert", tmp_path / "y.bin", tmp_path / "z.bin", "--bits", "12", "--scale", "10")
+    assert (tmp_path / "z.bin").read_bytes() == (tmp_path / "x.bin").read_bytes()
+
+
 def image_of(bits, pages, high=None):
     """Pages of two steps about the centre for `bits`. `high`: the page with one position beyond 1023."""
     image = Image.empty(256)

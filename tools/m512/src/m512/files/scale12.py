@@ -11,7 +11,7 @@ from fractions import Fraction
 
 from m512.files.image import TWELVE_BIT_MAX, Image
 from m512.files.page import JOINTS, POS_UNUSED, STEPS, Fault, Page, is_used
-from m512.files.wording import pages_text
+from m512.files.wording import counted, pages_text
 
 SHOWN = 4  # clipped positions reported one by one
 HINT = "m512 convert --bits 12 --scale 10 makes it fit a board of 10 bits"
@@ -49,7 +49,10 @@ def scaled(image: Image, bits: int) -> tuple[Image, list[str]]:
         if page.fault() is Fault.CHECKSUM:
             work.damaged.append(number)
             continue
-        work.scale_page(number, page)
+        if number == 0 and page.steps <= 2:
+            work.scale_trim(page)
+        else:
+            work.scale_page(number, page, page.steps)
         page.seal()
     return out, work.report(image.bits)
 
@@ -61,13 +64,24 @@ class _Work:
         self.bits = bits
         self.factor = Fraction(3, 10) if bits == 10 else Fraction(10, 3)
         self.top_in, self.centre_in, self.centre, self.top = (4095, 2048, 512, 1023) if bits == 10 else (1023, 512, 2048, 4095)
-        self.count, self.worst = 0, Fraction(0)
+        self.count, self.trims, self.worst = 0, 0, Fraction(0)
         self.damaged: list[int] = []
         self.cut: list[tuple[int, int, str]] = []  # page, joint, in words
         self.impossible: list[tuple[int, int]] = []  # page, joint
 
-    def scale_page(self, number: int, page: Page) -> None:
-        for step in range(min(page.steps, STEPS)):
+    def scale_trim(self, page: Page) -> None:
+        """Page 0 as the robot reads it: two poses, and the trim in the third step. Where the trim is the difference of the poses, it stays so."""
+        before, trims = page.copy(), page.trims()
+        self.scale_page(0, page, 2)
+        for joint, trim in enumerate(trims):
+            if trim:
+                master, own = page.word(0, joint), page.word(1, joint)
+                is_difference = is_used(master) and is_used(own) and trim == before.word(1, joint) - before.word(0, joint)
+                page.set_word(2, joint, (own - master if is_difference else round_away(self.factor * trim)) & 0xFFFF)
+                self.trims += 1
+
+    def scale_page(self, number: int, page: Page, steps: int) -> None:
+        for step in range(min(steps, STEPS)):
             for joint in range(JOINTS):
                 word = page.word(step, joint)
                 if is_used(word) and word > self.top_in:
@@ -94,6 +108,8 @@ class _Work:
                 f"{self.count} positions scaled from {bits_before} to {self.bits} bits; rounding moved none by more than "
                 f"{float(self.worst):.2g} units",
             )
+        if self.trims:
+            out.append(f"{counted(self.trims, 'trim')} of page 0 scaled and rounded")
         if self.cut:
             out.append(
                 f"{len(self.cut)} positions cut at the end of the range: IDs {_ids(joint for _, joint, _ in self.cut)} in "
