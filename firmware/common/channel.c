@@ -64,6 +64,12 @@ static bool take_crc(char *line, uint8_t length)
     return fits;
 }
 
+const char *channel_line(void)
+{
+    channel.line[channel.length] = '\0';
+    return &channel.line[1];
+}
+
 char *channel_take(uint8_t *fault)
 {
     char *line = &channel.line[1];

@@ -36,6 +36,9 @@ bool channel_is_open(void);
 /* Whether an unfinished request has been silent for 250 ms. Then call requests_answer_channel. */
 bool channel_is_cut_off(void);
 
+/* The line of the request so far. Before channel_take it ends in the CRC, if that came. */
+const char *channel_line(void);
+
 /* Ends the request and returns its line without the CRC, valid until the next byte. fault: SHELL_OK, or SHELL_ERR_LOSSY
  * if the CRC is wrong. */
 char *channel_take(uint8_t *fault);

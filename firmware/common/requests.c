@@ -373,7 +373,7 @@ void requests_answer_channel(void)
     channel_print_end();
 }
 
-void requests_run_typed(shell_args_t *args, const shell_command_t *typed_P, uint8_t typed_count)
+bool requests_run_typed(shell_args_t *args, const shell_command_t *typed_P, uint8_t typed_count)
 {
     requests_set_program(false);
     uint8_t result = look_up(requests_image.own->rows_P, requests_image.own->count, args);
@@ -385,4 +385,5 @@ void requests_run_typed(shell_args_t *args, const shell_command_t *typed_P, uint
         TEXT(": try help");
     }
     text_line_end();
+    return result == REQUEST_OK;
 }

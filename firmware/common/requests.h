@@ -74,8 +74,9 @@ void requests_line(char *line, uint8_t fault);
 /* The same for a completed request in the channel (channel.h). */
 void requests_answer_channel(void);
 
-/* Runs a typed line, whose word is in requests_image.own or in `typed_P`. Programs cannot use the words of `typed_P`. */
-void requests_run_typed(shell_args_t *args, const shell_command_t *typed_P, uint8_t typed_count);
+/* Runs a typed line, whose word is in requests_image.own or in `typed_P`. Programs cannot use the words of `typed_P`.
+ * false: it was refused. */
+bool requests_run_typed(shell_args_t *args, const shell_command_t *typed_P, uint8_t typed_count);
 
 /* ---- @watch: periodic lines with the state of the robot ---- */
 

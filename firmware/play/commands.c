@@ -187,11 +187,9 @@ static uint8_t do_help(const shell_args_t *args)
     return REQUEST_OK;
 }
 
-void commands_run(void)
+bool commands_run(void)
 {
     shell_args_t args;
     shell_split(&the_play.shell, false, &args);
-    if (args.count > 0) {
-        requests_run_typed(&args, typed, ARRAY_COUNT(typed));
-    }
+    return args.count == 0 || requests_run_typed(&args, typed, ARRAY_COUNT(typed));
 }

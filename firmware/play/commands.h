@@ -9,7 +9,7 @@
 /* For persons and, with '@' in front, for programs. */
 extern const requests_table_t commands_shared;
 
-/* Runs the shell's complete line and prints its answer with CR LF. */
-void commands_run(void);
+/* Runs the shell's complete line and prints its answer with CR LF. false: it was refused. */
+bool commands_run(void);
 
 #endif

@@ -126,6 +126,29 @@ static bool is_obeyed_with_losses(const char *line)
     return strcasecmp_P(line, PSTR("stop")) == 0 || strcasecmp_P(line, PSTR("break")) == 0;
 }
 
+typedef void (*end_t)(performer_t *performer);
+
+/* What the last letters of a line ask for; NULL: no end. They may stand behind noise or behind a piece of a torn line. */
+static end_t end_of(const char *line)
+{
+    const size_t length = strlen(line);
+    if (length >= 4 && strcasecmp_P(line + length - 4, PSTR("stop")) == 0) {
+        return performer_stop;
+    }
+    return length >= 5 && strcasecmp_P(line + length - 5, PSTR("break")) == 0 ? performer_break : NULL;
+}
+
+/* The line was refused. If it was to end a play, the play ends all the same. */
+static void end_all_the_same(end_t end)
+{
+    performer_t *performer = &the_play.performer;
+    if (end != NULL && (!performer_is_still(performer) || performer_layers_joints(performer) != 0)) {
+        end(performer);
+        TEXT("Stopping all the same");
+        text_line_end();
+    }
+}
+
 static void type(uint8_t byte)
 {
     const shell_event_t event = shell_byte(&the_play.shell, byte);
@@ -133,13 +156,19 @@ static void type(uint8_t byte)
         return;
     }
     text_line_end();
+    const end_t end = end_of(the_play.line);
+    bool is_done = false;
     if (the_play.line[0] == '@') {
+        is_done = event == SHELL_LINE;
         requests_line(the_play.line, the_play.shell.fault);
     } else if (event == SHELL_LINE || is_obeyed_with_losses(the_play.line)) {
-        commands_run();
+        is_done = commands_run();
     } else {
         shell_print_refusal(the_play.shell.fault);
         text_line_end();
+    }
+    if (!is_done) {
+        end_all_the_same(end);
     }
     shell_clear(&the_play.shell);
     prompt();
@@ -167,9 +196,13 @@ static void take_typed(void)
     case CHANNEL_NONE:
         type(byte);
         break;
-    case CHANNEL_LINE:
+    case CHANNEL_LINE: {
+        /* Digits end every good request. */
+        const end_t end = end_of(channel_line());
         requests_answer_channel();
+        end_all_the_same(end);
         break;
+    }
     default:
         break;
     }

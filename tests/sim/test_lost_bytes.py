@@ -59,6 +59,48 @@ def test_play_obeys_stop_and_break_all_the_same(word):
     assert "Nothing is playing" in ask(board, "stop")
 
 
+@pytest.mark.parametrize(
+    "before, behind, refusal, ends",
+    [
+        ("ser", "vstop\r", LOST, "Stopped after"),
+        ("@ser", "vstop\r", "@servstop ERR 15 " + LOST, "Stopped after"),
+        ("\x1e@sto", "stop\r", "ERR 15 " + LOST, "Stopped after"),
+        ("ser", "vBREAK\r", LOST, "Broken off in"),
+    ],
+)
+def test_play_stops_behind_a_piece_of_a_torn_line(before, behind, refusal, ends):
+    board = robot()
+    ask(board, "play 4")
+    board.run(ms=3000)
+    board.take()
+    if before[0] == "\x1e":
+        board.send(before + behind)
+    else:
+        garble(board, before, behind)
+    assert refusal + "\r\nStopping all the same\r\n" in board.expect(ends, ms=6000)
+
+
+@pytest.mark.parametrize("line", ["play 2\xffstop", "play 2?stop", "play stop"])
+def test_play_stops_at_a_refused_line_that_ends_in_stop(line):
+    board = robot()
+    ask(board, "play 4")
+    board.run(ms=3000)
+    board.take()
+    board.send(line.encode("latin-1") + b"\r")
+    assert "Stopping all the same\r\n" in board.expect("Stopped after", ms=6000)
+    board.run(ms=1000)
+    assert "Stopping" not in ask(board, line)  # nothing moves
+
+
+def test_play_goes_on_at_an_accepted_line_that_ends_in_stop():
+    board = robot()
+    ask(board, "play 4")
+    board.run(ms=3000)
+    assert ask(board, "help stop").startswith("stop  ")
+    board.run(ms=3000)
+    assert ask(board, "status").startswith("Playing page 4")
+
+
 def test_play_does_not_make_one_line_of_two():
     """The sender ignores XOFF while a long list is printed. None of its lines restarts the robot, but two merged into `@reset` would."""
     board = robot()

@@ -158,7 +158,8 @@ static void look(void)
     for (char *at = strtok(copy, " ,.:;"); at != NULL; at = strtok(NULL, " ,.:;"), count++) {
         word[count < 8 ? count : 7] = at;
     }
-    if (count == 0 || replies.lines == 0 || strstr(replies.last, ": nothing was done") != NULL) {
+    if (count == 0 || replies.lines == 0 || strstr(replies.last, ": nothing was done") != NULL ||
+        strcmp(replies.last, "Stopping all the same") == 0) {
         return;
     }
     if (replies.asked[0] == '@') {
