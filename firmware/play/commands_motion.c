@@ -220,7 +220,13 @@ uint8_t commands_do_layer(const shell_args_t *args)
             return status;
         }
     }
-    return answer_of(performer_layer(&the_play.performer, (uint8_t)page, joints));
+    const layers_status_t status = performer_layer(&the_play.performer, (uint8_t)page, joints);
+    const uint32_t by_code = the_play.layers.code.joints;
+    if (status == LAYERS_ERR_JOINTS && (joints != 0 ? by_code & joints : by_code) != 0) {
+        return requests_refuse(REQUEST_ERR_SERVOS,
+                               TEXT_P("None of these servos can be moved: missing, off, or moved by code (free first)"));
+    }
+    return answer_of(status);
 }
 
 uint8_t commands_do_aim(const shell_args_t *args)

@@ -68,6 +68,15 @@ def test_refused_layers_say_one_sentence_and_change_nothing():
     assert ask(board, "layer 34") == "A layer needs a page that plays"
 
 
+def test_a_layer_on_joints_moved_by_code_is_told_so():
+    board = looping()
+    said = "None of these servos can be moved: missing, off, or moved by code (free first)"
+    assert ask(board, "aim 5 600") == " OK"
+    assert ask(board, "layer 34 5") == said
+    assert ask(board, "@layer 34 5") == "@layer ERR 7 " + said
+    assert ask(board, "free 5") == " OK" and ask(board, "layer 34 5") == " OK"
+
+
 def test_break_pause_and_a_silent_servo_hold_both_plays():
     for how in ("break", "pause", "fault"):
         board = looping()
