@@ -329,6 +329,21 @@ def test_lamps():
     assert board.leds == {"power"}
 
 
+@pytest.mark.parametrize("fault", ["overload", "overheating"])
+def test_aux_goes_out_when_the_servo_is_well_and_on_again(fault):
+    board = robot()
+    ask(board, "on")
+    board.servos[5].fault(fault)
+    board.run(ms=2000)
+    assert "aux" in board.leds
+    board.servos[5].clear()
+    board.run(ms=2000)
+    assert "aux" in board.leds  # its torque is off
+    ask(board, "on")
+    board.run(ms=1000)
+    assert board.servos[5].torque and "aux" not in board.leds
+
+
 # --- text delays nothing ---
 
 
