@@ -14,6 +14,7 @@ import type { Curve } from '../model/motion.ts';
 import { heading, multiply, rotate, turn } from '../model/space.ts';
 import type { Place } from '../model/space.ts';
 import { Standing } from '../sim/standing.ts';
+import { isEditing } from '../view/editor/editing.ts';
 import type { SessionState } from '../view/session/session.ts';
 import type { Editor } from '../view/session/editor.ts';
 import type { Figure, Preview, PreviewState, ShownPose } from '../view/session/preview.ts';
@@ -116,7 +117,9 @@ export class MotionPreview implements Preview {
             const isAside = parts.isFollowing() || editor.state.get().gesture !== null || (this.state.get().isRunning && parts.isStoodUp());
             if (isMoving && !this.isRobotMoving && !isAside) this.showRobot();
             this.isRobotMoving = isMoving;
-            if (tab !== tabBefore && !isMoving && this.state.get().figure === 'robot') this.showStep(); // a changed tab shows the step
+            const { figure, isRunning } = this.state.get();
+            const isOver = figure === 'robot' || (figure === 'shown' && !isRunning && !isEditing(tab));
+            if (tab !== tabBefore && !isMoving && isOver) this.showStep(); // a changed tab shows the step
             tabBefore = tab;
         });
     }
@@ -139,7 +142,7 @@ export class MotionPreview implements Preview {
     }
 
     pause(): void {
-        this.become(this.state.get().figure, { isRunning: false });
+        if (this.state.get().figure === 'shown') this.rest();
     }
 
     seek(page: number, tick: number): void {
@@ -221,9 +224,15 @@ export class MotionPreview implements Preview {
         else if (isLooping) return this.run(0);
         else {
             this.goTo(ticks - 1);
-            return this.become('shown', { isRunning: false });
+            return this.rest();
         }
         this.ask();
+    }
+
+    /** The motion ends or is paused. Its pose stays in the picture only where steps are edited: elsewhere people look at the robot. */
+    private rest(): void {
+        if (isEditing(this.parts.state.get().tab)) this.become('shown', { isRunning: false });
+        else this.showStep();
     }
 
     private goTo(tick: number): void {

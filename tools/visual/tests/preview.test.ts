@@ -19,7 +19,7 @@ const TRUNK = { pos: [2, 1, 0.3], quat: [Math.SQRT1_2, 0, 0, Math.SQRT1_2] } as 
 async function shown() {
     const events = { changed: () => undefined, refused: () => undefined, opened: () => undefined };
     const editor = new DocumentEditor(body, { format, player: await makeMotion(), document: await libraryDocument() }, events);
-    const state = new Store<SessionState>({ where: null, shownPage: null } as SessionState);
+    const state = new Store<SessionState>({ where: null, shownPage: null, tab: 'steps' } as SessionState);
     const hand = { holds: false };
     let frames: ((nowMs: number) => void)[] = [];
     let nowMs = 1000;
@@ -77,6 +77,36 @@ test('at its end it stands still; looping, it goes on', async () => {
     pass(0);
     pass(60_000);
     expect(preview.state.get().isRunning).toBe(true);
+});
+
+test('whoever leaves the steps after a motion was shown sees the robot; a motion that still runs is shown to its end', async () => {
+    const { state, preview, pass } = await shown();
+    preview.start(WAVE);
+    pass(0);
+    pass(60_000);
+    state.set({ tab: 'curves' });
+    expect(preview.state.get().figure).toBe('shown');
+    state.set({ tab: 'robot' });
+    expect(preview.pose()).toBe(null);
+    expect(state.get().shownPage).toBe(null);
+
+    preview.start(WAVE);
+    pass(0);
+    pass(300);
+    state.set({ tab: 'remote' });
+    expect(preview.pose()).not.toBe(null);
+    pass(60_000);
+    expect(preview.pose()).toBe(null);
+});
+
+test('a motion that is stopped where nothing is edited gives the picture back', async () => {
+    const { state, preview, pass } = await shown();
+    state.set({ tab: 'remote' });
+    preview.start(WAVE);
+    pass(0);
+    pass(300);
+    preview.pause();
+    expect(preview.pose()).toBe(null);
 });
 
 test('from a step: its first tick; the scrubber stands still where it is put', async () => {
