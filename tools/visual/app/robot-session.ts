@@ -292,8 +292,17 @@ export class RobotSession implements Session {
     }
 
     async command(what: Command): Promise<void> {
-        if (what === 'stop' || what === 'break') this.dropWaiting();
-        await this.act(() => command(this.connection.requests, what));
+        const stops = what === 'stop' || what === 'break';
+        if (stops) this.dropWaiting();
+        const { isPowered, connection } = this.state.get();
+        const isStarting = this.isSimulated && isPowered && connection !== 'ready';
+        await this.act(async () => {
+            try {
+                await command(this.connection.requests, what);
+            } catch (error) {
+                if (!stops || !isStarting) throw error; // one that starts does not answer yet, and nothing moves
+            }
+        });
     }
 
     setTorque(on: boolean, servos: readonly number[] = []): Promise<boolean> {

@@ -75,7 +75,7 @@ export class ActionBar extends HTMLElement {
         };
         keepFocus(this, () =>
             this.replaceChildren(
-                this.button(TEXTS.page.stop, isReady, () => void this.session.command('stop'), 'stop'),
+                this.button(TEXTS.page.stop, true, () => void this.session.command('stop'), 'stop'), // also for what waits until it is ready
                 ...(state.source === 'simulated' ? [this.letGo] : []),
                 ...BUTTONS.flatMap(([name, kind]) => plays(name, TEXTS.actions[name], kind)),
                 ...(state.source === 'simulated'

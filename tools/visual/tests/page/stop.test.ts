@@ -30,6 +30,7 @@ test('Stop takes back what waits until the robot stands: "Walk it", "Push it", a
     await person.leave();
     const other = await Visitor.come(suite.browser, suite.address, { isNew: true, hasPicture: false });
     await other.button('Push it').click();
+    expect(await other.button('Stop').isEnabled()).toBe(true); // while the robot starts
     await other.button('Stop').click();
     await other.untilStanding();
     await other.button('Wave').click();
