@@ -12,6 +12,7 @@ import { askList } from '../robot/protocol.ts';
 import { PageWrite } from '../robot/page-write.ts';
 import type { PageToWrite } from '../robot/page-write.ts';
 import { MOTIONS_ADDRESS } from '../sim/board.ts';
+import type { TransferState } from '../view/session/transfer.ts';
 import { transferText } from '../view/texts/editor.ts';
 import { libraryDocument, makeFormat, must } from './motion-bench.ts';
 import { RobotBench } from './robot-bench.ts';
@@ -430,4 +431,11 @@ test('a framing error in the middle of an answer does not end the talk', async (
     bench.port.garble();
     expect(await bench.until(asked)).toContainEqual({ page: 2, name: 'bow', steps: expect.any(Number), fault: '' });
     expect(connection.state).toBe('ready');
+});
+
+test('while the time of the robot in the page stands still, the sentence says why nothing goes on', () => {
+    const state = { phase: 'reading', done: 0, total: 0, account: new Map(), trouble: null } as unknown as TransferState;
+    expect(transferText(state)).not.toContain('time stands still');
+    expect(transferText(state, false)).toBe('Asking the robot which motions it has … · time stands still');
+    expect(transferText({ ...state, phase: 'idle' }, false)).toBe('');
 });

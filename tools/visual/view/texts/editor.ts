@@ -40,8 +40,14 @@ export function codeText(code: number): string {
         .join(' + ');
 }
 
-/** State of the transfer in one sentence; '' when idle. */
-export function transferText({ phase, done, total, account, trouble }: TransferState): string {
+/** State of the transfer in one sentence; '' when idle. hasTime: false while the time of the robot in the page stands still, when nothing of
+ *  it goes on. */
+export function transferText(state: TransferState, hasTime = true): string {
+    const isWaiting = state.phase === 'reading' || state.phase === 'writing';
+    return [phaseText(state), isWaiting && !hasTime ? TEXTS.status.timeStands : ''].filter(Boolean).join(' · ');
+}
+
+function phaseText({ phase, done, total, account, trouble }: TransferState): string {
     const { compare } = TEXTS;
     switch (phase) {
         case 'idle':
