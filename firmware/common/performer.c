@@ -343,7 +343,7 @@ static void begin(performer_t *performer)
     performer_layers_plan(performer);
 }
 
-/* READY: asks one servo. false: it does not answer, and the rule for faults ends the play. */
+/* READY: asks one servo. false: it does not answer or obey, and the rule for faults ends the play. */
 static bool ask_one_joint(performer_t *performer)
 {
     const uint8_t id = servo_link_lowest(&performer->ready_left);
@@ -352,7 +352,7 @@ static bool ask_one_joint(performer_t *performer)
     servo_link_put(&performer->ready_left, id, false);
     if (!of_layer && servo_link_engage(performer->servos, joint) == 0) {
         servo_link_put(&performer->faulty, id, true);
-        performer_event_put(&performer->events, PERFORMER_EV_SILENT, id, 0, 0);
+        performer_event_put(&performer->events, PERFORMER_EV_UNREADY, id, 0, 0);
         return performer->settings->fault_rule == SETTINGS_FAULT_LIMP;
     }
     if (!of_layer) {   /* a layer keeps goal_pos up to date */

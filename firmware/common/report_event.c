@@ -164,6 +164,9 @@ void report_event(const performer_event_t *event)
     case PERFORMER_EV_TORQUE:
         report_servo(a, TEXT_P(" has lost its torque"));
         break;
+    case PERFORMER_EV_UNREADY:
+        report_servo(a, TEXT_P(" does not obey"));
+        break;
     case PERFORMER_EV_HOT:
         report_servo(a, TEXT_P(" is hot: "));
         text_number(event->b);

@@ -98,8 +98,8 @@ bool requests_from_program(void);
  * status for the handler to return: a word names no joint, or one that is not present. */
 MUST_CHECK uint8_t requests_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joints);
 
-/* Prints which servos did not answer and returns SHELL_ERR_REPORTED. REQUEST_OK if `joints` is empty. */
-uint8_t requests_no_answer(uint32_t joints);
+/* Prints what is wrong with which servos and returns SHELL_ERR_REPORTED. REQUEST_OK if `joints` is empty. */
+uint8_t requests_servos(uint32_t joints, const char *what_P);
 
 /* Converts a performer's status into an error with its sentence; REQUEST_OK for PERFORMER_OK. */
 uint8_t requests_refusal(performer_status_t status);

@@ -34,13 +34,13 @@ uint8_t requests_refuse(uint8_t status, const char *sentence_P)
     return reported;
 }
 
-uint8_t requests_no_answer(uint32_t joints)
+uint8_t requests_servos(uint32_t joints, const char *what_P)
 {
     if (joints == 0) {
         return REQUEST_OK;
     }
-    (void)requests_error(REQUEST_ERR_SERVOS);
-    TEXT("No answer from servos ");
+    (void)requests_refuse(REQUEST_ERR_SERVOS, what_P);
+    TEXT(": ID ");
     report_joints(joints);
     return SHELL_ERR_REPORTED;
 }
@@ -52,7 +52,7 @@ uint8_t requests_take_joints(const shell_args_t *args, uint8_t first, uint32_t *
     if (!ranges_take_joints(args, first, joints)) {
         return SHELL_ERR_RANGE;
     }
-    return *joints == 0 ? requests_refusal(PERFORMER_ERR_NO_SERVOS) : requests_no_answer(*joints & ~present);
+    return *joints == 0 ? requests_refusal(PERFORMER_ERR_NO_SERVOS) : requests_servos(*joints & ~present, TEXT_P("No answer"));
 }
 
 uint8_t requests_refusal(performer_status_t status)

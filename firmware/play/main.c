@@ -96,6 +96,9 @@ static void print_news(void)
         if (the_play.settings.talk == 0 && is_chatter(event.kind)) {
             return;
         }
+        if (event.kind == PERFORMER_EV_UNREADY && servo_link_has(&the_play.servos.silent, event.a)) {
+            event.kind = PERFORMER_EV_SILENT;
+        }
         const uint8_t covered = begin_status_line();
         report_event(&event);
         end_status_line(covered);

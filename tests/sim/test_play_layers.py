@@ -54,7 +54,7 @@ def test_refused_layers_say_one_sentence_and_change_nothing():
     for line, said in (
         ("layer 0", "Page must be 1..127"),
         ("layer 128", "Page must be 1..127"),
-        ("layer 34 25", "No answer from servos 25"),
+        ("layer 34 25", "No answer: ID 25"),
         ("layer 34 31", "ID must be 0..30"),
         ("layer 11", "Page 11 is damaged: checksum is wrong"),
         ("layer 10", "Page 10 is empty"),

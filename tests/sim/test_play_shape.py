@@ -16,7 +16,7 @@ WRONG = [
     ("rate fast", "Rate must be 10..400"),
     ("amplitude 151", "Amplitude must be 0..150"),
     ("amplitude 60 31", "ID must be 0..30"),
-    ("amplitude 60 25", "No answer from servos 25"),
+    ("amplitude 60 25", "No answer: ID 25"),
     ("blend 101", "Blend must be -100..100"),
     ("blend -101", "Blend must be -100..100"),
     ("blend --5", "Blend must be -100..100"),

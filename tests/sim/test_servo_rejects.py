@@ -76,10 +76,22 @@ def test_play_names_a_servo_that_does_not_take_torque():
     board = robot()
     board.servos[3].push_to(300)
     board.servos[3].fault("mishears")
-    assert ask(board, "on") == "No answer from servos 3"
-    assert "@torque ERR 7 No answer from servos 3" in ask(board, "@torque on 3")
+    assert ask(board, "on") == "Not obeyed: ID 3"
+    assert "@torque ERR 7 Not obeyed: ID 3" in ask(board, "@torque on 3")
     assert not board.servos[3].torque and abs(board.servos[3].present - 300) <= 2
-    assert "Servo 3 does not answer" in ask(board, "play 1") + board.expect("] ", ms=2000)
+    assert "Servo 3 does not obey" in ask(board, "play 1") + board.expect("] ", ms=2000)
+
+
+def test_play_tells_a_hot_servo_from_a_silent_one():
+    board = robot()
+    board.servos[5].fault("overheating")
+    board.run(ms=1000)
+    assert ask(board, "on") == "Not obeyed: ID 5"
+    text = ask(board, "play 1") + board.expect("Ended", ms=2000)
+    assert "Servo 5 does not obey" in text and "does not answer" not in text
+    board.servos[5].fault("silent")
+    board.send("play 1\r")
+    assert "Servo 5 does not answer" in board.expect("Ended", ms=2000)
 
 
 def test_play_names_a_servo_that_keeps_a_slow_speed():
@@ -88,7 +100,7 @@ def test_play_names_a_servo_that_keeps_a_slow_speed():
     ask(board, "on")
     board.servos[3].write(32, [20, 0])
     board.servos[3].fault("mishears")
-    assert "Servo 3 does not answer" in ask(board, "play 1") + board.expect("] ", ms=2000)
+    assert "Servo 3 does not obey" in ask(board, "play 1") + board.expect("] ", ms=2000)
 
 
 def test_monitor_shows_the_rejection_and_keeps_its_id():

@@ -148,7 +148,7 @@ static void test_performer_silent_servo_at_the_start_is_named(void)
     ticks(10);
     TEST_ASSERT_TRUE(performer_is_idle(&performer));
     TEST_ASSERT_EQUAL_UINT16(0, fake_servo_link.frames);
-    TEST_ASSERT_EQUAL_UINT8(2, expect_event(PERFORMER_EV_SILENT).a);
+    TEST_ASSERT_EQUAL_UINT8(2, expect_event(PERFORMER_EV_UNREADY).a);
     TEST_ASSERT_EQUAL_UINT8(PERFORMER_END_SERVO, end_reason());
 }
 

@@ -358,7 +358,7 @@ static void named_silent(unsigned id)
     rules.silent_tick[id] = session.tick;
 }
 
-/* Handles "No answer from servos 3, 5-7", the answer to a user's request. */
+/* Handles "No answer: ID 3, 5-7", the answer to a user's request. */
 static void silent_ones_named(const char *list)
 {
     unsigned first, last;
@@ -449,8 +449,10 @@ void rules_printed(const char *line)
         session.asked_tick = rules.asked_in_search ? session.tick : session.asked_tick;
         rules.asked_in_search = rules.asked_in_search && rules.is_searching;
     }
-    if (strncmp(line, "No answer from servos ", 22) == 0) {
-        silent_ones_named(line + 22);
+    if (strncmp(line, "No answer: ID ", 14) == 0) {
+        silent_ones_named(line + 14);
+    } else if (strncmp(line, "Not obeyed: ID ", 15) == 0) {   /* silent ones as well */
+        silent_ones_named(line + 15);
     }
     if (sscanf(line, "Servo %u does not answer%n", &id, &at) == 1 && at > 0) {
         named_silent(id);
