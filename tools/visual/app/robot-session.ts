@@ -313,8 +313,9 @@ export class RobotSession implements Session {
         this.follower.set(positions, ended);
     }
 
-    say(message: Notice): void {
-        if (message.tone === 'bad') this.messages.complain(message.text, 'edit');
+    say(message: Notice | null): void {
+        if (message === null) this.messages.over('edit');
+        else if (message.tone === 'bad') this.messages.complain(message.text, 'edit');
         else this.messages.say(message);
     }
 

@@ -36,7 +36,7 @@ test.each([
 function tried(state: Partial<SessionState>): readonly [boolean, string | undefined] {
     const say = vi.fn<Session['say']>();
     const session = { body: { links: [] }, state: { get: () => state }, say, onFrame: () => () => undefined };
-    return [pushRobot(session as unknown as Session, 1), say.mock.calls[0]?.[0].text];
+    return [pushRobot(session as unknown as Session, 1), say.mock.calls[0]?.[0]?.text];
 }
 
 test('without physics nothing is pushed, and that is the last word; a real robot is never pushed', () => {

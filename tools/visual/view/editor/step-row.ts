@@ -10,13 +10,12 @@ import { keyOf } from '../key-of.ts';
 import { showPose } from './pose-picture.ts';
 import { TEXTS } from '../texts/texts.ts';
 import { chosenSteps } from './step-choice.ts';
-import { nearestSetting, possibleSeconds, stepTimes } from './step-times.ts';
+import { stepTimes } from './step-times.ts';
 import type { TimedField } from './step-times.ts';
+import { FIELD_STEP, setStepField } from './typed-numbers.ts';
 
 const PICTURE = { width: 64, height: 84 };
 const DRAG_PX = 6;
-/** Increment of the fields in seconds. */
-const FIELD_STEP = 0.05;
 
 interface Card {
     readonly root: HTMLLIElement;
@@ -173,34 +172,11 @@ export class StepRow extends HTMLElement {
             this.render(); // the stored value may differ from what was typed
         };
         input.addEventListener('change', () => {
-            this.setField(index, field, input.valueAsNumber);
+            setStepField(this.session, index, field, input.value);
             typed();
         });
         input.addEventListener('blur', typed);
         return input;
-    }
-
-    /** typed: seconds or speed. If this step is among the chosen ones, all of them get the value. */
-    private setField(index: number, field: TimedField, typed: number): void {
-        const { editor } = this.session;
-        const { page, steps, document } = editor.state.get();
-        if (!Number.isFinite(typed)) return;
-        const chosen = steps.has(index) ? steps : new Set([index]);
-        const isSpeed = field === 'time' && editor.page(page).schedule === 'speed';
-        if (!isSpeed && !this.isPossible(index, field, typed)) return;
-        const value = isSpeed ? Math.round(typed) : nearestSetting(editor, page, index, field, typed);
-        editor.dispatch(
-            field === 'time' ? editor.edits.setTime(document, page, chosen, value) : editor.edits.setPause(document, page, chosen, value),
-        );
-    }
-
-    /** false: no step can last that long, and a message says so. One increment above the maximum is accepted and rounded: 2 for 1.99. */
-    private isPossible(index: number, field: TimedField, seconds: number): boolean {
-        const { editor } = this.session;
-        const [least, most] = possibleSeconds(editor, editor.state.get().page, index, field).map(limit => limit.toFixed(2));
-        const isPossible = seconds >= 0 && seconds <= Number(most) + FIELD_STEP;
-        if (!isPossible) this.session.say({ text: TEXTS.steps.secondsPossible(least ?? '', most ?? ''), tone: 'bad' });
-        return isPossible;
     }
 
     private choose(index: number, event: { readonly shiftKey: boolean; readonly ctrlKey: boolean; readonly metaKey: boolean }): void {

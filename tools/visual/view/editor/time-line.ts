@@ -8,6 +8,7 @@ import type { Gesture } from '../session/editor.ts';
 import { define, make, withoutMenu } from '../element.ts';
 import { nearestSetting, stepTimes } from './step-times.ts';
 import type { TimedField } from './step-times.ts';
+import { setTimes } from './typed-numbers.ts';
 import { TEXTS } from '../texts/texts.ts';
 
 /** Distance at which a pointer grabs an end. */
@@ -104,12 +105,8 @@ export class TimeLine extends HTMLElement {
     /** Sets how often the steps are repeated before the motion ends or continues. */
     private setTimes(): void {
         const { editor } = this.session;
-        const { page, document: motions } = editor.state.get();
-        const wanted = Math.round(this.times.valueAsNumber);
-        const isGood = wanted >= 1 && wanted <= BYTE_MAX;
-        if (isGood && wanted !== editor.page(page).repetitions)
-            editor.dispatch(editor.edits.setHeader(motions, page, { repetitions: wanted }));
-        this.times.value = String(editor.page(page).repetitions);
+        setTimes(this.session, this.times.value);
+        this.times.value = String(editor.page(editor.state.get().page).repetitions);
     }
 
     /** For a pointer away from all ends: the picture shows the moment under it. */

@@ -140,8 +140,8 @@ export interface Session {
     /** Makes the robot move slowly to this pose and keep following (servo units by ID; null: this joint stays). null: ends it.
      *  ended: called when the robot refuses or does not answer, which ends it and has been reported. */
     follow(positions: readonly (number | null)[] | null, ended?: () => void): void;
-    /** Shows a message in the status bar. */
-    say(notice: Notice): void;
+    /** Shows a message in the status bar. null: the last input was taken, and what was said of one that was not is over. */
+    say(notice: Notice | null): void;
     remote(held: ReadonlySet<RemoteButton>): void;
     /** Walks by stick: x to the right, y ahead, -1..1; null: released. The farther the stick, the larger the steps. */
     drive(stick: { readonly x: number; readonly y: number } | null): void;

@@ -650,6 +650,7 @@ const DE: Texts = {
         dragTime: 'Ziehen: wie lange der Schritt dauert',
         dragPause: 'Ziehen: wie lange die Pause dauert',
         secondsPossible: (least, most) => `Nichts wurde geändert: Möglich sind hier ${least} bis ${most} Sekunden.`,
+        numbersPossible: (least, most) => `Nichts wurde geändert: Möglich sind hier ganze Zahlen von ${least} bis ${most}.`,
         follow: 'Der Roboter folgt dem ausgewählten Schritt, langsam (60° pro Sekunde)',
     },
 

@@ -732,6 +732,7 @@ export const EN = {
         dragTime: 'Drag: how long the step takes',
         dragPause: 'Drag: how long it pauses',
         secondsPossible: (least: string, most: string) => `Nothing was changed: from ${least} to ${most} seconds are possible here.`,
+        numbersPossible: (least: number, most: number) => `Nothing was changed: whole numbers from ${least} to ${most} are possible here.`,
         follow: 'The robot follows the chosen step, slowly (60° a second)',
     },
 

@@ -638,6 +638,7 @@ const ES: Texts = {
         dragTime: 'Arrastrar: cuánto dura el paso',
         dragPause: 'Arrastrar: cuánto dura la pausa',
         secondsPossible: (least, most) => `No se ha cambiado nada: aquí son posibles de ${least} a ${most} segundos.`,
+        numbersPossible: (least, most) => `No se ha cambiado nada: aquí son posibles números enteros de ${least} a ${most}.`,
         follow: 'El robot sigue el paso elegido, despacio (60° por segundo)',
     },
 

@@ -645,6 +645,7 @@ const JA: Texts = {
         dragTime: 'ドラッグ：ステップにかかる時間',
         dragPause: 'ドラッグ：待ち時間の長さ',
         secondsPossible: (least, most) => `何も変わっていません。ここで指定できるのは ${least}～${most} 秒です。`,
+        numbersPossible: (least, most) => `何も変わっていません。ここで指定できるのは ${least}～${most} の整数です。`,
         follow: 'ロボットが選んだステップにゆっくり追従する（毎秒 60°）',
     },
 

@@ -621,6 +621,7 @@ const KO: Texts = {
         dragTime: '드래그: 단계에 걸리는 시간',
         dragPause: '드래그: 멈추는 시간',
         secondsPossible: (least, most) => `바뀐 것은 없습니다. 여기서는 ${least}~${most}초가 가능합니다.`,
+        numbersPossible: (least, most) => `바뀐 것은 없습니다. 여기서는 ${least}~${most} 사이의 정수가 가능합니다.`,
         follow: '로봇이 고른 단계를 천천히 따라갑니다(초당 60°)',
     },
 
