@@ -8,6 +8,9 @@ import { make } from '../element.ts';
 import { ask, askText } from './ask-dialog.ts';
 import { TEXTS } from '../texts/texts.ts';
 
+/** What a dialog takes, as the pattern of its field. */
+export const MOTION_NUMBER = '0*([1-9][0-9]?|1[01][0-9]|12[0-7])';
+
 export class PageActions {
     private readonly editor: Editor;
     /** The page taken by Ctrl+C or Ctrl+X; 0: none. */
@@ -47,7 +50,7 @@ export class PageActions {
         const free = freePage(this.editor.format, document, page);
         const answer = await askText(TEXTS.motions.transferTo(this.title(page)), TEXTS.motions.toNumber, String(free || page), {
             maxLength: 3,
-            pattern: '[0-9]+',
+            pattern: MOTION_NUMBER,
             hint: TEXTS.motions.numberHint,
         });
         if (answer !== null) await this.transfer(page, Number(answer));
@@ -57,7 +60,7 @@ export class PageActions {
     async transfer(from: number, to: number): Promise<void> {
         if (from === to) return;
         const { editor } = this;
-        const isFree = editor.state.get().document.pages[to] === undefined || this.isEmpty(to);
+        const isFree = this.isEmpty(to);
         const follow = make('input', { type: 'checkbox', checked: true });
         const { motions } = TEXTS;
         const question = isFree ? motions.transferAsk : motions.transferReplaces;
@@ -82,6 +85,6 @@ export class PageActions {
     }
 
     private title(page: number): string {
-        return TEXTS.motion.title(page, this.editor.state.get().document.pages[page] ? this.editor.page(page).name : '');
+        return TEXTS.motion.title(page, this.editor.page(page).name);
     }
 }
