@@ -8,7 +8,8 @@ import { make } from '../element.ts';
 import { ask, askText } from './ask-dialog.ts';
 import { TEXTS } from '../texts/texts.ts';
 
-/** What a dialog takes, as the pattern of its field. */
+/** What a dialog takes, as the pattern of its field. A name has more than blanks. */
+export const MOTION_NAME = '[ -~]*[!-~][ -~]*';
 export const MOTION_NUMBER = '0*([1-9][0-9]?|1[01][0-9]|12[0-7])';
 
 export class PageActions {
@@ -23,7 +24,7 @@ export class PageActions {
     async rename(page: number): Promise<void> {
         const name = await askText(TEXTS.motions.renameTitle(this.title(page)), TEXTS.motions.name, this.editor.page(page).name, {
             maxLength: 13,
-            pattern: '[ -~]*',
+            pattern: MOTION_NAME,
             hint: TEXTS.motions.nameHint,
         });
         if (name !== null) this.editor.dispatch(this.editor.edits.rename(this.editor.state.get().document, page, name));
