@@ -130,15 +130,21 @@ WORD(servo_words_baud)
     return SHELL_OK;
 }
 
-/* The new ID must be free: two servos with one ID can only be told apart by unplugging one. */
+/* A new ID must be free: two servos with one ID can only be told apart by unplugging one. */
+static bool is_taken(uint8_t id)
+{
+    const bool taken = bus_call_ping(id, PACKETS_TRIES, NULL) == BUS_OK;
+    if (taken) {
+        (void)packets_say(TEXT_P("That ID is taken"));
+    }
+    return taken;
+}
+
 WORD(servo_words_id)
 {
     uint8_t id = (uint8_t)args->number[0];
-    if (!is_one_servo()) {
+    if (!is_one_servo() || is_taken(id)) {
         return SHELL_ERR_REPORTED;
-    }
-    if (bus_call_ping(id, PACKETS_TRIES, NULL) == BUS_OK) {
-        return packets_say(TEXT_P("That ID is taken"));
     }
     if (write_number(args, DXL_AT_ID)) {
         current = id;
@@ -151,7 +157,13 @@ WORD(servo_words_reset)
     if (!is_one_servo()) {
         return SHELL_ERR_REPORTED;
     }
-    return shell_word_is(args, 1, PSTR("yes")) ? send(DXL_RESET, 0) : packets_say(TEXT_P("RESET YES: factory values, ID 1"));
+    if (!shell_word_is(args, 1, PSTR("yes"))) {
+        return packets_say(TEXT_P("RESET YES: factory values, ID 1"));
+    }
+    if ((current == 1 || !is_taken(1)) && packets_exchange(current, DXL_RESET, 0)) {
+        current = 1;
+    }
+    return SHELL_OK;
 }
 
 /* swr address count, then for each servo its ID and `count` bytes. */

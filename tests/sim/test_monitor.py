@@ -122,6 +122,18 @@ def test_monitor_shows_packets_word_by_word():
     board.close()
 
 
+def test_reset_makes_no_second_servo_with_id_1():
+    board = robot(servos=(1, 3))
+    assert "That ID is taken" in say(board, "cid 3", "reset yes")
+    assert "ID 03 error 00" in say(board, "ping")
+    assert "FF FF 01 02 06" in say(board, "cid 1", "reset yes")  # the servo that has it
+    board.close()
+    board = robot(servos=(3,))
+    assert say(board, "cid 3", "reset yes").endswith("[CID:001(0X01)] ")
+    assert "ID 01 error 00" in say(board, "ping")
+    board.close()
+
+
 def test_exit_restarts():
     board = robot()
     resets = board.resets
