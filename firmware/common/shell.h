@@ -16,6 +16,9 @@
 #include <stdint.h>
 #include "compiler.h"
 
+/* Play and Monitor take the first as the second; Edit leaves the line. */
+enum { SHELL_CTRL_C = 0x03, SHELL_CTRL_U = 0x15 };
+
 /* The result of a byte. */
 typedef enum {
     SHELL_TYPING = 0, /* the line is not complete */

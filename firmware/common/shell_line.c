@@ -12,7 +12,7 @@ enum {
     KEY_BS = 0x08,
     KEY_LF = 0x0A,
     KEY_CR = 0x0D,
-    KEY_EMPTY = 0x15, /* Ctrl-U */
+    KEY_EMPTY = SHELL_CTRL_U,
     KEY_ESC = 0x1B,
     KEY_DEL = 0x7F
 };

@@ -134,6 +134,13 @@ def test_reset_makes_no_second_servo_with_id_1():
     board.close()
 
 
+def test_ctrl_c_drops_the_typed_line():
+    board = robot(servos=(1,))
+    board.send(b"go 200\x03", wait=True)
+    assert "ID 01 error 00" in say(board, "ping") and board.servos[1].goal == 512
+    board.close()
+
+
 def test_exit_restarts():
     board = robot()
     resets = board.resets

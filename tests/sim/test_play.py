@@ -302,6 +302,14 @@ def test_bracket_typed_after_a_lone_escape_is_a_character():
     assert board.take().decode() == "a[O"
 
 
+def test_ctrl_c_drops_the_typed_line():
+    board = robot()
+    board.send("play 13\x03", wait=True)
+    board.run(ms=50)
+    assert ask(board, "list").startswith("  1 ready")
+    assert board.servos[1].goal == 512 and ask(board, "status").startswith("Nothing is playing")
+
+
 # --- LEDs ---
 
 
