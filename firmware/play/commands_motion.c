@@ -60,12 +60,24 @@ static uint8_t page_of_name(const shell_args_t *args)
     return 0;
 }
 
+/* Whether the word is digits only, even more than a number may have. */
+static bool is_digits(const char *word)
+{
+    while (*word >= '0' && *word <= '9') {
+        word++;
+    }
+    return *word == '\0';
+}
+
 /* Plays a page by its number, or by its name if the first word is not a number. A code may follow the number, as if from the
  * remote. */
 uint8_t commands_do_play(const shell_args_t *args)
 {
     uint16_t page, code = LINK_CODE_NONE;
-    if (shell_parse(shell_word(args, 1), false, &page)) {
+    if (shell_parse(shell_word(args, 1), false, &page) || is_digits(shell_word(args, 1))) {
+        if (args->count > 3) {
+            return SHELL_ERR_COUNT;
+        }
         if (!shell_take(args, 1, RANGE_PLAYED, &page) || (args->count > 2 && !shell_take(args, 2, RANGE_CODE, &code))) {
             return SHELL_ERR_RANGE;
         }

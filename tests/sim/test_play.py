@@ -94,6 +94,15 @@ def test_name_with_a_foreign_letter_is_not_the_name_without_it():
     assert "No page is named gr??n" in board.expect("\r\n] ")
 
 
+@pytest.mark.parametrize(
+    "line, said", [("play 13 1 1", "Too few or too many words"), ("play 65538", "Page must be 1..127"), ("play 99999999", "Page must be 1..127")]
+)
+def test_a_number_is_no_name_and_takes_a_code_only(line, said):
+    board = robot()
+    assert ask(board, line).removesuffix(": try help") == said
+    assert re.fullmatch(rf"@play ERR [23] {said}", ask(board, "@" + line))
+
+
 # --- which joints are driven ---
 
 
