@@ -2,7 +2,7 @@
 // The documents of this browser: the list, the open one, and the autosave. Every finished edit is passed to the storage at once. Only one
 // tab can have a document open. A second tab gets a copy, which is kept from its first edit on.
 
-import { copyName, documentFrom, imageOf } from '../model/document.ts';
+import { copyName, documentFrom, freeName, imageOf } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
 import { DROP_ALL, EMPTY_LOG, advance, positionOf, restored } from '../model/history-log.ts';
 import type { HistoryLog, StepsChange } from '../model/history-log.ts';
@@ -93,9 +93,10 @@ export class KeptDocuments implements Documents {
     }
 
     /** Opens a new document and returns its id. */
-    private begin(name: string, from: MotionDocument): string {
+    private begin(wanted: string, from: MotionDocument): string {
         this.chosen++;
         const id = this.parts.newId();
+        const name = this.free(wanted, id);
         this.show(id, { document: { ...from, name }, history: NO_HISTORY, log: EMPTY_LOG });
         this.state.set({ documents: [...this.state.get().documents, { id, name, savedMs: this.parts.nowMs() }] });
         return id;
@@ -109,8 +110,17 @@ export class KeptDocuments implements Documents {
     }
 
     rename(name: string): void {
-        this.shown.rename(name);
+        this.shown.rename(this.free(name, this.state.get().openId));
         this.keep();
+    }
+
+    /** A name that no other document has: nobody could tell them apart when one is to be deleted. */
+    private free(name: string, id: string): string {
+        const others = this.state.get().documents.filter(one => one.id !== id);
+        return freeName(
+            name,
+            others.map(one => one.name),
+        );
     }
 
     async remove(id: string): Promise<void> {

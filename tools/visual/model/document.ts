@@ -38,6 +38,16 @@ export function isSamePage(a: Uint8Array, b: Uint8Array): boolean {
     return a === b || (a.length === b.length && a.every((byte, i) => byte === b[i]));
 }
 
+/** The name, or if it is taken, the next number of it: "walk (2)". */
+export function freeName(name: string, taken: readonly string[]): string {
+    if (!taken.includes(name)) return name;
+    const base = name.replace(/ \(\d+\)$/, '');
+    for (let count = 2; ; count++) {
+        const free = `${base} (${count})`;
+        if (!taken.includes(free)) return free;
+    }
+}
+
 /** A copy's name that is not taken yet: "walk (copy)", "walk (copy 2)" ... word: "copy" in the person's language. */
 export function copyName(name: string, taken: readonly string[], word: string): string {
     const base = name.replace(new RegExp(` \\(${word}( \\d+)?\\)$`), '');

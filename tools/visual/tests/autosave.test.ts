@@ -232,6 +232,18 @@ test('several documents, each with its own pages; the one edited last is opened'
     expect(now(again.editor).name).toBe('Dances');
 });
 
+test('a name that another document has is numbered: for a new one, a renamed one, and again', async () => {
+    const { documents } = await openTab(new PassingStorage());
+    const names = (): string[] => documents.state.get().documents.map(one => one.name);
+    await documents.create('My motions');
+    await documents.create('My motions (2)');
+    await documents.create('Dances');
+    documents.rename('My motions');
+    expect(names()).toEqual(['My motions', 'My motions (2)', 'My motions (3)', 'My motions (4)']);
+    documents.rename('My motions (4)'); // its own
+    expect(names().at(-1)).toBe('My motions (4)');
+});
+
 test('what is edited right after a copy was asked for belongs to the copy, and the first document stays as it was', async () => {
     const disk = new PassingStorage();
     const { editor, documents } = await openTab(disk);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Toolbar of the editor's areas: the open document, state of the autosave, undo and redo with their names, transfer to the robot.
 
-import { copyName } from '../../model/document.ts';
+import { copyName, freeName } from '../../model/document.ts';
 import { dirtyPages } from '../../model/editor-state.ts';
 import type { MotionDocument } from '../../model/document.ts';
 import type { EditorState } from '../../model/editor-state.ts';
@@ -93,11 +93,7 @@ export class EditBar extends HTMLElement {
             case COPY:
                 return this.create(
                     TEXTS.document.copyTitle,
-                    copyName(
-                        name,
-                        documents.state.get().documents.map(one => one.name),
-                        TEXTS.document.copyWord,
-                    ),
+                    copyName(name, this.names(), TEXTS.document.copyWord),
                     () => editor.state.get().document,
                 );
             case FROM_ROBOT:
@@ -117,8 +113,12 @@ export class EditBar extends HTMLElement {
 
     /** from: called after the name is entered, because the document may have changed meanwhile. */
     private async create(title: string, proposal: string, from?: () => MotionDocument): Promise<void> {
-        const name = await askText(title, TEXTS.document.name, proposal);
+        const name = await askText(title, TEXTS.document.name, freeName(proposal, this.names()));
         if (name) await this.session.documents.create(name, from?.());
+    }
+
+    private names(): string[] {
+        return this.session.documents.state.get().documents.map(one => one.name);
     }
 
     private async createFromRobot(): Promise<void> {

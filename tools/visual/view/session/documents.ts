@@ -26,9 +26,10 @@ export interface DocumentsState {
 
 export interface Documents {
     readonly state: Store<DocumentsState>;
-    /** Creates and opens a document with the pages of `from`; without it all pages are empty. */
+    /** Creates and opens a document with the pages of `from`; without it all pages are empty. A name that is taken is numbered. */
     create(name: string, from?: MotionDocument): Promise<void>;
     open(id: string): Promise<void>;
+    /** Renames the open one. A name that is taken is numbered. */
     rename(name: string): void;
     /** Removes a document. If it is open, the newest of the others is opened. Cannot be undone: ask first. */
     remove(id: string): Promise<void>;
