@@ -52,7 +52,8 @@ uint8_t requests_take_joints(const shell_args_t *args, uint8_t first, uint32_t *
     if (!ranges_take_joints(args, first, joints)) {
         return SHELL_ERR_RANGE;
     }
-    return *joints == 0 ? requests_refusal(PERFORMER_ERR_NO_SERVOS) : requests_servos(*joints & ~present, TEXT_P("No answer"));
+    return *joints == 0 ? requests_refusal(PERFORMER_ERR_NO_SERVOS)
+                        : requests_servos(*joints & ~present, TEXT_P("No answer"));
 }
 
 uint8_t requests_refusal(performer_status_t status)
