@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A command with --sim leaves nothing behind, however it ends: no temporary file and no running simulator."""
 
+import os
 import signal
 import subprocess
 import sys
@@ -93,6 +94,19 @@ def test_the_simulator_ends_with_a_command_that_was_killed(world):
     (simulator,) = children(process.pid)
     process.kill()
     process.communicate(timeout=600)
+    wait_for_the_end(simulator)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="needs setsid of Linux")
+def test_ctrl_c_in_a_terminal_stops_the_simulated_robot_softly(world):
+    """A terminal sends Ctrl-C to a whole group of programs. The simulator once ended by it, and m512 said that the line broke."""
+    process = world.start("play", "wave", "--sim", "--motions", "wave.m512", "--wait", before=("setsid",))
+    while "playing" not in process.stderr.readline():
+        assert process.poll() is None
+    (simulator,) = children(process.pid)
+    os.killpg(process.pid, signal.SIGINT)
+    _, said = process.communicate(timeout=600)
+    assert process.returncode == 130 and "stopping through the exit page" in said and "stopped by Ctrl-C" in said, said
     wait_for_the_end(simulator)
 
 

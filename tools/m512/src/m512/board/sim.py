@@ -106,6 +106,7 @@ class Simulator:
                 stderr=subprocess.STDOUT,
                 stdin=subprocess.DEVNULL,
                 pass_fds=(area.fileno(),),
+                start_new_session=True,  # Ctrl-C reaches only m512, which stops the robot first
                 preexec_fn=ending_with_this(signal.SIGKILL),
             )
         self.said = b""
