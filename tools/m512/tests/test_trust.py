@@ -532,7 +532,10 @@ def test_restore_that_is_refused_leaves_the_board_as_it_was_found(m512, tmp_path
 
 
 def test_port_is_opened_by_one_program_alone(real_board):
-    with Link(real_board.path), pytest.raises(PortError, match="in use by another program"):
+    with (
+        Link(real_board.path),
+        pytest.raises(PortError, match="in use by another program.*waits for a play, Ctrl-C there stops.*repeat this command"),
+    ):
         Link(real_board.path)
     Link(real_board.path).close()
 

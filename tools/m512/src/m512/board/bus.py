@@ -22,6 +22,7 @@ from typing import IO
 
 from m512 import ui
 from m512.board.child import ending_with_this
+from m512.board.ports import IN_USE
 from m512.errors import EXIT_BAD_FILE, FileError, M512Error, MissingError, PortError, RefusedError
 from m512.places import build_folder
 
@@ -136,7 +137,7 @@ class Program:
         text = self._in_our_words(self.said.strip().splitlines()[-1]) if self.said.strip() else "the program did not start"
         in_use = re.match(r"(.+): in use by another program", text)
         if in_use:
-            return PortError(text + _holder(in_use[1]))
+            return PortError(f"{text}{_holder(in_use[1])}. {IN_USE}")
         return FileError(text) if self.process.returncode == EXIT_BAD_FILE else PortError(text)
 
     def _in_our_words(self, line: str) -> str:

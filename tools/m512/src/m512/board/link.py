@@ -10,6 +10,7 @@ import time
 from typing import TYPE_CHECKING, Any, Callable
 from urllib.parse import urlsplit
 
+from m512.board.ports import IN_USE
 from m512.errors import M512Error, NoAnswerError, PortError
 
 if TYPE_CHECKING:
@@ -202,7 +203,7 @@ def explain(url: str, error: Exception) -> str:
     if "Inappropriate ioctl" in text:
         return f"{url}: not a serial port"
     if "busy" in text.lower() or "lock" in text.lower():
-        return f"{url}: in use by another program (a terminal, another m512?). End that first"
+        return f"{url}: in use by another program (a terminal, another m512?). End that first. {IN_USE}"
     if "refused" in text.lower():
         return f"{url}: nobody listens there"
     if "Name or service not known" in text or "getaddrinfo" in text:

@@ -9,6 +9,8 @@ import stat
 
 from m512.errors import PortError
 
+IN_USE = "If it is an m512 that waits for a play, Ctrl-C there stops the robot softly; or end it, then repeat this command"
+
 
 def is_port(word: str) -> bool:
     """Whether a word means a port rather than a file: a device, COM3, a URL such as socket://host:port, or bus:DEVICE (bus.py)."""

@@ -205,7 +205,7 @@ Examples:
 @click.option("--now", is_flag=True, help="Leave the page at once.")
 @robot_options
 def stop(now: bool, **options: Any) -> None:
-    """Stop what is playing."""
+    """Stop what is playing, whoever started it. While another m512 holds the port (`play --wait`), press Ctrl-C there instead."""
     with robot(options) as client:
         client.ask("break" if now else "stop")
         _report(client, options["as_json"])
