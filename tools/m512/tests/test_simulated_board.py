@@ -227,6 +227,13 @@ def start(m512, robot):
     robot.pass_time(2.0)
 
 
+def test_run_says_why_an_application_does_not_start(m512, started):
+    robot = started("boot-cm5.hex", "play-cm5.hex")
+    robot.board.flash[0x1000] ^= 1
+    result = m512("run", "-p", robot.path)
+    assert result.exit_code == 8 and "application: damaged, which cannot start: flash one: m512 run" in result.stderr, result.stderr
+
+
 def test_a_play_whose_cable_is_pulled_goes_on_and_m512_says_so(m512, robot):
     start(m512, robot)
     robot.cut_after = robot.moved + 2000

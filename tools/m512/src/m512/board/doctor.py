@@ -114,7 +114,7 @@ def _board(url: str, add: Add, meet: Callable[..., Client]) -> None:
 
 
 def _loader(link: Link, add: Add) -> None:
-    from m512.board import loaders
+    from m512.board import download, loaders
 
     if loaders.at_prompt(link):
         try:
@@ -126,8 +126,8 @@ def _loader(link: Link, add: Add) -> None:
         version = getattr(loader, "version", "")
         add("loader", OK, f"{loader.name} {version}".strip() + (f" on a {loader.board}" if loader.board else ""))
         state = loader.app_state() if hasattr(loader, "app_state") else ""
-        if state in ("none", "damaged"):
-            add("application", BAD, f"application: {state}", "flash one: m512 run play-cm5.hex")
+        if state in download.UNFIT:
+            add("application", BAD, f"application: {state}", download.FLASH_ONE)
         else:
             add("application", WARN, "the board waits in its boot loader" + (f"; application: {state}" if state else ""), "m512 run starts it")
         if hasattr(loader, "app_state"):

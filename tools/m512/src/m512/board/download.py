@@ -20,6 +20,8 @@ from m512.files.wording import counted
 
 PhaseMaker = Callable[[str], AbstractContextManager[Callable[[int, int], None]]]
 BOOT_APPLICATION = 0x11
+UNFIT = ("none", "damaged")  # states of an application that our loader does not start
+FLASH_ONE = "flash one: m512 run play-cm5.hex"
 
 
 @dataclass
@@ -94,7 +96,14 @@ def _to_factory(loader: FactoryLoader, pages: dict[int, bytes], progress: Callab
 
 
 def start(loader: Loader) -> None:
-    """Starts the application, now and at every later power-on."""
+    """Starts the application, now and at every later power-on. BoardError: our loader finds none, or a damaged one."""
     if not isinstance(loader, FactoryLoader) and loader.read_eeprom(BOOT_MODE, BOOT_MODE + 1) == b"\xff":
         loader.write_eeprom({BOOT_MODE: BOOT_APPLICATION})
-    loader.leave(1)
+    try:
+        loader.leave(1)
+    except BoardError:
+        state = loader.app_state() if isinstance(loader, BlockLoader) else ""
+        if state not in UNFIT:
+            raise
+        loader.leave(0)
+        raise BoardError(f"application: {state}, which cannot start: {FLASH_ONE}") from None
