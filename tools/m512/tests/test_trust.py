@@ -314,6 +314,16 @@ def test_a_write_protected_file_stays(files, words):
     assert (files / "x.bin").read_bytes() == before
 
 
+@pytest.mark.parametrize("words", ["convert x.bin", "convert x.bin - --only 3", "pages x.bin extract 3 -o -"])
+def test_motions_whose_reader_has_gone_are_no_bad_file(files, words):
+    """As with `| true`."""
+    read, write = os.pipe()
+    os.close(read)
+    found = subprocess.run([sys.executable, "-m", "m512", *words.split()], cwd=files, stdout=write, stderr=subprocess.PIPE, timeout=300, check=False)
+    os.close(write)
+    assert found.returncode == 141 and b"m512:" not in found.stderr, found.stderr
+
+
 def test_output_that_is_there_wants_force(m512, files):
     (files / "there.bin").write_bytes(b"mine")
     result = m512("pages", files / "x.bin", "delete", "3", "-o", files / "there.bin")

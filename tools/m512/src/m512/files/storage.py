@@ -100,6 +100,8 @@ def write(path: Path, data: bytes) -> None:
                 stream.write(data)
         else:
             _replace(Path(os.path.realpath(path)), data)
+    except BrokenPipeError:  # its reader has gone (cli/__init__.py)
+        raise
     except OSError as error:
         raise FileError(f"cannot write {path}: {error.strerror}") from None
 
