@@ -780,6 +780,18 @@ def test_a_start_without_a_file_is_told_as_json(m512, board):
     assert json.loads(result.stdout) == {"loader": "Motion512 boot loader", "board": "cm5", "started": True}
 
 
+@pytest.mark.parametrize("words", [("play", "1"), ("doctor",), ("flash", "x.bin"), ("term",), ("backup",)])
+def test_an_empty_name_is_no_port(m512, words):
+    result = m512(*words, "-p", "")
+    assert result.exit_code == 2 and "an empty name is no port" in result.stderr, result.stderr
+
+
+def test_a_simulator_that_is_not_there_is_not_replaced_by_another(m512, monkeypatch, tmp_path):
+    monkeypatch.setenv("M512_CM5SIM", str(tmp_path / "nope"))
+    result = m512("pose", "--sim")
+    assert result.exit_code == 9 and f"{tmp_path / 'nope'}, which M512_CM5SIM names" in result.stderr, result.stderr
+
+
 def test_port_without_its_path_gets_a_hint(m512):
     result = m512("play", "1", "-p", "robot")
     assert result.exit_code == 6 and "-p ./robot" in result.stderr
@@ -815,7 +827,7 @@ def test_images_beside_the_simulator_are_found(tmp_path, monkeypatch):
     monkeypatch.setenv("M512_CM5SIM", str(tmp_path / "bin" / "cm5sim"))
     monkeypatch.setenv("M512_BUILD", str(tmp_path / "nothing"))
     assert sim.find_image("play-cm5.hex") == tmp_path / "bin" / "play-cm5.hex"
-    monkeypatch.setenv("M512_CM5SIM", str(tmp_path / "no"))
+    monkeypatch.delenv("M512_CM5SIM")
     monkeypatch.setattr(sim, "wheel_folder", lambda: None)
     monkeypatch.setattr(sim.sys, "executable", str(tmp_path / "python"))
     monkeypatch.setenv("PATH", "")

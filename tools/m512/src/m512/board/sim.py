@@ -39,7 +39,11 @@ SLACK_SECONDS = 300.0
 
 def find_cm5sim() -> Path:
     given, tree, build = os.environ.get("M512_CM5SIM"), source_tree(), build_folder()
-    places = [Path(given)] if given else []
+    if given:
+        if not Path(given).exists():
+            raise MissingError(f"there is no simulator {given}, which M512_CM5SIM names")
+        return Path(given)
+    places = []
     if tree and build and (build / "host" / "tools" / "sim" / "libcm5sim.so").exists():
         places += [tree / "tools" / "sim" / "cm5sim"]
     places += [Path(sys.executable).with_name("cm5sim")]

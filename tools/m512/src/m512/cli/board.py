@@ -37,11 +37,19 @@ class FilePath(click.Path):
         return super().convert(value, param, ctx)
 
 
+def _named(context: click.Context, parameter: click.Parameter, port: str) -> str:
+    """BadParameter: --port with an empty name, as from a variable that is not set. It would mean the only port."""
+    if not port and context.get_parameter_source(parameter.name or "") is ParameterSource.COMMANDLINE:
+        raise click.BadParameter("an empty name is no port; without --port it is the only one")
+    return port
+
+
 port_option = click.option(
     "-p",
     "--port",
     envvar="M512_PORT",
     default="",
+    callback=_named,
     metavar="PORT",
     help="Serial port: device, part of its name, socket://host:port, or bus:DEVICE for servos on an adapter, without a board. Default: the only one.",
 )
