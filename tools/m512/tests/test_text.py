@@ -240,8 +240,21 @@ def test_text_defaults_may_be_said_again_and_a_page_goes_its_own_way():
 def test_text_wrong_start_and_version():
     assert 'starts with "motion512 1"' in error("hello")
     assert "format version 2" in error("motion512 2")
+    for start in ("motion512", "motion512 1 extra"):
+        assert 'starts with "motion512 1" and no other word' in error(start)
     with pytest.raises(FileError, match="empty"):
         read_text("\n# nothing\n")
+
+
+def test_text_has_so_many_includes_and_no_more(tmp_path):
+    """Seven files that include the next ten times each are 1,111,111 includes."""
+    for number in range(7):
+        (tmp_path / f"{number}.m512").write_text("motion512 1\n" + f"include {number + 1}.m512\n" * 10)
+    (tmp_path / "7.m512").write_text("motion512 1\n")
+    with pytest.raises(FileError, match="more than 1,000 includes"):
+        read_text((tmp_path / "0.m512").read_text(), "0.m512", tmp_path)
+    (tmp_path / "many.m512").write_text("motion512 1\n" + "include 7.m512\n" * 1000)
+    read_text((tmp_path / "many.m512").read_text(), "many.m512", tmp_path)
 
 
 @pytest.mark.parametrize("order", ["{0}; {1}", "{1}; {0}"])

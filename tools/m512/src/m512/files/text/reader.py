@@ -25,6 +25,7 @@ VERSION = 1
 ONCE = set("repeat speed accel base code next exit link1 link2 dxl_setup byte63 steps checksum fill erased".split())  # at most once in a page
 ABOUT_THE_FILE = set("pages bits joint row pairs pose include defaults page".split())  # all other statements are about a page
 MAX_INCLUDE_DEPTH = 8
+MAX_INCLUDES = 1000  # files that include each other twice would take hours
 
 
 class Reader(JointWords):
@@ -71,10 +72,10 @@ class Reader(JointWords):
         self.where, self.line, self.folder = outer
 
     def _version(self, statement: list[Token]) -> None:
-        if statement[0].text != "motion512":
-            raise WordError(f'a motion text starts with "motion512 {VERSION}"')
-        if len(statement) != 2 or number(statement[1], 1, 999, "format version") != VERSION:
-            raise WordError(f"this is format version {statement[1] if len(statement) > 1 else '?'}; this program reads version {VERSION}")
+        if statement[0].text != "motion512" or len(statement) != 2:
+            raise WordError(f'a motion text starts with "motion512 {VERSION}" and no other word')
+        if number(statement[1], 1, 999, "format version") != VERSION:
+            raise WordError(f"this is format version {statement[1]}; this program reads version {VERSION}")
 
     def _statement(self, tokens: list[Token]) -> None:
         word, rest = tokens[0].text, tokens[1:]
@@ -141,6 +142,8 @@ class Reader(JointWords):
         except (UnicodeError, ValueError):
             raise WordError(f"cannot read {path}: not UTF-8 text") from None
         self.included.append(path)
+        if len(self.included) > MAX_INCLUDES:
+            raise WordError(f"more than {MAX_INCLUDES:,} includes in all, which is no motion")
         self.included_bytes += len(data)
         if self.included_bytes > storage.MOST_BYTES:
             raise WordError(f"what is included has more than {storage.MOST_BYTES >> 20} MiB in all, which is no motion")
