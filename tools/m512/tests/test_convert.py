@@ -426,6 +426,22 @@ def test_csv_says_each_field_once():
         formats.decode(b"page,7\nnext,3\nnext,4\n", Path("x.csv"))
 
 
+def test_csv_without_its_number_or_with_values_that_are_none_is_refused(m512, sample, tmp_path):
+    path = tmp_path / "p.csv"
+    m512("convert", sample("robot_128p.bin"), path, "--page", "1")
+    lines = path.read_text().splitlines()
+    fields = lines[: next(at for at, line in enumerate(lines) if line.startswith("step"))]
+    assert len(fields) == 18
+    with pytest.raises(FileError, match="no line page,NUMBER"):
+        formats.decode("\n".join(lines[1:]).encode(), path)
+    for at, line in enumerate(fields):
+        more = [*lines[:at], line + ",,", *lines[at + 1 :]]  # as a spreadsheet fills its lines
+        assert formats.decode("\n".join(more).encode(), path)[1] == formats.load(path)[1]
+        more[at] = line + ",33"
+        with pytest.raises(FileError, match=f"p.csv:{at + 1}: page [01]: {line.split(',')[0]} has too many values"):
+            formats.decode("\n".join(more).encode(), path)
+
+
 def test_csv_with_any_line_ends(tmp_path):
     """A lone CR raised an exception in the csv module (found by tools/prove fuzz)."""
     image = Image.empty()

@@ -29,6 +29,7 @@ FIELDS = (
     "blend_left",
     "byte63",
 )
+HEAD = ("page", "bits", "name", "softness", *FIELDS)
 COLUMNS = ["step", "time", "pause"] + [f"id{joint}" for joint in range(JOINTS)]
 
 
@@ -84,6 +85,8 @@ def read(text: str, where: str) -> Image:
                 if key in said:
                     raise WordError(f"page {which}: {key} is here a second time")
                 said.add(key)
+            if not in_steps and key in HEAD and any(cells[JOINTS if key == "softness" else 1 :]):
+                raise WordError(f"page {which}: {key} has too many values")
             if in_steps:
                 if any(row):
                     _read_step(page, row)
@@ -112,6 +115,8 @@ def read(text: str, where: str) -> Image:
         raise FileError(f"{where}: {error}") from None
     if not in_steps:
         raise FileError(f"{where}: no line of columns (step,time,pause,id0,...)")
+    if "page" not in said:
+        raise FileError(f"{where}: no line page,NUMBER (0..255), which says which page this is")
     image = Image.empty(128 if which < 128 else 256)
     image.bits = _resolution(page, bits, where)
     if image.bits != bits and image.bits == 12:
