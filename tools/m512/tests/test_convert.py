@@ -124,6 +124,7 @@ def test_a_12_bit_image_says_so_once(m512, tmp_path, suffix):
     assert insisted.stderr.count("\n") < 70 and "looks like 12 bit" in insisted.stderr
     result = m512("convert", path, tmp_path / "t.bin", "--scale", "10", "--pages", "128")
     assert result.exit_code == 0 and result.stderr.count("\n") == 2 and "1860 positions scaled from 12 to 10 bits" in result.stderr
+    assert "looks like 12 bit" in result.stderr and "--scale" not in result.stderr  # what is being done is not advised
     assert m512("pages", tmp_path / "t.bin", "check").exit_code == 0
 
 

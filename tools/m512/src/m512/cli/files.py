@@ -153,6 +153,7 @@ def convert(
     if scale and int(scale) != image.bits:
         from m512.files import scale12
 
+        notes = [note.replace(f"; {scale12.HINT}", "") for note in notes]
         image, report = scale12.scaled(image, int(scale))
         losses += report
     bad = conversion.treat_damaged(image, source, damaged, notes)
