@@ -10,7 +10,7 @@ import sys
 import time
 
 import pytest
-from block_peer import PROMPTED, BlockPeer, BlockPtyPeer
+from block_peer import PROMPTED, SESSION, BlockPeer, BlockPtyPeer
 from conftest import REPO
 from factory_peer import FactoryPeer
 from hex_files import hex_file
@@ -770,6 +770,14 @@ def test_a_dry_run_has_its_plan_as_json(m512, files, board):
     assert plan["file"] == str(files / "x.bin") and plan["holds"] == "motions" and plan["pages"] == 254
     assert (plan["first"], plan["last"]) == (0xE200, 0x1DFFF) and "keeps its own" in plan["notes"][0]
     assert "1 of 254 flash pages would be written" in plan["found"][0]
+
+
+def test_doctor_finds_the_loader_in_a_session_that_ctrl_c_has_left_open(m512, files):
+    """Doctor's own bytes keep such a session alive."""
+    with BlockPeer(full_flash(), state=SESSION) as board:
+        result = m512("doctor", "-p", board.path)
+        assert "Motion512 boot loader" in result.stdout and "silence" not in result.stdout, result.stdout
+        assert board.state == PROMPTED and not board.writes
 
 
 def test_a_start_without_a_file_is_told_as_json(m512, board):

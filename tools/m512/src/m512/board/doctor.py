@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Callable
 
@@ -116,7 +117,12 @@ def _board(url: str, add: Add, meet: Callable[..., Client]) -> None:
 def _loader(link: Link, add: Add) -> None:
     from m512.board import download, loaders
 
-    if loaders.at_prompt(link):
+    is_there = loaders.at_prompt(link)
+    if not is_there:
+        with suppress(NoAnswerError):
+            loaders.end_session(link)
+            is_there = True
+    if is_there:
         try:
             loader = loaders.identify(link)
         except M512Error as error:
@@ -139,7 +145,7 @@ def _loader(link: Link, add: Add) -> None:
         BAD,
         f"{counted(len(heard), 'byte')} came, but nobody answers as Play, Edit or a boot loader" if heard else "silence",
         "is the controller on, and the cable in the socket for the PC? Then press MODE while `m512 term` runs: one byte "
-        "0xFF must come. With the factory's firmware, `m512 flash` works all the same",
+        "0xFF must come. With the factory's firmware, `m512 flash` works all the same. After an interrupted `m512 flash` wait 10 s",
     )
 
 

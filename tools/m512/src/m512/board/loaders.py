@@ -57,6 +57,11 @@ def at_prompt(link: Link) -> bool:
     return False
 
 
+def end_session(link: Link) -> None:
+    """Brings our loader to its prompt out of the session that an interrupted transfer has left open. NoAnswerError: there is none."""
+    BlockLoader(link, tries=1, seconds=0.4).leave()
+
+
 def identify(link: Link, started: bytes = b"", board: str = "") -> Loader:
     """The loader at the prompt. It is asked in plain text first: the factory loader would take a frame for typed text.
     started: its output since its start, if received. board: the board according to the user (banner.py).
@@ -142,8 +147,7 @@ def enter(link: Link, say: Callable[[str], None], seconds: float = WAIT_SECONDS,
         loader.was_at_prompt = True
         return loader
     try:
-        session = BlockLoader(link, tries=1, seconds=0.4)
-        session.leave()
+        end_session(link)
         return identify(link, board=board)
     except NoAnswerError:
         pass
