@@ -23,13 +23,16 @@ import { Motion } from '../model/motion.ts';
 import type { MotionExports } from '../model/motion.ts';
 import type { Images } from '../sim/machine.ts';
 import { TrialClient } from '../sim/trial-client.ts';
+import { FileGone } from './image-error.ts';
 
 /** A stalled connection, for example at the edge of a wireless network, must not block for ever. */
 const FIRMWARE_MS = 120_000;
 
 async function get(url: string, signal: AbortSignal | null = null): Promise<Response> {
     const response = await fetch(url, { signal });
-    if (!response.ok) throw new Error(`${url.split('/').at(-1)} could not be loaded (${response.status})`);
+    const trouble = `${url.split('/').at(-1)} could not be loaded (${response.status})`;
+    if (response.status === 404) throw new FileGone(trouble);
+    if (!response.ok) throw new Error(trouble);
     return response;
 }
 

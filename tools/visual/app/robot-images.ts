@@ -7,6 +7,7 @@ import { RobotError } from '../robot/robot-error.ts';
 import type { SessionState, ImageName, Notice } from '../view/session/session.ts';
 import { TEXTS } from '../view/texts/texts.ts';
 import type { Store } from '../view/store.ts';
+import { imageError } from './image-error.ts';
 import type { SimulatedSource } from './simulated-source.ts';
 
 const READY_MS = 180_000;
@@ -44,7 +45,7 @@ export class RobotImages {
         const { robot, fail } = this.parts;
         await robot()
             .forget(this.state.image)
-            .catch((cause: unknown) => fail(refusal(cause)));
+            .catch((cause: unknown) => fail(imageError(cause)));
     }
 
     /** Only Edit saves pages. The robot restarts with Edit, stands up, and keeps Edit until somebody drives it. */
@@ -112,7 +113,7 @@ export class RobotImages {
             const { version } = state.get();
             const runs = version?.image === 'play' || version?.image === 'edit' ? version.image : before;
             if (mine === this.asked && source === state.get().source) state.set({ image: runs });
-            throw refusal(cause);
+            throw imageError(cause);
         }
     }
 
@@ -134,9 +135,4 @@ export class RobotImages {
             });
         });
     }
-}
-
-/** My servos name what is wrong themselves. */
-function refusal(cause: unknown): RobotError {
-    return cause instanceof RobotError ? cause : new RobotError('no-image', '', { cause });
 }

@@ -13,6 +13,7 @@ import { forgetServos, loadServos, saveServos } from '../view/robot-store.ts';
 import { errorText } from '../view/texts/robot.ts';
 import { TEXTS } from '../view/texts/texts.ts';
 import { motionLibrary, servosModule } from './assets.ts';
+import { imageError } from './image-error.ts';
 import { FollowedRobot } from './followed-robot.ts';
 import { holdServos } from './hold-document.ts';
 import type { Release } from './hold-document.ts';
@@ -224,6 +225,6 @@ async function programOf(image: ImageName): Promise<WebAssembly.Module> {
     try {
         return await servosModule(image);
     } catch (cause) {
-        throw new RobotError('no-image', '', { cause });
+        throw imageError(cause);
     }
 }

@@ -47,6 +47,7 @@ export class StatusMessages {
         if (!(error instanceof RobotError)) throw error;
         const { connection, stopped } = this.state.get();
         if (error.code === 'not-connected' && (connection === 'ready' || stopped)) return;
+        if (error.code === 'new-version') this.state.set({ hasNewVersion: true });
         this.complain(errorText(error), 'robot');
     };
 

@@ -14,6 +14,7 @@ export type RobotErrorCode =
     | 'other-board' // a boot loader named another board, which is in `words`
     | 'in-loader' // the boot loader waits at its prompt
     | 'no-image' // the firmware for the robot in the page could not be loaded
+    | 'new-version' // it is not on the host any more: a newer version of the page has replaced it
     | 'was-hidden' // the page was hidden while it drove servos; the play was ended
     | 'cancelled' // somebody cancelled it
     | 'page-changed' // a page of the robot has changed since it was read; its number is in `words`

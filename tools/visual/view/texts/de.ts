@@ -231,6 +231,8 @@ const DE: Texts = {
             'in-loader': 'Der Bootloader wartet. Gib GO im Terminal ein, um die Firmware zu starten.',
             'no-image':
                 'Die Firmware konnte nicht geladen werden; der Roboter läuft weiter wie bisher. Ist dieser Computer online? Dann versuche es noch einmal.',
+            'new-version':
+                'Es gibt eine neue Version dieser Seite, und die nötige Datei ist nicht mehr da; der Roboter läuft weiter wie bisher. Lade die Seite neu.',
             'was-hidden':
                 'Diese Seite war verdeckt, deshalb wurde die Bewegung sanft beendet. Eine verdeckte Seite kann den Takt nicht halten: Lass sie sichtbar.',
             cancelled: 'Angehalten.',

@@ -53,6 +53,8 @@ const errors: Record<RobotErrorCode, string> = {
         'Motion512 runs on CM-2, CM-2+ and CM-5 only, and this board is another one. Nothing is sent there; choose another port. Its boot loader gives this name:',
     'in-loader': 'The boot loader is waiting. Type GO in the terminal to start the firmware.',
     'no-image': 'The firmware could not be loaded, so the robot goes on as it was. Is this computer online? Then try again.',
+    'new-version':
+        'There is a new version of this page, and the file that was needed is gone; the robot goes on as it was. Reload the page.',
     'was-hidden': 'This page was hidden, so the motion was ended softly. A hidden page cannot keep time: keep it in sight.',
     cancelled: 'Stopped.',
     'page-changed': 'This motion has changed in the robot since it was read; nothing was written over it. Compare once more. Motion:',

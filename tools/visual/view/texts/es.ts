@@ -227,6 +227,8 @@ const ES: Texts = {
             'in-loader': 'El cargador de arranque espera. Escribe GO en el terminal para arrancar el firmware.',
             'no-image':
                 'No se pudo cargar el firmware, así que el robot sigue como estaba. ¿Hay conexión a internet? Entonces inténtalo de nuevo.',
+            'new-version':
+                'Hay una versión nueva de esta página y el archivo necesario ya no está, así que el robot sigue como estaba. Vuelve a cargar la página.',
             'was-hidden':
                 'Esta página estaba oculta, así que el movimiento terminó con suavidad. Una página oculta no puede llevar el tiempo: mantenla a la vista.',
             cancelled: 'Detenido.',
