@@ -5,6 +5,8 @@ An image is 65,536 bytes: pages 0..127 as in flash. Every answer is a dict of pl
 {"error": its message}. Other exceptions are bugs and are not caught.
 """
 
+import errno
+import os
 from pathlib import Path
 
 from m512.errors import M512Error
@@ -18,6 +20,9 @@ BITS = 10
 #: A longer message is cut in the middle: it may quote a whole line of a damaged file.
 SENTENCE = 400
 IMAGE = Path("image.bin")
+#: Why a file that a text includes cannot be read here, and what to do about it.
+NO_FILE = os.strerror(errno.ENOENT)
+HINT = "the page has only the file that is opened. On your computer `m512 convert {} {}` puts both into one, which can be opened here"
 
 
 def _told(function):
@@ -40,7 +45,10 @@ def opened(name, data, leave_out=False):
     """Converts a motion file to an image as `m512 convert NAME x.bin` does: {"image", "notes", "losses"}. 12 bit is scaled to 10.
     {"no_room": pages} if pages would be lost (from a board of 256 pages); `leave_out` drops them."""
     path = Path(name)
-    image = formats.decode(bytes(data), path)
+    try:
+        image = formats.decode(bytes(data), path)
+    except M512Error as error:
+        raise M512Error(str(error).replace(NO_FILE, HINT.format(path.name, path.with_suffix(".bin").name))) from None
     notes, losses = list(image.notes), []
     if image.bits != BITS:
         notes = [note.replace(f"; {scale12.HINT}", "; it is scaled to 10 bit") for note in notes]

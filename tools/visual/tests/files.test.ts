@@ -62,6 +62,14 @@ test.each(SUFFIXES)('our library as %s: written and read as m512 does', async su
     expect([opened.notes, opened.losses]).toEqual([back.notes, back.losses]);
 });
 
+test('a text that includes another file: what to do, because the page has no other', async () => {
+    const text = new TextEncoder().encode('motion512 1\ninclude "body.m512"\n');
+    expect(await formats.open('dance.m512', text)).toEqual({
+        kind: 'refused',
+        text: expect.stringMatching(/^dance\.m512:2: cannot read body\.m512: .*m512 convert dance\.m512 dance\.bin/),
+    });
+});
+
 test('files as they are found, and those of others where they are there', async () => {
     const samples = join(ROOT, 'tests/samples');
     const folders = [samples, join(samples, 'wild'), join(process.env.M512_SHARED ?? join(ROOT, '../shared'), 'data')];
