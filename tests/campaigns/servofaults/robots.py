@@ -121,7 +121,7 @@ class PlayRobot(Watched):
         self.board = play_robot.robot(servos=THERE, pages=motions(), seed=seed)
         self.rule, self.state, self.playing = rule, state, state in ("walk", "layer")
         self.text = ""
-        for line in (f"settings fault {RULES.index(rule)}", "on", f"off {RELEASED}"):
+        for line in (f"settings fault {RULES.index(rule)}", f"settings centre {POSE}", "on", f"off {RELEASED}"):
             self.line(line)
         if state == "off":
             self.line("off")
