@@ -151,22 +151,14 @@ void report_event(const performer_event_t *event)
     case PERFORMER_EV_ENDED:
         report_end(a, event->b, event->c);
         break;
-    case PERFORMER_EV_SILENT:
-        report_servo(a, TEXT_P(" does not answer"));
-        break;
-    case PERFORMER_EV_BACK:
-        report_servo(a, TEXT_P(" answers again"));
-        break;
+    case PERFORMER_EV_SILENT: report_servo(a, TEXT_P(" does not answer")); break;
+    case PERFORMER_EV_BACK: report_servo(a, TEXT_P(" answers again")); break;
     case PERFORMER_EV_ERRORS:
         report_servo(a, TEXT_P(" reports "));
         report_servo_errors(event->b);
         break;
-    case PERFORMER_EV_TORQUE:
-        report_servo(a, TEXT_P(" has lost its torque"));
-        break;
-    case PERFORMER_EV_UNREADY:
-        report_servo(a, TEXT_P(" does not obey"));
-        break;
+    case PERFORMER_EV_TORQUE: report_servo(a, TEXT_P(" has lost its torque")); break;
+    case PERFORMER_EV_UNREADY: report_servo(a, TEXT_P(" does not obey")); break;
     case PERFORMER_EV_HOT:
         report_servo(a, TEXT_P(" is hot: "));
         text_number(event->b);
