@@ -147,13 +147,6 @@ uint8_t commands_do_rate(const shell_args_t *args)
     return REQUEST_OK;
 }
 
-/* Whether there is a pose about which an amplitude can scale. */
-static bool has_centre(void)
-{
-    const uint8_t page = the_play.settings.centre_page;
-    return page != 0 && page_store_is_good(&the_play.pages, page) && page_store_byte(page, PAGE_AT_STEPS) != 0;
-}
-
 uint8_t commands_do_amplitude(const shell_args_t *args)
 {
     uint32_t joints = SERVO_LINK_ALL;
@@ -164,7 +157,7 @@ uint8_t commands_do_amplitude(const shell_args_t *args)
         }
     }
     (void)!shape_set_amplitude(&the_play.performer.shape, args->number[0], joints);
-    return done(args->number[0] == SHAPE_NORMAL || has_centre(), TEXT_P("No effect: the centre page has no pose"));
+    return REQUEST_OK;
 }
 
 uint8_t commands_do_blend(const shell_args_t *args)

@@ -45,15 +45,6 @@ def test_wrong_words_say_one_sentence_and_change_nothing(standing, line, said):
     assert board.trace == []
 
 
-def test_amplitude_without_a_centre_pose_says_that_it_has_no_effect():
-    image = pages()
-    board = robot(pages=image[:512] + b"\xff" * 512 + image[1024:])
-    assert ask(board, "amplitude 20") == "No effect: the centre page has no pose"
-    assert ask(board, "@amplitude 20 3") == "@amplitude OK"  # a program may set it first
-    assert ask(board, "amplitude 100") == " OK"
-    assert ask(board, f"settings centre {LOOP}") == " OK" and ask(board, "amplitude 20") == " OK"
-
-
 def test_words_and_requests_do_the_same():
     board = robot(pages=pages())
     for word in ("rate 150", "blend -40", "amplitude 60", "amplitude 120 3 4"):
