@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Shows a motion in the picture at once, while the robot is still being asked or written, and says what the figure in the picture is.
 //
-//          an edit, another step or page                a play is asked for; the scrubber
+//          an edit, another step or page;
+//          its end, or Stop, outside the editing areas  a play is asked for; the scrubber
 //   STEP <--------------------------------- SHOWN <-------------------------------------- STEP, ROBOT
 //    ^                                        |
 //    |  an edit, another step or page         | the robot begins to play

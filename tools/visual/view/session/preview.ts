@@ -33,6 +33,7 @@ export interface Preview {
     start(page: number, step?: number): boolean;
     /** Continues; from the end, starts over. */
     resume(): void;
+    /** Outside the areas in which steps are edited, the picture goes back to the robot. */
     pause(): void;
     /** Shows this tick and pauses. */
     seek(page: number, tick: number): void;
