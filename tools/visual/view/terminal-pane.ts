@@ -79,10 +79,10 @@ export class TerminalPane extends HTMLElement {
 
     /** Where elements cannot go to full screen (iPhone), the terminal fills the page. */
     private async fillScreen(): Promise<void> {
+        this.focus(); // at once, because the next key is for the robot and not for the button
         if (document.fullscreenElement === this) await document.exitFullscreen();
         else if (document.fullscreenEnabled) await this.requestFullscreen();
         else this.full.setAttribute('aria-pressed', String(this.classList.toggle('full')));
-        this.focus(); // the next key is for the robot, not for the button
     }
 
     /** Call this only while the pane is visible. xterm measures characters on the screen and does not cache a width of 0: opened while

@@ -27,6 +27,7 @@ test('the hand stays over legs that were let go, and over an arm beside them, un
         else {
             await person.open('Remote');
             await person.button('Bow').click();
+            await doing.filter({ hasText: /^Playing motion 2 \(bow\)/ }).waitFor(); // it lets go before it plays
         }
         await doing.filter({ hasNotText: HELD }).waitFor();
     }
