@@ -81,15 +81,12 @@ int motion_api_mirrored(int pos)
     return (int)page_edit_mirrored((uint16_t)pos, 2u * PAGE_POS_MIDDLE);
 }
 
-enum { HALF = 50 };
-
-int motion_api_pos_between(int a, int b) { return page_edit_between((uint16_t)a, (uint16_t)b, HALF); }
+int motion_api_pos_between(int a, int b) { return b > a ? b - (b - a) / 2 : b + (a - b) / 2; }
 
 int motion_api_time_between(int time)
 {
-    uint8_t rest = (uint8_t)time;
-    uint8_t share = page_edit_time_split(&rest, HALF);
-    return share | rest << 8;
+    int rest = time / 2, share = time - rest;
+    return share | (time == 1 ? 1 : rest) << 8;
 }
 
 int motion_api_remote_code(int buttons)

@@ -32,9 +32,12 @@ int motion_api_crc16(int page);
 /* A position mirrored to the joint on the other side. Neutral positions are in the middle. */
 int motion_api_mirrored(int pos);
 
-/* Position and time of a step inserted half-way: page_edit_between() and page_edit_time_split() with 50 %. */
+/* The position half-way from a to b; a half unit goes towards b. */
 int motion_api_pos_between(int a, int b);
-int motion_api_time_between(int time); /* the share | the rest << 8 */
+
+/* Splits the time (0..255) of a step for a new step inserted half-way before it: the new step's share | the rest << 8.
+ * An odd unit goes to the share. Both are at least 1, unless the time was 0. */
+int motion_api_time_between(int time);
 
 /* The code of these remote buttons (hal/remote.h). 0 if they give none: no button, a stop, a pause. */
 int motion_api_remote_code(int buttons);

@@ -11,8 +11,8 @@ export const TICKS_PER_SECOND = facts.PLAYER_TICKS_PER_SECOND;
 export const POSITION_MAX = facts.PAGE_POS_MAX;
 /** Servo position in the middle of its range. */
 export const POSITION_MIDDLE = facts.PAGE_POS_MIDDLE;
-/** Battery voltage to assume if it is unknown. */
-export const NOMINAL_VOLTS = facts.PAGE_FACTS_BATTERY_DV / 10;
+/** Battery voltage to assume if it is unknown: a CM-5's eight cells. */
+export const NOMINAL_VOLTS = 9.6;
 
 /** Bytes per tick in Curve.marks. */
 export const MARK_BYTES = facts.MOTION_API_MARK_BYTES;

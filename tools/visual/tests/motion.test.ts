@@ -31,6 +31,27 @@ test('pages of the library are good, and a changed byte is found', async () => {
     expect(() => player.check(128)).toThrow(RangeError);
 });
 
+test('a position half-way is rounded towards the second', async () => {
+    const player = await motion();
+    expect(player.positionBetween(512, 513)).toBe(513);
+    expect(player.positionBetween(513, 512)).toBe(512);
+    expect(player.positionBetween(0, 1023)).toBe(512);
+    expect(player.positionBetween(1023, 0)).toBe(511);
+    expect(player.positionBetween(400, 400)).toBe(400);
+});
+
+test('a time is shared, and nothing gets none', async () => {
+    const player = await motion();
+    const shares = [31, 255, 2, 1, 0].map(time => player.timeSplit(time));
+    expect(shares.map(({ share, rest }) => [share, rest])).toEqual([
+        [16, 15],
+        [128, 127],
+        [1, 1],
+        [1, 1],
+        [0, 0],
+    ]);
+});
+
 test('a bow as it is drawn is the bow that the robot sends', async () => {
     const player = await motion();
     const bench = await RobotBench.make('play', 31);
