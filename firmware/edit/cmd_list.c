@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * cmd_list.c - HELP, LIST, FIND. Lists take the whole terminal: one item per line, one screen at a time. */
+ * cmd_list.c - HELP, LIST. Lists take the whole terminal: one item per line, one screen at a time. */
 #include "commands.h"
 
-#include <string.h>
 #include "page_facts.h"
 #include "pgm.h"
 #include "report.h"
@@ -69,7 +68,7 @@ COMMAND(cmd_mon)
     return dialog_refuse(TEXT_P("MON and TOSS are in the image Monitor: load it"));
 }
 
-/* ---- LIST, FIND ---- */
+/* ---- LIST ---- */
 
 static void print_time(uint32_t ticks)
 {
@@ -82,8 +81,6 @@ static void print_time(uint32_t ticks)
 static void print_page(uint8_t page)
 {
     char name[PAGE_NAME_BYTES];
-    uint8_t header[PAGE_STEP_BYTES];
-    page_store_read(page, 0, header, sizeof header);
     page_store_name(page, name);
     text_padded(page, 3, ' ');
     TEXT("  ");
@@ -95,15 +92,13 @@ static void print_page(uint8_t page)
         static const uint8_t fields[] PROGMEM = { PAGE_AT_STEPS, PAGE_AT_NEXT_PAGE, PAGE_AT_EXIT_PAGE,
             PAGE_AT_LINKED1_PAGE, PAGE_AT_LINKED1_CODE, PAGE_AT_LINKED2_PAGE, PAGE_AT_LINKED2_CODE, PAGE_AT_PLAY_CODE };
         for (uint8_t i = 0; i < sizeof fields; i++) {
-            text_padded(header[pgm_read_byte(&fields[i])], 4, ' ');
+            text_padded(page_store_byte(page, pgm_read_byte(&fields[i])), 4, ' ');
             text_put(' ');
         }
         print_time(page_facts_ticks(page));
     }
     text_line_end();
 }
-
-TEXT_NAMED(list_title, "Page name         steps next exit  lnk1 code lnk2 code call   time");
 
 static bool list_page_item(uint16_t item)
 {
@@ -131,34 +126,6 @@ COMMAND(cmd_list)
     if (the_dialog.list_last < the_dialog.list_first) {
         return cmd_refuse_backwards();
     }
-    return dialog_list(list_page_item, list_title);
-}
-
-static bool contains(const char *name, const char *part)
-{
-    for (; *name != '\0'; name++) {
-        if (strncasecmp(name, part, strlen(part)) == 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
-static bool find_item(uint16_t item)
-{
-    const uint8_t page = (uint8_t)item;
-    char name[PAGE_NAME_BYTES];
-    if (item >= PAGE_COUNT) {
-        return false;
-    }
-    page_store_name(page, name);
-    if (!page_store_is_erased(page) && contains(name, shell_word(&the_dialog.args, 1))) {
-        print_page(page);
-    }
-    return true;
-}
-
-COMMAND(cmd_find)
-{
-    return dialog_list(find_item, list_title);
+    return dialog_list(list_page_item,
+                       TEXT_P("Page name         steps next exit  lnk1 code lnk2 code call   time"));
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * cmd_step.c - commands for whole steps: count, write, insert, delete, copy, swap. */
+ * cmd_step.c - commands for whole steps: count, write, insert, delete, copy, swap, take, paste. */
 #include "commands.h"
 #include "pgm.h"
 #include "report.h"
@@ -27,7 +27,8 @@ bool cmd_step_is_trim(uint8_t step)
     return is_trim;
 }
 
-bool cmd_step_is_trim_page(void)
+/* Refuses to shift or swap the steps of page 0: a pose in the trim's column would shift every goal. */
+static bool is_trim_page(void)
 {
     if (the_session.page == 0) {
         TEXT("Page 0 is the trim: its columns stay in their places");
@@ -103,7 +104,7 @@ COMMAND(cmd_insert)
 {
     uint8_t step = (uint8_t)args->number[0];
     uint8_t steps = the_session.cells[PAGE_AT_STEPS];
-    if (cmd_step_is_trim_page()) {
+    if (is_trim_page()) {
         return SHELL_ERR_REPORTED;
     }
     session_begin_turn(UNDO_TURN(UNDO_TURN_UP, step, LAST_STEP));
@@ -135,7 +136,7 @@ static uint8_t delete_step(uint8_t step)
 
 COMMAND(cmd_delete)
 {
-    if (cmd_step_is_trim_page()) {
+    if (is_trim_page()) {
         return SHELL_ERR_REPORTED;
     }
     if (args->count > 1) {
@@ -180,9 +181,67 @@ COMMAND(cmd_move)
 
 COMMAND(cmd_swap)
 {
-    if (cmd_step_is_trim_page()) {
+    if (is_trim_page()) {
         return SHELL_ERR_REPORTED;
     }
     session_begin_turn(UNDO_TURN(UNDO_TURN_SWAP, args->number[0], args->number[1]));
+    return dialog_edited();
+}
+
+/* ---- TAKE, PASTE ---- */
+
+COMMAND(cmd_take)
+{
+    uint8_t first = (uint8_t)args->number[0];
+    uint8_t last = args->count > 2 ? (uint8_t)args->number[1] : first;
+    if (last < first) {
+        return cmd_refuse_backwards();
+    }
+    the_dialog.take_page = the_session.page;
+    the_dialog.take_first = first;
+    the_dialog.take_count = (uint8_t)(last - first + 1u);
+    TEXT("Noted for PASTE");
+    if (the_session.is_changed) {
+        TEXT(" (save it first)");
+    }
+    return SHELL_OK;
+}
+
+static void paste_step(uint8_t from, uint8_t to)
+{
+    uint8_t stored[PAGE_STEP_BYTES];
+    if (the_dialog.take_page == the_session.page) {
+        copy_step(from, to);
+        return;
+    }
+    page_store_read(the_dialog.take_page, session_step_at(from), stored, PAGE_STEP_BYTES);
+    session_set_bytes(session_step_at(to), stored, PAGE_STEP_BYTES);
+}
+
+COMMAND(cmd_paste)
+{
+    uint8_t to = session_steps();
+    if (is_trim_page()) {
+        return SHELL_ERR_REPORTED;
+    }
+    uint8_t count = the_dialog.take_count;
+    if (count == 0) {
+        return dialog_refuse(TEXT_P("Nothing noted: TAKE first"));
+    }
+    if (args->count > 1) {
+        to = (uint8_t)args->number[0];
+    }
+    if (to + count > PAGE_STEPS) {
+        return dialog_refuse(TEXT_P("No room: 7 steps at most"));
+    }
+    session_begin();
+    if (to + count > the_session.cells[PAGE_AT_STEPS]) {
+        session_set_byte(PAGE_AT_STEPS, to + count);
+    }
+    /* Copies upwards or downwards, so that overlapping steps of a page are read before they are overwritten. */
+    for (uint8_t i = 0; i < count; i++) {
+        uint8_t k = to > the_dialog.take_first ? (uint8_t)(count - 1u - i) : i;
+        paste_step(the_dialog.take_first + k, to + k);
+    }
     return dialog_edited();
 }

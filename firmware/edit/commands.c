@@ -22,8 +22,6 @@ TEXT_NAMED(word_insert, "insert i n  the pose becomes a new step n");
 TEXT_NAMED(word_delete, "delete d [n]  removes the last step, or step n");
 TEXT_NAMED(word_move, "move  a b  copies step a over step b; 7 is STP7");
 TEXT_NAMED(word_swap, "swap  a b  exchanges two steps");
-TEXT_NAMED(word_int, "int  a b [r]  a new step between two, at r % (50)");
-TEXT_NAMED(word_scale, "scale  p  the page takes p % of its time");
 TEXT_NAMED(word_take, "take  a [b]  notes steps for PASTE");
 TEXT_NAMED(word_paste, "paste  [n]  the noted steps, behind the last or from n on");
 TEXT_NAMED(word_mirror, "mirror m n  moves the robot to step n mirrored");
@@ -38,8 +36,6 @@ TEXT_NAMED(word_speed, "speed  steps have speeds");
 TEXT_NAMED(word_undo, "undo u takes the last edit back");
 TEXT_NAMED(word_redo, "redo  does it again");
 TEXT_NAMED(word_list, "list  [a [b]]  stored pages");
-TEXT_NAMED(word_find, "find  text  pages by name");
-TEXT_NAMED(word_check, "check  [n]  what is wrong with stored pages");
 TEXT_NAMED(word_re, "re  draws the screen again");
 TEXT_NAMED(word_rows, "rows  n  the terminal has n rows");
 TEXT_NAMED(word_hex, "hex  hexadecimal numbers, typed ones too");
@@ -64,8 +60,6 @@ const shell_command_t commands_table_P[] PROGMEM = {
     { word_delete, cmd_delete, SHELL_ARGS(0, 1) | SHELL_STILL, RANGE_STEP },
     { word_move, cmd_move, SHELL_ARGS(2, 2) | SHELL_STILL, SHELL_BOTH(RANGE_STEP7, RANGE_STEP7) },
     { word_swap, cmd_swap, SHELL_ARGS(2, 2) | SHELL_STILL, SHELL_BOTH(RANGE_STEP, RANGE_STEP) },
-    { word_int, cmd_int, SHELL_ARGS(2, 3) | SHELL_STILL, SHELL_BOTH(RANGE_STEP, RANGE_STEP) },
-    { word_scale, cmd_scale, SHELL_ARGS(1, 1) | SHELL_STILL, RANGE_PERCENT },
     { word_take, cmd_take, SHELL_ARGS(1, 2), SHELL_BOTH(RANGE_STEP, RANGE_STEP) },
     { word_paste, cmd_paste, SHELL_ARGS(0, 1) | SHELL_STILL, RANGE_STEP },
     { word_mirror, cmd_mirror, SHELL_ARGS(1, 1) | SHELL_STILL, RANGE_STEP },
@@ -80,8 +74,6 @@ const shell_command_t commands_table_P[] PROGMEM = {
     { word_undo, cmd_undo, SHELL_ARGS(0, 0) | SHELL_STILL, 0 },
     { word_redo, cmd_redo, SHELL_ARGS(0, 0) | SHELL_STILL, 0 },
     { word_list, cmd_list, SHELL_ARGS(0, 2), SHELL_BOTH(RANGE_PAGE, RANGE_PAGE) },
-    { word_find, cmd_find, SHELL_ARGS(1, 1), 0 },
-    { word_check, cmd_check, SHELL_ARGS(0, 1) | SHELL_STILL, RANGE_PLAYED },
     { word_re, cmd_re, SHELL_ARGS(0, 0), 0 },
     { word_rows, cmd_rows, SHELL_ARGS(1, 1), RANGE_ROWS },
     { word_hex, cmd_hex, SHELL_ARGS(0, 0), 0 },

@@ -41,16 +41,10 @@ COMMAND(cmd_insert);
 COMMAND(cmd_delete);
 COMMAND(cmd_move);
 COMMAND(cmd_swap);
-/* Refuses, with a message, the step of page 0 that holds the trim, because it is computed and not a pose. */
-bool cmd_step_is_trim(uint8_t step);
-/* Refuses, with a message, to shift or swap the steps of page 0: a pose in the trim's column would shift every goal. */
-bool cmd_step_is_trim_page(void);
-
-/* cmd_shape.c */
-COMMAND(cmd_int);
-COMMAND(cmd_scale);
 COMMAND(cmd_take);
 COMMAND(cmd_paste);
+/* Refuses, with a message, the step of page 0 that holds the trim, because it is computed and not a pose. */
+bool cmd_step_is_trim(uint8_t step);
 
 /* cmd_servo.c */
 COMMAND(cmd_go);
@@ -79,13 +73,11 @@ void cmd_play_events(bool line_is_free);
 /* Shows faults on the row again if there are any and nothing is being typed. */
 void cmd_play_tell_again(void);
 
-/* cmd_list.c, cmd_check.c */
+/* cmd_list.c */
 COMMAND(cmd_mon);
 COMMAND(cmd_help);
 COMMAND(cmd_list);
 /* Refuses a range of pages or steps that ends before it begins. */
 uint8_t cmd_refuse_backwards(void);
-COMMAND(cmd_find);
-COMMAND(cmd_check);
 
 #endif

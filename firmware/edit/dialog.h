@@ -42,7 +42,7 @@ typedef struct {
     uint8_t asked, answered;       /* questions that this run has asked, and how many were answered with yes */
     uint16_t next_item;            /* of the list being shown */
     uint8_t lines;                 /* of the list on the screen */
-    uint8_t list_first, list_last; /* pages of LIST and CHECK */
+    uint8_t list_first, list_last; /* pages of LIST */
     uint8_t take_page, take_first, take_count; /* steps noted by TAKE; a count of 0: none (each page number is a real one) */
     uint8_t late_ticks;            /* counts down; until then a space changes no cell */
     uint8_t well_ticks;            /* counts down from WELL_TICKS while the row shows that all servos are well */

@@ -19,7 +19,6 @@ TEXT_NAMED(name_link, "Link");
 const shell_range_t ranges_own_P[] PROGMEM = {
     [RANGE_STEP - RANGE_OWN] = {name_step, 0, PAGE_STEPS - 1},
     [RANGE_STEP7 - RANGE_OWN] = {name_step, 0, PAGE_STEPS},
-    [RANGE_PERCENT - RANGE_OWN] = {name_percent, 10, 1000},
     [RANGE_RATE - RANGE_OWN] = {name_percent, SHAPE_RATE_MIN, SHAPE_RATE_MAX},
     [RANGE_ROWS - RANGE_OWN] = {name_rows, 24, 255},
     [RANGE_X - RANGE_OWN] = {name_x, 0, 9},
@@ -28,5 +27,4 @@ const shell_range_t ranges_own_P[] PROGMEM = {
     [RANGE_BYTE - RANGE_OWN] = {name_value, 0, UINT8_MAX},
     [RANGE_STEPS - RANGE_OWN] = {name_steps, 0, PAGE_STEPS},
     [RANGE_LINK - RANGE_OWN] = {name_link, 0, PAGE_COUNT - 1},
-    [RANGE_SHARE - RANGE_OWN] = {name_percent, 0, 100},
 };

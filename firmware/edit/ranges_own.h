@@ -8,13 +8,12 @@
 enum {
     RANGE_STEP = RANGE_OWN,   /* 0..6 */
     RANGE_STEP7,              /* 0..7 */
-    RANGE_PERCENT,            /* 10..1000 */
     RANGE_RATE,               /* 10..400 % */
     RANGE_ROWS,               /* of a terminal */
     RANGE_X, RANGE_Y,         /* a cell of the table */
     RANGE_OFFSET,             /* into a page: 0..511 */
     RANGE_BYTE,               /* 0..255 */
-    RANGE_STEPS, RANGE_LINK, RANGE_SHARE /* of a page: 0..7, 0..127, 0..100 % */
+    RANGE_STEPS, RANGE_LINK   /* of a page: 0..7, 0..127 */
 };
 
 #endif

@@ -35,9 +35,8 @@ RESTARTS = ("system_restart", "board_restart")  # the linker may merge these two
 
 WORDS = (
     "page next before copy new name step go write insert delete move mirror set goto on off play time speed re hex dec undo "
-    "redo list find take paste int scale swap pairs help mon monitor rows p n b s g w i d m u ?"
+    "redo list take paste swap pairs help mon monitor rows p n b s g w i d m u ?"
 ).split()
-SELDOM = ["check", "search", "scan"]  # they take seconds each
 NUMBERS = (
     "0 1 2 3 4 5 6 7 9 10 30 31 32 36 49 50 64 100 127 128 254 255 256 512 1000 1023 1024 65535 65536 0x1f 0X3FF 1f -1 x "
     "yes no base 99999999 0x page1"
@@ -129,7 +128,7 @@ class Grammar:
         return self.rng.choice(("\r", "\r", "\r", "\n", "\r\n", "\r\r"))
 
     def command(self):
-        word = self.rng.choice(WORDS if self.rng.random() < 0.99 else SELDOM)
+        word = self.rng.choice(WORDS)
         if self.rng.random() < 0.1:
             word = word.upper()
         text = word + self.arguments() + self.end() + self.rng.choice(("", "", "", "y", "yy", "n", " ", "q", "\x1b"))

@@ -47,7 +47,7 @@ EDIT = [
     ("help", list("help\r"), "-- more"),
     ("more of it", [" "], None),
     ("away from it", ["q"], None),
-    ("a check", list("check 1\r"), "-- end --"),
+    ("a list of one page", list("list 1\r"), "-- end --"),
     ("behind it", ["\r"], None),
     ("a question, typed ahead of", [b"page 2\r", b"y", b"es\r"], "[y/N]"),
     ("its answer", ["\r"], "no"),

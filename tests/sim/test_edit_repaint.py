@@ -45,8 +45,6 @@ def action(rng):
             "speed",
             f"move {rng.randrange(8)} {rng.randrange(8)}",
             f"swap {rng.randrange(7)} {rng.randrange(7)}",
-            "int 0 1",
-            f"scale {rng.randrange(50, 200)}",
             f"go {rng.randrange(7)}",
             f"mirror {rng.randrange(7)}",
             "on",
@@ -60,7 +58,6 @@ def action(rng):
             "list 1 2",
             "help",
             "mon",
-            "find o",
         )
     )
     return line, True
@@ -73,7 +70,7 @@ def act(r, text, is_line):
     r.line(text)
     if text == "name":
         r.line("a name")
-    elif text in ("list 1 2", "help", "find o"):
+    elif text in ("list 1 2", "help"):
         r.keys("\x1b", ms=150)
         r.keys("\x1b", ms=150)
     elif "[y/N]" in r.command:

@@ -175,7 +175,7 @@ def test_damaged_pages_are_shown_as_what_they_are():
         3: (nine, "more than 7 steps"),
         4: (page("s", [(30, {})], schedule=5), "unknown schedule"),
         5: (page("p", [(30, {})], speed=0), "page speed is 0"),
-        6: (page("l", [(30, {})], next=200), ""),  # counts as 0; CHECK reports it
+        6: (page("l", [(30, {})], next=200), ""),  # counts as 0; `m512 pages check` reports it
         7: (page("w", [(30, {3: 1500})]), "position above 1023"),
     }
     with robot(pages={1: READY, **{n: made for n, (made, _) in cases.items()}}) as r:

@@ -186,7 +186,7 @@ def test_the_trim_is_no_pose(line):
         assert ([r.board.servos[joint].goal for joint in (1, 2, 3)], r.cell(3, 3)) == before
 
 
-@pytest.mark.parametrize("line", ["insert 1", "insert 0", "delete", "delete 0", "swap 1 2", "int 0 1", "paste 2"])
+@pytest.mark.parametrize("line", ["insert 1", "insert 0", "delete", "delete 0", "swap 1 2", "paste 2"])
 def test_the_columns_of_page_0_stay_in_their_places(line):
     """A pose shifted into the trim's column would move every goal."""
     with start() as r:

@@ -39,8 +39,6 @@ def test_headroom_after_everything_deep():
             "go 0",
             "write",
             "insert 0",
-            "int 0 1",
-            "scale 120",
             "swap 0 1",
             "take 0 6",
             "paste 0",
@@ -57,7 +55,7 @@ def test_headroom_after_everything_deep():
         ):
             act(r, line)
         note("edits")
-        for line, key in (("check 2", "q"), ("check", "q"), ("list 1 9", "q"), ("find o", "q"), ("help", "q")):
+        for line, key in (("list 1 9", "q"), ("list", "q"), ("help", "q")):
             r.line(line, ms=900)
             r.keys(key, ms=300)
         note("lists")

@@ -48,7 +48,7 @@ def edit(r, *lines):
 
 
 @pytest.mark.parametrize("saved", [True, False])
-@pytest.mark.parametrize("command", ["new", "copy 2", "copy 3", "scale 37", "paste 0", "swap 0 6"])
+@pytest.mark.parametrize("command", ["new", "copy 2", "copy 3", "insert 3", "paste 0", "swap 0 6"])
 def test_a_whole_page_of_31_joints_and_7_steps_comes_back(r, command, saved):
     """UNDO restores it with its unsaved edits; REDO applies the command again."""
     if command == "paste 0":
@@ -83,7 +83,7 @@ def test_a_save_between_changes_nothing(r):
     assert ram_page(r) == before
 
 
-@pytest.mark.parametrize("command", ["new", "copy 5", "scale 37", "swap 0 6", "paste 0"])
+@pytest.mark.parametrize("command", ["new", "copy 5", "insert 3", "swap 0 6", "paste 0"])
 def test_a_whole_page_of_a_robot_comes_back_with_what_was_not_saved(r, command):
     """18 joints, 7 steps, and earlier edits that exist only in RAM. REDO applies the command again."""
     edit(r, "page 4", "goto 3 17", "set 1000", "goto 9 10", "set 99")
@@ -105,7 +105,7 @@ def test_the_last_eight_commands_come_back_one_by_one(r):
     r.line("page 3")
     r.line("on")
     states = [ram_page(r)]
-    for line in ("write", "insert 0", "delete 1", "int 0 1 30", "scale 120", "move 1 4", "swap 0 5", "name x", "write 6", "step 2"):
+    for line in ("write", "insert 0", "delete 1", "insert 1", "speed", "move 1 4", "swap 0 5", "name x", "write 6", "step 2"):
         edit(r, line)
         states.append(ram_page(r))
         assert states[-1] != states[-2], line

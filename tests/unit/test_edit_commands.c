@@ -47,8 +47,7 @@ static void test_every_word_of_the_original_is_there(void)
 
 static void test_what_was_asked_for_is_there_too(void)
 {
-    static const char *const words[] = {"help", "?", "list", "find", "check", "undo", "redo", "int", "scale", "swap", "take",
-                                        "paste", "pairs", "rows"};
+    static const char *const words[] = {"help", "?", "list", "undo", "redo", "swap", "take", "paste", "pairs", "rows"};
     for (uint8_t i = 0; i < sizeof words / sizeof words[0]; i++) {
         TEST_ASSERT_TRUE_MESSAGE(is_known(words[i]), words[i]);
     }
@@ -176,7 +175,7 @@ static void test_help_of_each_command_fits_into_the_row(void)
 static bool is_harmless(const char *word)
 {
     static const char *const words[] = {"off", "take", "pairs", "monitor", "goto", "list",
-                                        "find", "help", "re", "rows", "hex", "dec"};
+                                        "help", "re", "rows", "hex", "dec"};
     for (uint8_t i = 0; i < sizeof words / sizeof words[0]; i++) {
         if (strcmp(words[i], word) == 0) {
             return true;

@@ -8,7 +8,6 @@
 #include <string.h>
 #include "bus.h"
 #include "crc16.h"
-#include "dxl.h"
 
 #define UP "\033[A"
 #define DOWN "\033[B"
@@ -528,39 +527,6 @@ static void test_move_of_a_program_has_no_trim_while_page_0_is_open(void)
     TEST_ASSERT_EQUAL_STRING("0371", cell(0, 1));
 }
 
-/* ---- a list during a motion ---- */
-
-static unsigned limits_read(void)
-{
-    unsigned count = 0;
-    for (uint16_t i = 0; i < fake_bus_sent(); i++) {
-        const uint8_t *packet = fake_bus_packet(i);
-        count += packet[4] == DXL_READ && packet[5] == DXL_AT_CW_LIMIT;
-    }
-    return count;
-}
-
-/* CHECK waits for answers of the servos, which would keep goals back. */
-static void test_check_does_not_go_on_while_something_moves(void)
-{
-    for (uint8_t page = 10; page < 34; page++) {
-        memcpy(flash_page(page), flash_page(1), PAGE_BYTES);
-        page_store_refresh(&the_pages, page);
-    }
-    type("rows 24\r");
-    type("check\r");
-    run_ms(1000);
-    TEST_ASSERT_EQUAL_UINT8(DIALOG_MORE, the_dialog.mode);
-    request("@play 5 ");
-    fake_bus_clear_log();
-    type("\r");
-    TEST_ASSERT_FALSE(performer_is_idle(&the_performer));
-    TEST_ASSERT_EQUAL_UINT(0, limits_read());
-    /* Row 24 is used up by the program's answer, which this terminal shows. */
-    TEST_ASSERT_EQUAL_STRING("Something moves", shown(25, 1, 15));
-    TEST_ASSERT_EQUAL_STRING("-- end --", shown(26, 1, 9));
-}
-
 int main(void)
 {
     UNITY_BEGIN();
@@ -599,6 +565,5 @@ int main(void)
     RUN_TEST(test_key_behind_a_list_changes_the_pose_in_which_a_programs_play_ended);
     RUN_TEST(test_page_is_played_with_the_trim_while_page_0_is_open);
     RUN_TEST(test_move_of_a_program_has_no_trim_while_page_0_is_open);
-    RUN_TEST(test_check_does_not_go_on_while_something_moves);
     return UNITY_END();
 }

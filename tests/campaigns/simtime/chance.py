@@ -531,8 +531,6 @@ class Editor(Person):
                         f"delete {rng.randrange(7)}",
                         f"move {rng.randrange(7)} {rng.randrange(8)}",
                         f"swap {rng.randrange(7)} {rng.randrange(7)}",
-                        f"int 0 1 {rng.randrange(101)}",
-                        f"scale {rng.choice((50, 100, 200))}",
                         "undo",
                         "redo",
                         "new",
@@ -563,9 +561,8 @@ class Editor(Person):
             elif kind < 0.6:
                 words = (
                     f"step {other}", f"go {step}", "write", f"write {step}", f"insert {step}", "delete", f"delete {step}", f"move {step} {other}",
-                    f"swap {step} {rng.randrange(7)}", f"int {step % 3} {step % 3 + 1}", f"int 0 1 {rng.randrange(1, 100)}", f"take 0 {step % 3}", "paste",
-                    f"paste {step}", f"mirror {step}", "time", "speed", f"scale {rng.choice((50, 100, 150))}", f"name t{step}", "on", "off",
-                    f"on {self.servo()}", f"off {self.servo()}", "re", f"copy {rng.choice((1, 3, 13, 20, 21))}",
+                    f"swap {step} {rng.randrange(7)}", f"take 0 {step % 3}", "paste", f"paste {step}", f"mirror {step}", "time", "speed",
+                    f"name t{step}", "on", "off", f"on {self.servo()}", f"off {self.servo()}", "re", f"copy {rng.choice((1, 3, 13, 20, 21))}",
                 )  # fmt: skip
                 self.line(rng.choice(words), LOOKED_AT)
                 for word in rng.choice(((), (), ("undo",), ("undo", "redo"), ("undo", "redo", "undo"), ("re",))):
@@ -596,7 +593,7 @@ class Editor(Person):
                 self.line(rng.choice(("save", f"save {rng.randrange(40, 60)}")), LOOKED_AT)
                 self.act(typed("\x15\r"), SECOND // 2)
             elif kind < 0.93:
-                word = rng.choice(("list", "help", "check", "find a", "@where", "@pose", "help go", "hex", "dec"))
+                word = rng.choice(("list", "help", "list 3", "list 1 9", "@where", "@pose", "help go", "hex", "dec"))
                 self.line(word, LOOKED_AT)
                 self.act(typed("\r" if word[0] == "@" else " "), 2 * SECOND)
                 self.act(typed("\r"), SECOND)
@@ -611,7 +608,7 @@ class Editor(Person):
         for _ in range(rng.randrange(2, 12)):
             step = rng.randrange(7)
             words = (f"write {step}", f"insert {step}", f"delete {step}", f"copy {rng.choice((1, 3, 13, 20, 21, 22))}", f"mirror {step}",
-                     f"name u{step}", "scale 50", f"move {step} {rng.randrange(8)}")  # fmt: skip
+                     f"name u{step}", f"swap {step} {rng.randrange(7)}", f"move {step} {rng.randrange(8)}")  # fmt: skip
             self.line(rng.choice(words), LOOKED_AT)
         for _ in range(rng.randrange(2, 8)):
             self.line("undo", LOOKED_AT)
@@ -650,7 +647,7 @@ class Editor(Person):
         self.act(typed(" "), SECOND)
 
     def views(self):
-        self.line(self.rng.choice(("list", "find walk", "check 3", "re", "hex", "dec", "help", "mon", "rows 40", "rows 24", "pairs")), SECOND)
+        self.line(self.rng.choice(("list", "list 3", "list 1 9", "re", "hex", "dec", "help", "mon", "rows 40", "rows 24", "pairs")), SECOND)
         self.act(typed("\r"), SECOND)
 
     def asks(self):

@@ -2,7 +2,6 @@
  * editor_commands.c - what the commands of Edit do; see editor.h. */
 #include "editor.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -335,54 +334,6 @@ static void run_swap(void)
     editor_edit_ends();
 }
 
-/* Returns the nearest integer; UNKNOWN near a half, because the rounding there is not specified. */
-static int nearest(double number)
-{
-    const double part = number - floor(number);
-    return fabs(part - 0.5) < 0.01 ? UNKNOWN : (int)floor(number + 0.5);
-}
-
-/* INT: inserts a step between two consecutive ones, at this percentage of distance and time. */
-static void run_int(void)
-{
-    const int a = editor.number[1], b = editor.number[2], percent = editor.words > 3 ? editor.number[3] : 50;
-    editor.message = ANY;
-    if (b != a + 1 || b >= *steps_used() || *steps_used() >= STEPS_MOST || editor.now.is_time != 1 || percent == 0 ||
-        percent >= 100) {
-        forget_page();
-        return;
-    }
-    editor_edit_begins();
-    for (int each = STEP_LAST; each > b; each--) {
-        copy_step((unsigned)each + 1, &editor.now, (unsigned)each);
-    }
-    for (unsigned id = 0; id < JOINTS; id++) {
-        const int from = old.cell[a + 1][id], to = old.cell[b + 1][id];
-        editor.now.cell[b + 1][id] = from >= 0 && to >= 0 ? nearest(from + (to - from) * percent / 100.0) : UNKNOWN;
-    }
-    editor.now.cell[b + 1][ROW_PAUSE] = UNKNOWN;
-    const int time = old.cell[b + 1][ROW_TIME], part = time < 0 ? UNKNOWN : nearest(time * percent / 100.0);
-    editor.now.cell[b + 1][ROW_TIME] = part > 0 ? part : UNKNOWN;
-    editor.now.cell[b + 2][ROW_TIME] = part > 0 && time > part ? time - part : UNKNOWN;
-    *steps_used() += 1;
-    editor_edit_ends();
-}
-
-static void run_scale(void)
-{
-    editor.is_edited = true;
-    editor_edit_begins();
-    for (int column = 1; column < (int)TABLE_STEPS; column++) {
-        for (unsigned row = ROW_PAUSE; row < TABLE_ROWS; row++) {
-            const int is = editor.now.cell[column][row], scaled = nearest(is * editor.number[1] / 100.0);
-            const bool is_sure = is >= 0 && column <= *steps_used() && scaled > 0 && scaled < 256 && editor.now.is_time == 1;
-            editor.now.cell[column][row] = is_sure ? scaled : UNKNOWN;
-        }
-    }
-    editor.can_undo = editor.can_redo = false;
-    editor.message = ANY;
-}
-
 static void run_take(void)
 {
     editor.noted = editor.now;
@@ -653,16 +604,14 @@ static const struct {
     {"step", "s", 1, 1, 7, run_step},          {"go", "g", 1, 1, 6, run_go},
     {"write", "w", 0, 1, 6, run_write},        {"insert", "i", 1, 1, 6, run_insert},
     {"delete", "d", 0, 1, 6, run_delete},      {"move", NULL, 2, 2, 7, run_move},
-    {"swap", NULL, 2, 2, 7, run_swap},         {"int", NULL, 2, 3, ANY_NUMBER, run_int},
-    {"scale", NULL, 1, 1, ANY_NUMBER, run_scale}, {"take", NULL, 1, 2, 6, run_take},
+    {"swap", NULL, 2, 2, 7, run_swap},         {"take", NULL, 1, 2, 6, run_take},
     {"paste", NULL, 0, 1, 6, run_paste},       {"mirror", "m", 1, 1, 6, run_mirror},
     {"pairs", NULL, 0, 2, ANY_NUMBER, run_pairs}, {"set", NULL, 1, 1, 1023, run_set},
     {"goto", NULL, 2, 2, 32, run_goto},        {"on", NULL, 0, WORDS, ANY_NUMBER, run_torque},
     {"off", NULL, 0, WORDS, ANY_NUMBER, run_torque}, {"play", NULL, 0, 2, ANY_NUMBER, run_play},
     {"time", NULL, 0, 0, 0, run_schedule},     {"speed", NULL, 0, 0, 0, run_schedule},
     {"undo", "u", 0, 0, 0, run_undo},          {"redo", NULL, 0, 0, 0, run_redo},
-    {"list", NULL, 0, 2, ANY_NUMBER, editor_view}, {"find", NULL, 1, WORDS, ANY_NUMBER, editor_view},
-    {"check", NULL, 0, 1, ANY_NUMBER, editor_view}, {"re", NULL, 0, 0, 0, run_repaint},
+    {"list", NULL, 0, 2, ANY_NUMBER, editor_view}, {"re", NULL, 0, 0, 0, run_repaint},
     {"rows", NULL, 1, 1, ANY_NUMBER, run_rows}, {"hex", NULL, 0, 0, 0, run_repaint},
     {"dec", NULL, 0, 0, 0, run_repaint},       {"monitor", "mon", 0, 0, 0, editor_view},
     {"help", "?", 0, 1, ANY_NUMBER, editor_view}, {"toss", NULL, 0, WORDS, ANY_NUMBER, editor_view},

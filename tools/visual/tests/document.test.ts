@@ -130,7 +130,7 @@ test('steps are moved, duplicated, deleted and put in between as one would by ha
     expect(order()).toEqual([4, 1, 3, 4, 3, 5, 2]);
     expect(refusalOf(edits.interpolate(document, 5, 0))).toBe('steps-full');
     document = after(document, edits.deleteSteps(document, 5, [3, 4]));
-    document = after(document, edits.interpolate(document, 5, 1)); // between 1 and 3; its time 31 is split into 16 and 15, as INT in Edit
+    document = after(document, edits.interpolate(document, 5, 1)); // between 1 and 3; its time 31 is split into 16 and 15
     expect(order()).toEqual([4, 1, 2, 3, 5, 2]);
     expect(
         view(document, 5)
