@@ -121,6 +121,10 @@ COMMAND(cmd_pairs)
 static uint8_t switch_named(const shell_args_t *args, bool on)
 {
     uint32_t joints = args->count > 1 ? 0 : the_servos.present;
+    if (the_servos.present == 0) {
+        report_refusal(PERFORMER_ERR_NO_SERVOS, 0, 0);
+        return SHELL_ERR_REPORTED;
+    }
     if (!ranges_take_joints(args, 1, &joints)) {
         return SHELL_ERR_RANGE;
     }

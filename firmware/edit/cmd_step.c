@@ -13,6 +13,11 @@ static void set_count(uint8_t steps)
     session_set_byte(PAGE_AT_STEPS, steps);
 }
 
+static uint8_t refuse_unused(void)
+{
+    return dialog_refuse(TEXT_P("That step is not used"));
+}
+
 static void copy_step(uint8_t from, uint8_t to)
 {
     session_set_bytes(session_step_at(to), &the_session.cells[session_step_at(from)], PAGE_STEP_BYTES);
@@ -124,7 +129,7 @@ static uint8_t delete_step(uint8_t step)
 {
     uint8_t steps = the_session.cells[PAGE_AT_STEPS];
     if (step >= steps) {
-        return dialog_refuse(TEXT_P("That step is not used"));
+        return refuse_unused();
     }
     session_begin_turn(UNDO_TURN(UNDO_TURN_DOWN, step, LAST_STEP));
     set_count((uint8_t)(steps - 1u));
@@ -184,6 +189,10 @@ COMMAND(cmd_swap)
     if (is_trim_page()) {
         return SHELL_ERR_REPORTED;
     }
+    uint8_t steps = the_session.cells[PAGE_AT_STEPS];
+    if (args->number[0] >= steps || args->number[1] >= steps) {
+        return refuse_unused();
+    }
     session_begin_turn(UNDO_TURN(UNDO_TURN_SWAP, args->number[0], args->number[1]));
     return dialog_edited();
 }
@@ -196,6 +205,9 @@ COMMAND(cmd_take)
     uint8_t last = args->count > 2 ? (uint8_t)args->number[1] : first;
     if (last < first) {
         return cmd_refuse_backwards();
+    }
+    if (last >= the_session.cells[PAGE_AT_STEPS]) {
+        return refuse_unused();
     }
     the_dialog.take_page = the_session.page;
     the_dialog.take_first = first;

@@ -38,6 +38,12 @@ def test_off_and_on_take_ranges_of_servos():
         assert [joint for joint in range(1, 19) if not r.board.servos[joint].torque] == [1]
 
 
+@pytest.mark.parametrize("line", ["on", "on 3", "off"])
+def test_without_any_servo_on_and_off_say_so(line):
+    with start(servos=()) as r:
+        assert r.line(line) == f"{line} No servo answers: check power and cable, then search again"
+
+
 def test_servos_that_answer_read_only_are_driven_and_not_called_dead():
     with start() as r:
         for joint in range(1, 19):

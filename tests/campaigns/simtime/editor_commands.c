@@ -324,8 +324,13 @@ static void run_move(void)
 static void run_swap(void)
 {
     const unsigned a = (unsigned)editor.number[1] + 1, b = (unsigned)editor.number[2] + 1;
-    if (a >= TABLE_STEPS || b >= TABLE_STEPS) {
+    const int used = *steps_used();
+    if (a >= TABLE_STEPS || b >= TABLE_STEPS || used == UNKNOWN) {
         editor_lose();
+        return;
+    }
+    if ((int)a > used || (int)b > used) {
+        editor.message = ANY;   /* it says that such a step is not used */
         return;
     }
     editor_edit_begins();
