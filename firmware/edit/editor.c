@@ -14,6 +14,7 @@
 #include "robot.h"
 #include "screen.h"
 #include "session.h"
+#include "system.h"
 #include "text.h"
 #include "tick.h"
 
@@ -117,6 +118,7 @@ static void take_bytes(void)
 {
     uint8_t byte;
     for (uint8_t i = 0; i < BYTES_PER_TURN && may_take_byte() && console_get(&byte); i++) {
+        system_kick();   /* the bytes of one turn may be several requests, and the answer to one takes up to 0.6 s */
         take_byte(byte);
     }
     if (channel_is_cut_off()) {

@@ -8,6 +8,7 @@
 #include "page_service.h"
 #include "parts.h"
 #include "pgm.h"
+#include "system.h"
 #include "text.h"
 
 page_store_t the_pages;
@@ -59,6 +60,7 @@ int main(void)
 {
     start();
     for (;;) {
+        system_kick();   /* also in turns that do not idle, while a list or the screen is printed */
         if (!editor_turn()) {
             board_idle();
         }

@@ -19,6 +19,7 @@ BYTE_MS = 10 / 57.6
 WAIT_MS = 700
 CUT_OFF_MS = 250
 SETTLE_MS = 1200  # the play of the page, including its approach
+MANY = 8  # requests without a pause between them
 SERVOS = (1, 2, 3, 4)
 
 PAGES = {
@@ -26,6 +27,8 @@ PAGES = {
     2: page("two", [(30, {})]),
     **{n: page(f"page {n}", [(30, {1: 500 + n})]) for n in range(20, 70)},
 }
+
+FULL = {n: page(f"thirteen {n:04}", [(30, {1: 500})]) for n in range(128)}
 
 # (input, split where a program may send; expected terminal text, or None)
 UP, DOWN, PAGE_UP = [b"\x1b", b"[", b"A"], [b"\x1b", b"[B"], [b"\x1b[", b"5", b"~"]
@@ -72,15 +75,15 @@ PLAY = [
     ("a request by hand", list("@pag"), "@pag"),
     ("the rest of that", list("e 200\r"), "@page ERR 3"),
 ]
-ASKED = ("@where", "@ver", "@pose", "@list 1 3", "@page 1", "@dense 2", "@crcs 0 20", "@watch 0", "@nonsense", "@page 300", "@where 1")
+ASKED = ("@where", "@ver", "@pose", "@list 1 3", "@page 1", "@dense 2", "@crcs 0 20", "@crcs 0 127", "@watch 0", "@nonsense", "@page 300", "@where 1")
 ASKED_EDIT = (*ASKED, "@crc", "@data 9999 00", "@save 3 0x1")
 
 
 class EditSide:
     """Edit and its screen."""
 
-    def __init__(self):
-        self.robot = edit_robot.robot(pages=PAGES, servos=SERVOS)
+    def __init__(self, pages=PAGES):
+        self.robot = edit_robot.robot(pages=pages, servos=SERVOS)
         self.board, self.steps, self.asked = self.robot.board, EDIT, ASKED_EDIT
         self.ear = Ear()
 
@@ -99,9 +102,9 @@ class EditSide:
 class PlaySide:
     """Play and the output on its terminal."""
 
-    def __init__(self):
+    def __init__(self, pages=PAGES):
         image = Image.empty()
-        for number, made in PAGES.items():
+        for number, made in pages.items():
             image[number] = made
         self.board, self.steps, self.asked = play_robot.robot(SERVOS, image.to_bytes()), PLAY, ASKED
         self.ear, self.text = Ear(), b""
@@ -118,17 +121,22 @@ class PlaySide:
 
 
 class Program:
-    """Sends random requests when `may_ask` is called, one at a time."""
+    """Sends random requests when `may_ask` is called, one at a time; sometimes several, each when the one before it is answered."""
 
     def __init__(self, side, seed):
         self.side, self.rng = side, random.Random(seed)
-        self.since, self.open, self.longest, self.count = 0.0, None, 0.0, 0
+        self.since, self.open, self.longest, self.count, self.more = 0.0, None, 0.0, 0, 0
+        self.resets = side.board.resets
 
     def may_ask(self):
         if self.open is None and self.rng.random() < 0.4:
-            self.open = self.rng.choice(self.side.asked)
-            self.since = self.side.board.now_ms
-            self.side.board.send(request(self.open))
+            self.more = self.rng.choice((0, 0, 0, MANY))
+            self.ask()
+
+    def ask(self):
+        self.open = self.rng.choice(self.side.asked)
+        self.since = self.side.board.now_ms
+        self.side.board.send(request(self.open))
 
     def listen(self):
         if self.open is None:
@@ -141,8 +149,12 @@ class Program:
             assert " ERR 15 " not in answer, answer
             self.longest = max(self.longest, self.side.board.now_ms - self.since - len(answer) * BYTE_MS - on_the_line)
             self.open, self.count = None, self.count + 1
+            if self.more:
+                self.more -= 1
+                self.ask()
         else:
             assert self.side.board.now_ms - self.since < WAIT_MS + 1500, f"{self.open}: no answer"
+            assert self.side.board.resets == self.resets, f"{self.open}: reset by {self.side.board.reset_cause}"
 
 
 def typed(side, seed, with_program):
@@ -170,6 +182,7 @@ def typed(side, seed, with_program):
             run(100)
         while program.open is not None:
             run(1)
+        run(SETTLE_MS // 2)  # a list goes on after the last request
         pictures.append((what, *side.picture()))
         assert shows is None or shows in pictures[-1][1], f"{what}: {pictures[-1][1]}"
     return pictures, program
@@ -184,6 +197,57 @@ def test_a_program_that_asks_changes_nothing_for_a_person(side, seed):
         assert its == mine, f"seed {seed}: {mine[0]}"
     print(f"{side.__name__}, seed {seed}: {program.count} requests, the longest wait {program.longest:.0f} ms")
     assert program.count > len(alone) and program.longest < WAIT_MS
+
+
+LONG = ("@crcs 0 127", "@dense 12", "@list")
+
+
+@pytest.mark.parametrize("at_once", [1, 3])
+@pytest.mark.parametrize(
+    "side, first",
+    [(EditSide, "list"), (EditSide, "help"), (EditSide, "re"), (EditSide, "play 2"), (EditSide, ""), (PlaySide, "list"), (PlaySide, "help")],
+)
+def test_requests_without_a_pause_between_them_restart_nothing(side, first, at_once):
+    """While text is printed, each of them after the answer to the one before it, or three at a time."""
+    for asked in LONG:
+        side_now = side(FULL)
+        board, ear = side_now.board, side_now.ear
+        if side is EditSide:
+            side_now.robot.line("step 6")
+            assert side_now.robot.unsaved
+        resets, end = board.resets, board.now_ms + 2000
+        board.send(first + "\r")
+        board.run(ms=60)
+        waiting = 0
+        while board.now_ms < end or waiting:
+            if waiting < at_once and board.now_ms < end:
+                board.send(request(asked))
+                waiting += 1
+            board.run(ms=2)
+            side_now.pump()
+            assert board.resets == resets, f"{asked} at {board.now_ms - end + 2000:.0f} ms: reset by {board.reset_cause}"
+            assert all(answer.endswith(" OK") for answer in ear.answers), ear.answers
+            waiting -= len(ear.answers)
+            ear.answers.clear()
+        if side is EditSide:
+            side_now.robot.settle(1000)
+            side_now.robot.keys("q")
+            side_now.robot.settle(1000)
+            assert side_now.robot.unsaved
+
+
+@pytest.mark.parametrize("side", [EditSide, PlaySide])
+@pytest.mark.parametrize("line", ["@list", "@page 12", "list", "help", "re", "on"])
+def test_lines_typed_ahead_restart_nothing(side, line):
+    """The answer to one @list takes 0.5 s, and 32 bytes of typing hold five of them."""
+    side = side(FULL)
+    resets = side.board.resets
+    for _ in range(30):
+        while side.board.waiting < 60:
+            side.board.send(line + "\r")
+        side.board.run(ms=100)
+        side.pump()
+        assert side.board.resets == resets, f"reset by {side.board.reset_cause}"
 
 
 def answers_to(side, data, ms=400):
