@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * cmd_step.c - commands for whole steps: count, write, insert, delete, copy, swap, take, paste. */
 #include "commands.h"
+
+#include "crc16.h"
 #include "pgm.h"
 #include "report.h"
 #include "text.h"
@@ -199,6 +201,23 @@ COMMAND(cmd_swap)
 
 /* ---- TAKE, PASTE ---- */
 
+/* Byte `at` of the noted page: from RAM while that page is open. */
+static uint8_t noted_byte(uint16_t at)
+{
+    return the_dialog.take_page == the_session.page ? the_session.cells[at] : page_store_byte(the_dialog.take_page, at);
+}
+
+/* There is no room for a copy of the noted steps. Their CRC tells whether they are still the same. */
+static uint16_t crc_of_noted(void)
+{
+    uint16_t crc = CRC16_START;
+    const uint16_t end = session_step_at(the_dialog.take_first + the_dialog.take_count);
+    for (uint16_t at = session_step_at(the_dialog.take_first); at != end; at++) {
+        crc = crc16_byte(crc, noted_byte(at));
+    }
+    return crc;
+}
+
 COMMAND(cmd_take)
 {
     uint8_t first = (uint8_t)args->number[0];
@@ -212,6 +231,7 @@ COMMAND(cmd_take)
     the_dialog.take_page = the_session.page;
     the_dialog.take_first = first;
     the_dialog.take_count = (uint8_t)(last - first + 1u);
+    the_dialog.take_crc = crc_of_noted();
     TEXT("Noted for PASTE");
     if (the_session.is_changed) {
         TEXT(" (save it first)");
@@ -221,13 +241,10 @@ COMMAND(cmd_take)
 
 static void paste_step(uint8_t from, uint8_t to)
 {
-    uint8_t stored[PAGE_STEP_BYTES];
-    if (the_dialog.take_page == the_session.page) {
-        copy_step(from, to);
-        return;
+    uint16_t from_at = session_step_at(from), to_at = session_step_at(to);
+    for (uint8_t left = PAGE_STEP_BYTES; left > 0; left--) {
+        session_set_byte(to_at++, noted_byte(from_at++));
     }
-    page_store_read(the_dialog.take_page, session_step_at(from), stored, PAGE_STEP_BYTES);
-    session_set_bytes(session_step_at(to), stored, PAGE_STEP_BYTES);
 }
 
 COMMAND(cmd_paste)
@@ -237,8 +254,8 @@ COMMAND(cmd_paste)
         return SHELL_ERR_REPORTED;
     }
     uint8_t count = the_dialog.take_count;
-    if (count == 0) {
-        return dialog_refuse(TEXT_P("Nothing noted: TAKE first"));
+    if (the_dialog.take_crc != crc_of_noted()) {   /* also if nothing was ever noted */
+        return dialog_refuse(TEXT_P("Nothing noted, or it has changed: TAKE first"));
     }
     if (args->count > 1) {
         to = (uint8_t)args->number[0];

@@ -44,6 +44,7 @@ typedef struct {
     uint8_t lines;                 /* of the list on the screen */
     uint8_t list_first, list_last; /* pages of LIST */
     uint8_t take_page, take_first, take_count; /* steps noted by TAKE; a count of 0: none (each page number is a real one) */
+    uint16_t take_crc;             /* of those steps when they were noted; 0, which no empty CRC is: none */
     uint8_t late_ticks;            /* counts down; until then a space changes no cell */
     uint8_t well_ticks;            /* counts down from WELL_TICKS while the row shows that all servos are well */
     uint16_t row_ticks;            /* counts down from ROW_TICKS; then faults are shown again */

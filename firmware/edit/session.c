@@ -142,7 +142,9 @@ uint16_t session_pose(uint8_t joint)
 
 uint16_t session_step_at(uint8_t step)
 {
-    return (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * step);
+    STATIC_ASSERT(PAGE_AT_STEP0 == PAGE_STEP_BYTES, "the header is as long as a step");
+    /* 64 + 64 * step, as a product of two bytes: with 16 bits it would be a loop of shifts wherever it is inlined. */
+    return (uint8_t)(step + 1u) * PAGE_STEP_BYTES;
 }
 
 uint16_t session_word(uint8_t step, uint8_t joint)

@@ -4,8 +4,8 @@ firmware/edit/DIFFERENCES.md."""
 
 import pytest
 
-from tests.sim.edit_base import BASE, FULL, bytes_of, step
-from tests.sim.edit_robot import UNUSED, changed, seal, word
+from tests.sim.edit_base import BASE, FULL, PAGES, bytes_of, opened, step
+from tests.sim.edit_robot import UNUSED, changed, robot, seal, word
 
 # ---- steps ----
 
@@ -153,6 +153,66 @@ def test_paste_within_a_page_reads_before_it_writes(r):
     r.line("take 1 2")
     r.line("paste 0")
     assert bytes_of(r) == seal(stored(BASE.data, {k: step(BASE.data, k + 1) for k in range(2)}))
+
+
+CHANGED = "paste 0 Nothing noted, or it has changed: TAKE first"
+
+
+@pytest.fixture
+def own():
+    """A robot for itself, because the test saves."""
+    with robot(pages=PAGES) as made:
+        yield opened(made)
+
+
+def say(r, line):
+    """Types the line and a yes to its question. The message."""
+    message = r.line(line)
+    if "[y/N]" in r.command:
+        r.keys("y")
+    return message
+
+
+@pytest.mark.parametrize("edit", ["delete 1", "swap 0 1", "new", "goto 2 4; set 333", "copy 3"])
+@pytest.mark.parametrize("saved", [True, False])
+def test_paste_refuses_noted_steps_that_have_changed(own, edit, saved):
+    own.line("take 1 2")
+    for line in [*edit.split("; "), *(["save"] if saved else [])]:
+        say(own, line)
+    assert own.line("paste 0") == CHANGED
+    say(own, "page 2")  # without a save the stored page still has the noted steps
+    assert own.line("paste 0") == (CHANGED if saved else "paste 0")
+
+
+def test_paste_takes_the_noted_steps_again_when_they_are_as_they_were(own):
+    own.line("take 0 1")
+    own.line("delete 0")
+    assert own.line("paste 0") == CHANGED
+    own.line("undo")
+    assert own.line("paste") == "paste" and own.line("paste") == "paste"  # behind them: they are the same after it
+    data = stored(BASE.data, {3: step(BASE.data, 0), 4: step(BASE.data, 1), 5: step(BASE.data, 0), 6: step(BASE.data, 1)})
+    data[20] = 7
+    assert bytes_of(own) == seal(data)
+
+
+def test_paste_refuses_noted_steps_that_were_never_saved(own):
+    own.line("goto 1 3")
+    own.line("set 700")
+    assert own.line("take 0") == "take 0 Noted for PASTE (save it first)"
+    say(own, "page 3")
+    assert own.line("paste 0") == CHANGED
+    assert own.line("take 0") == "take 0 Noted for PASTE" and own.line("paste 1") == "paste 1"
+
+
+def test_paste_refuses_noted_steps_whose_torque_marks_a_save_has_removed(own):
+    own.line("off")
+    own.line("write")
+    assert own.cell(4, 3) == "????"
+    assert own.line("take 3") == "take 3 Noted for PASTE (save it first)"
+    own.line("save")
+    assert own.cell(4, 3) == "----" and own.line("paste 0") == CHANGED
+    own.line("take 3")
+    assert own.line("paste 0") == "paste 0" and own.cell(1, 3) == "----"
 
 
 # ---- undo ----

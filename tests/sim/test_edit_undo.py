@@ -105,7 +105,7 @@ def test_the_last_eight_commands_come_back_one_by_one(r):
     r.line("page 3")
     r.line("on")
     states = [ram_page(r)]
-    for line in ("write", "insert 0", "delete 1", "insert 1", "speed", "move 1 4", "swap 0 5", "name x", "write 6", "step 2"):
+    for line in ("write", "insert 0", "delete 1", "insert 1", "speed", "move 1 4", "swap 0 2", "name x", "write 6", "step 2"):
         edit(r, line)
         states.append(ram_page(r))
         assert states[-1] != states[-2], line
