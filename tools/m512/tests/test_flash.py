@@ -5,6 +5,7 @@ The cable is pulled at many points. Afterwards nothing outside the transfer has 
 """
 
 import json
+import os
 import random
 import re
 
@@ -607,7 +608,78 @@ def test_backup_of_another_address_is_not_restored(m512, tmp_path, area, address
         result = m512("restore", tmp_path / "b", "-p", board.path, "--yes")
         assert result.exit_code == 4 and expected in result.stderr and found in result.stderr and area in result.stderr, result.stderr
         assert bytes(board.flash) == before
-    assert m512("diff", tmp_path / "b", tmp_path / "b").exit_code == 4
+    assert m512("diff", tmp_path / "b", tmp_path / "b").exit_code == (4 if area == "motions" else 0)
+
+
+@pytest.fixture
+def backup_of_all(m512, tmp_path):
+    """(board, folder): a backup of all areas, and its board, whose motions have changed since."""
+    with BlockPeer(bytearray(b"\xff" * 0xE000 + motion_area() + b"\xff" * 0x2000)) as board:
+        assert m512("backup", tmp_path / "b", "-p", board.path).exit_code == 0
+        board.flash[0xE000 + 512 + 66] ^= 1
+        yield board, tmp_path / "b"
+
+
+def cut(path):
+    path.write_bytes(path.read_bytes()[:100])
+
+
+def with_another_address(path):
+    manifest = path.with_name("manifest.json")
+    parts = json.loads(manifest.read_text())
+    parts["files"][path.stem]["address"] = 1
+    manifest.write_text(json.dumps(parts))
+
+
+@pytest.mark.parametrize("harm, says", [(cut, "is not what the manifest says"), (os.unlink, "No such file"), (with_another_address, "address")])
+def test_a_damaged_file_of_a_backup_does_not_hold_up_the_others(m512, backup_of_all, harm, says):
+    board, folder = backup_of_all
+    harm(folder / "eeprom.bin")
+    told = m512("restore", folder, "-p", board.path, "--yes")
+    assert told.exit_code == 4 and "eeprom" in told.stderr and says in told.stderr, told.stderr
+    assert f"m512 restore {folder} --what motions,app" in told.stderr
+    assert m512("diff", folder, folder).exit_code == 0
+    done = m512("restore", folder, "-p", board.path, "--yes", "--what", "motions,app")
+    assert done.exit_code == 0 and bytes(board.flash[0xE000:0x1E000]) == (folder / "motions.bin").read_bytes(), done.stderr
+    assert m512("restore", folder, "-p", board.path, "--yes", "--what", "eeprom").exit_code == 4
+
+
+def test_without_a_good_file_a_backup_offers_no_way_out(m512, backup_of_all):
+    board, folder = backup_of_all
+    for name in ("motions", "eeprom", "app"):
+        cut(folder / f"{name}.bin")
+    told = m512("restore", folder, "-p", board.path, "--yes")
+    assert told.exit_code == 4 and "--what" not in told.stderr and told.stderr.count("not what the manifest says") == 3
+    assert "--what" not in m512("diff", folder, folder).stderr
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["pages", "b/motions.bin", "rename", "1", "x", "--in-place"],
+        ["pages", "link.bin", "rename", "1", "x", "--in-place"],
+        ["pages", "other.bin", "rename", "1", "x", "-o", "b/motions.bin", "--force"],
+        ["convert", "other.bin", "b/motions.bin", "--force"],
+        ["get", "all", "-o", "b/motions.bin", "--force", "-p", "peer://nobody"],
+    ],
+)
+def test_a_backup_stays_as_it_was_read(m512, backup_of_all, tmp_path, monkeypatch, words):
+    monkeypatch.chdir(tmp_path)
+    folder = backup_of_all[1]
+    (tmp_path / "other.bin").write_bytes(bytes(backup_of_all[0].flash[0xE000:0x1E000]))
+    (tmp_path / "link.bin").symlink_to(folder / "motions.bin")
+    before = (folder / "motions.bin").read_bytes()
+    told = m512(*words)
+    assert told.exit_code == 5 and "belongs to the backup" in told.stderr and "-o new.bin" in told.stderr, told.stderr
+    assert (folder / "motions.bin").read_bytes() == before
+    assert m512("pages", "b/motions.bin", "rename", "1", "x", "-o", "b/new.bin").exit_code == 0
+
+
+@pytest.mark.parametrize("manifest", ['{"name": "my page", "files": 5}', "{", '{"format": "m512-backup", "files": {"app": {"file": "app.bin"}}}', "[]"])
+def test_a_manifest_that_does_not_name_a_file_does_not_protect_it(m512, tmp_path, manifest):
+    (tmp_path / "manifest.json").write_text(manifest)
+    (tmp_path / "motions.bin").write_bytes(motion_area())
+    assert m512("pages", tmp_path / "motions.bin", "rename", "1", "x", "--in-place").exit_code == 0
 
 
 def test_backup_without_an_address_is_damaged(m512, tmp_path):

@@ -22,8 +22,8 @@ from m512.files import formats
 from m512.files.page import PAGE_BYTES, Fault, Page
 
 AREAS = {"motions": MOTIONS, "app": APP, "eeprom": (0, EEPROM_BYTES)}
-MANIFEST = "manifest.json"
-FORMAT, VERSION = "m512-backup", 1
+MANIFEST, FORMAT = formats.BACKUP_MANIFEST, formats.BACKUP_FORMAT
+VERSION = 1
 # Transient state of the loaders, which must not be restored: a page waiting in the mailbox would be written at the next start.
 MAILBOX_CELLS = range(0xFF4, 0xFF6)
 EEPROM_TRIES = 3
@@ -128,8 +128,9 @@ def _doubtful(area: str, data: bytes) -> list[tuple[int, int]]:
     return out
 
 
-def load(folder: Path) -> Backup:
-    """Reads a backup from its folder and checks it against its manifest. FileError: missing or damaged."""
+def load(folder: Path, areas: list[str] | None = None) -> Backup:
+    """Reads these areas (default: all) of a backup from its folder, as far as it has them, and checks them against its manifest. The files
+    of other areas do not matter. FileError: missing or damaged."""
     if folder.exists() and not (folder / MANIFEST).exists():
         raise FileError(f"{folder} is no backup's folder: there is no {MANIFEST} in it")
     text = formats.read_bytes(folder / MANIFEST)
@@ -146,22 +147,32 @@ def load(folder: Path) -> Backup:
         }
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         raise FileError(f"{folder / MANIFEST} is damaged") from None
-    data = {}
-    for area, (name, address, size, crc, sha) in files.items():
-        if Path(name).name != name:
-            raise FileError(f"{folder / MANIFEST}: {name} is not beside it")
-        low, high = AREAS[area]
-        if address != low:
-            raise FileError(
-                f"{folder / MANIFEST}: the address of {area} is 0x{address:05X} and not 0x{low:05X}. Is this the backup of another board?"
-            )
-        found = formats.read_bytes(folder / name)
-        if (len(found), crc16(found), hashlib.sha256(found).hexdigest()) != (size, crc, sha):
-            raise FileError(f"{folder / name} is not what the manifest says: damaged or changed")
-        if size != high - low:
-            raise FileError(f"{folder / name} has {size} bytes and not {high - low}")
-        data[area] = found
+    data, wrong = {}, []
+    for area in [area for area in files if areas is None or area in areas]:
+        try:
+            data[area] = _area(folder, area, *files[area])
+        except FileError as error:
+            wrong.append(str(error))
+    if wrong and data:
+        wrong.append(f"The rest is good: m512 restore {folder} --what {','.join(data)}")
+    if wrong:
+        raise FileError(". ".join(wrong))
     return Backup(folder, manifest, data)
+
+
+def _area(folder: Path, area: str, name: str, address: int, size: int, crc: int, sha: str) -> bytes:
+    """The contents of an area, after a check against its entry in the manifest."""
+    if Path(name).name != name:
+        raise FileError(f"{folder / MANIFEST}: {name} is not beside it")
+    low, high = AREAS[area]
+    if address != low:
+        raise FileError(f"{folder / MANIFEST}: the address of {area} is 0x{address:05X} and not 0x{low:05X}. Is this the backup of another board?")
+    found = formats.read_bytes(folder / name)
+    if (len(found), crc16(found), hashlib.sha256(found).hexdigest()) != (size, crc, sha):
+        raise FileError(f"{folder / name} is not what the manifest says: damaged or changed")
+    if size != high - low:
+        raise FileError(f"{folder / name} has {size} bytes and not {high - low}")
+    return found
 
 
 def flash_pages(backup: Backup, areas: list[str]) -> dict[int, bytes]:

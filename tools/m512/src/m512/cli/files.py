@@ -196,7 +196,7 @@ def _motions_of(word: str, bits: int | None, board: str) -> Image:
         from m512.board import backup
         from m512.files import image
 
-        saved = backup.load(Path(word))
+        saved = backup.load(Path(word), ["motions"])
         if "motions" not in saved.data:
             raise FileError(f"the backup {word} has no motions")
         return image.from_bytes(saved.data["motions"])

@@ -91,6 +91,8 @@ def changes(function: Any) -> Any:
             raise click.UsageError("say where the result goes: -o FILE, or --in-place")
         if options["output"]:
             formats.must_be_writable(Path(options["output"]), force)
+        elif not source.board:
+            formats.keep_backup(Path(source.word))
         try:
             function(source, **options)
         except WordError as error:

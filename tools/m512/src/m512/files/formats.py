@@ -6,6 +6,8 @@ load() puts its assumptions into Image.notes. save() returns the losses: what th
 
 from __future__ import annotations
 
+import json
+import os
 from pathlib import Path
 
 from m512.errors import FileError, RefusedError
@@ -16,6 +18,7 @@ from m512.files.wording import counted
 
 TEXT, BINARY, HEX, MTN, CSV = "text", "image", "Intel HEX", "RoboPlus .mtn", "CSV"
 BY_SUFFIX = {".m512": TEXT, ".bin": BINARY, ".img": BINARY, ".hex": HEX, ".ihex": HEX, ".mtn": MTN, ".csv": CSV}
+BACKUP_MANIFEST, BACKUP_FORMAT = "manifest.json", "m512-backup"  # in the folder of a backup (board/backup.py)
 
 
 def read_bytes(path: Path) -> bytes:
@@ -117,10 +120,28 @@ def kind_of(path: Path) -> str:
 
 
 def must_be_writable(path: Path, force: bool) -> None:
-    """The cheap checks, before the motions are read. RefusedError: the file exists. FileError: the suffix names no format, or the path
-    is a folder."""
+    """The cheap checks, before the motions are read. RefusedError: the file exists, or belongs to a backup. FileError: the suffix names no
+    format, or the path is a folder."""
     storage.must_be_free(path, force)
     kind_of(path)
+    keep_backup(path)
+
+
+def keep_backup(path: Path) -> None:
+    """RefusedError if the path is a file of a backup: with other contents it would no longer be what its manifest says."""
+    if storage.is_stream(path):
+        return
+    real = Path(os.path.realpath(path))
+    try:
+        manifest = json.loads((real.parent / BACKUP_MANIFEST).read_bytes())
+        names = [entry["file"] for entry in manifest["files"].values()] if manifest["format"] == BACKUP_FORMAT else []
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        return  # no backup, or one that is unreadable already
+    if real.name in names:
+        raise RefusedError(
+            f"{path} belongs to the backup {real.parent if path.is_symlink() else path.parent}, which stays as it was read from the board. Name another file for the result "
+            "(of `m512 pages`: -o new.bin); `m512 flash new.bin` writes it to the board"
+        )
 
 
 def keep_text(source: Path, target: Path) -> None:
