@@ -68,8 +68,11 @@ def test_poses_and_torque(m512):
     assert "limp" in m512("pose", "-p", "BUS") and m512.robot.frames() == []
     m512("pose", "1:560", "-p", "BUS")
     assert m512.robot.frames()[-1][1] == 560
-    m512("torque", "off", "-p", "BUS")
+    assert "next command that moves (play, pose ID:POSITION) switches all joints on again" in m512("torque", "off", "-p", "BUS")
     assert "holds" not in m512("pose", "-p", "BUS")
+    m512("pose", "1:500", "-p", "BUS")
+    assert "limp" not in m512("pose", "-p", "BUS")
+    assert "note: the next" not in m512("torque", "on", "-p", "BUS")
 
 
 def test_what_needs_a_boot_loader_is_refused_and_what_to_do_is_said(m512, motions):

@@ -437,3 +437,19 @@ def test_a_pose_of_a_servo_that_is_not_there_is_an_error(m512, started):
     assert result.exit_code == 8 and "servos 25" in result.stderr
     found = json.loads(m512("pose", "--json", "-p", play.path).stdout)
     assert found["2"] == {"position": 512, "torque": False}
+
+
+def test_help_says_what_moving_one_joint_of_a_limp_robot_does(m512, started):
+    """A board moves nothing after `torque off`."""
+    play = started("play-cm5.hex")
+
+    def holding():
+        return [joint for joint, found in json.loads(m512("pose", "--json", "-p", play.path).stdout).items() if found["torque"]]
+
+    assert holding() == [] and m512("pose", "1:500", "-p", play.path).exit_code == 0 and len(holding()) == 18
+    assert "limp robot switches the torque of all joints on" in " ".join(m512("pose", "--help").stdout.split())
+    told = m512("torque", "off", "-p", play.path)
+    assert told.exit_code == 0 and "note" not in told.stderr
+    refused = m512("pose", "1:512", "-p", play.path)
+    assert refused.exit_code == 8 and "switch them on first" in refused.stderr and holding() == []
+    assert "A board moves nothing that was switched off until `torque on`" in " ".join(m512("torque", "--help").stdout.split())
