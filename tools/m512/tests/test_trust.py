@@ -282,6 +282,64 @@ def test_a_text_that_is_included_is_not_overwritten_by_the_whole(m512, files, mo
     assert m512(*[word.replace("poses", "own") for word in words]).exit_code == 0
 
 
+FROM_PIPES = [
+    "{m512} convert - {target} --force < {source}",
+    "{m512} convert - {target} --force < ../files/{source}",
+    "{m512} convert /dev/stdin {target} --force < {source}",
+    "{m512} convert /proc/self/fd/0 {target} --force < {source}",
+    "{m512} convert /dev/fd/7 {target} --force 7< {source}",
+    "{m512} convert <(cat {source}) {target} --force",
+    "cat {source} | {m512} convert - {target} --force",
+    '{m512} convert - {target} --force <<< "$(cat {source})"',
+    "mkfifo fifo; cat {source} > fifo & {m512} convert fifo {target} --force",
+    "{m512} pages - rename 3 foo -o {target} --force < {source}",
+    "{m512} pages <(cat {source}) rename 3 foo -o {target} --force",
+    "{m512} pages x.bin merge - 3 --replace -o {target} --force < {source}",
+    "{m512} convert x.mtn {target} --onto - --force < {source}",
+]
+
+
+@pytest.mark.parametrize("line", FROM_PIPES)
+@pytest.mark.parametrize("source, target, kept", [("hand", "hand", True), ("main", "poses", True), ("own", "own", False), ("hand", "own", False)])
+def test_a_text_is_not_overwritten_by_its_own_motions_through_a_pipe(tmp_path, line, source, target, kept):
+    """README: `-`, /dev/stdin and <(...) work as files."""
+    files = tmp_path / "files"
+    files.mkdir()
+    image = read_text(TEXT)
+    (files / "x.bin").write_bytes(image.to_bytes())
+    (files / "x.mtn").write_bytes(formats.encode(files / "x.mtn", image)[0])
+    (files / "hand.m512").write_text(BY_HAND)
+    (files / "own.m512").write_text(write_text(image))
+    (files / "poses.m512").write_text("motion512 1\npose up | 1:300  # as high as it goes\n")
+    (files / "main.m512").write_text('motion512 1\ninclude "poses.m512"\npage 3 bow\nstep 9 | @up\n')
+    before = (files / f"{target}.m512").read_bytes()
+    command = line.format(m512=f"{sys.executable} -m m512", source=f"{source}.m512", target=f"{target}.m512")
+    done = subprocess.run(["bash", "-c", command], cwd=files, capture_output=True, text=True, timeout=300)
+    if kept:
+        assert done.returncode == 5 and ("somebody's text" in done.stderr or "includes, and would be lost" in done.stderr), done.stderr
+        assert (files / f"{target}.m512").read_bytes() == before
+    else:
+        assert done.returncode == 0, done.stderr
+
+
+def test_a_text_of_somebody_else_is_overwritten_where_the_source_is_known(files):
+    """Behind `<` is a file, and it is another one. From a pipe nobody can tell."""
+    (files / "other.m512").write_text(BY_HAND)
+    for command, code in (("convert - hand.m512 --force < other.m512", 0), ("convert <(cat x.bin) other.m512 --force", 0)):
+        done = subprocess.run(["bash", "-c", f"{sys.executable} -m m512 {command}"], cwd=files, capture_output=True, text=True, timeout=300)
+        assert done.returncode == code, done.stderr
+
+
+@pytest.mark.parametrize("damage", [b"\nnonsense\n", b"\n# \xe4\n", b"\n# caf\xc3\xa9\n"])
+def test_a_text_with_a_mistake_is_somebodys_too(files, damage):
+    hand = files / "hand.m512"
+    hand.write_bytes(hand.read_bytes() + damage)
+    command = f"cat own.m512 | {sys.executable} -m m512 convert - hand.m512 --force"
+    done = subprocess.run(["bash", "-c", command], cwd=files, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 5 and "remove it first" in done.stderr, done.stderr
+    assert hand.read_bytes().endswith(damage)
+
+
 @pytest.mark.parametrize("size", [65_024, 65_536, 131_072])
 @pytest.mark.parametrize("suffix", ["m512", "hex", "mtn", "csv"])
 def test_a_text_of_the_size_of_an_image_is_a_text(m512, files, size, suffix):

@@ -132,11 +132,13 @@ def convert(
         raise click.UsageError("--mtn-version is for a .mtn as TARGET")
     if as_json and str(target) in ("-", "/dev/stdout"):
         raise click.UsageError("--json wants a file as TARGET: standard output has the motions")
-    image = formats.load(source, int(bits) if bits else None, formats.load(onto) if onto else None)
+    base = formats.load(onto) if onto else None
+    image = formats.load(source, int(bits) if bits else None, base)
     if onto and image.form != formats.MTN:
         raise click.UsageError(f"--onto is for a .mtn as SOURCE; {source} has a page 0 of its own")
-    for text in filter(None, (source, onto)):
-        formats.keep_text(text, target)
+    formats.keep_text(image, source, target)
+    if base:
+        formats.keep_text(base, onto, target)
     notes, losses = list(image.notes), []
     moved, left = {}, []
     if only:

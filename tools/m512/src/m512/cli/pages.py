@@ -7,7 +7,7 @@ import json
 from collections.abc import Iterable, Sequence
 from functools import cached_property, wraps
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -17,6 +17,9 @@ from m512.cli.files import PAGE_NUMBER, one_of_csv, page_moves, page_numbers
 from m512.errors import EXIT_DIFFERENT, EmptyPageError, FileError, WordError
 from m512.files import conversion, formats, selection
 from m512.files.page import Page
+
+if TYPE_CHECKING:
+    from m512.files.image import Image
 
 
 class Source:
@@ -46,15 +49,23 @@ class Source:
             ui.say(f"note: {note}")
         return image
 
-    def store(self, remarks: Iterable[str], output: Any, in_place: bool, yes: bool, number: int | None = None, other: Path | None = None) -> None:
+    def store(
+        self,
+        remarks: Iterable[str],
+        output: Any,
+        in_place: bool,
+        yes: bool,
+        number: int | None = None,
+        other: tuple[Image, Path] | None = None,
+    ) -> None:
         """Writes the changed image to `output`, or else back to its file or board. `number`: the page of a .csv. `other`: a second file
-        that the motions come from."""
+        that the motions come from, read and by name."""
         for remark in remarks:
             ui.say(f"note: {remark}")
         target = output or ("" if self.board else self.word)
-        for source in (self.word, other or ""):
-            if source and target:
-                formats.keep_text(Path(source), Path(target))
+        for image, source in ((self.image, Path(self.word)), *([other] if other else [])):
+            if target:
+                formats.keep_text(image, source, Path(target))
         if output:
             fitted, lost = conversion.fitted(self.image, None, Path(output))
             for loss in lost + formats.save(Path(output), fitted, number):
@@ -283,7 +294,7 @@ def merge(source: Source, other: Path, page: Sequence[str], replace: bool, **whe
     from m512.pages import operations
 
     image = formats.load(other, source.bits)
-    source.store(operations.place(source.image, image, page_moves(page, image), replace), **where, other=other)
+    source.store(operations.place(source.image, image, page_moves(page, image), replace), **where, other=(image, other))
 
 
 @pages.command(epilog="Example: m512 pages lib.bin mirror kick_left 41 --in-place")

@@ -94,7 +94,10 @@ def _image(kind: str, data: bytes, path: Path, bits: int | None, base: Image | N
     if kind == TEXT:
         from m512.files.text import read_text
 
-        return read_text(_text_of(data, path), str(path), path.parent)
+        text = _text_of(data, path)
+        image = read_text(text, str(path), storage.folder(path))
+        image.text = text
+        return image
     if kind == MTN:
         from m512.files import mtn
 
@@ -144,24 +147,37 @@ def keep_backup(path: Path) -> None:
         )
 
 
-def keep_text(source: Path, target: Path) -> None:
-    """RefusedError if a text, or one that it includes, would be overwritten by its own motions and would lose content, such as comments."""
-    if not (storage.exists(source) and storage.exists(target)):
+def keep_text(image: Image, source: Path, target: Path) -> None:
+    """RefusedError if a text, or one that it includes, would be overwritten by its own motions and would lose content, such as comments.
+    `image` was read from `source`. Where a pipe does not tell from which file it comes, no such text is overwritten."""
+    if not (image.text and storage.exists(target)):
         return
-    data = read_bytes(source)
-    if recognise(data, source) != TEXT:
-        return
-    from m512.files.text import read_text, write_text
-
-    text = _text_of(data, source)
-    image = read_text(text, str(source), source.parent)
     if any(storage.exists(path) and target.samefile(path) for path in image.included):
         raise RefusedError(f"{target} is a text that {source} includes, and would be lost. Name another file for the result")
-    if target.samefile(source) and write_text(image) != text:
+    untraceable = storage.is_untraceable(source)
+    if (untraceable or storage.is_source(source, target)) and _is_by_hand(target):
         raise RefusedError(
-            f"{source} is somebody's text: its comments, poses, names and includes would become numbers. "
-            "Change the text itself, or name another file for the result (of `m512 pages`: -o new.m512)"
+            f"{target} is somebody's text: its comments, poses, names and includes would become numbers. "
+            + (f"It may be where the text in {source} comes from: remove it first, or name " if untraceable else "Change the text itself, or name ")
+            + "another file for the result (of `m512 pages`: -o new.m512)"
         )
+
+
+def _is_by_hand(path: Path) -> bool:
+    """Whether a file is a text with more in it than the motions that it describes."""
+    data = read_bytes(path)
+    try:
+        if recognise(data, path) != TEXT:
+            return False
+    except FileError:  # nothing that this program knows
+        return False
+    from m512.files.text import read_text, write_text
+
+    try:
+        text = _text_of(data, path)
+        return write_text(read_text(text, str(path), path.parent)) != text
+    except FileError:  # a text with a mistake
+        return True
 
 
 def encode(path: Path, image: Image, number: int | None = None, mtn_version: str = "1.01", kind: str | None = None) -> tuple[bytes, list[str]]:

@@ -38,6 +38,7 @@ class Image:
     joints: dict[int, str] = field(default_factory=dict)  # names, if the file has some
     form: str = ""  # the kind of file it was read from (formats.TEXT, BINARY, ...)
     given: set[int] | None = None  # the pages that an Intel HEX file contains, if not all
+    text: str = ""  # the text that it was read from, if it was one
     included: list[Path] = field(default_factory=list)  # other texts that it was read from
 
     @classmethod

@@ -38,6 +38,27 @@ def is_stream(path: Path) -> bool:
         return False
 
 
+def folder(path: Path) -> Path:
+    """The folder that names in a file are relative to: for a stream the current one."""
+    return Path(".") if is_stream(path) else path.parent
+
+
+def is_untraceable(path: Path) -> bool:
+    """Whether it cannot be told which file the bytes read from this path come from: a pipe, a terminal, a deleted file (`<<<` in shells)."""
+    status = _source_status(path)
+    return not (stat.S_ISREG(status.st_mode) and status.st_nlink)
+
+
+def is_source(path: Path, target: Path) -> bool:
+    """Whether what was read from `path` is this file, also behind an inherited descriptor: `< file`."""
+    return os.path.samestat(_source_status(path), target.stat())
+
+
+def _source_status(path: Path) -> os.stat_result:
+    descriptor = 0 if str(path) == "-" else _descriptor(path)
+    return path.stat() if descriptor is None else os.fstat(descriptor)
+
+
 def exists(path: Path) -> bool:
     """Whether writing would overwrite something."""
     return path.exists() and not is_stream(path)
