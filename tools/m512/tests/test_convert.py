@@ -128,6 +128,58 @@ def test_a_12_bit_image_says_so_once(m512, tmp_path, suffix):
     assert m512("pages", tmp_path / "t.bin", "check").exit_code == 0
 
 
+def few_high(tmp_path, count=4):
+    """A 12-bit image that is taken for 10 bits: nine pages of 1:1000 and one with `count` words above 1023."""
+    image = Image.empty(256)
+    image.bits = 12
+    for number in range(1, 11):
+        image[number].steps = 2
+        for joint in range(1, 19):
+            image[number].set_word(0, joint, 2000 + joint if number == 10 and joint <= count else 1000)
+        image[number].seal()
+    (tmp_path / "x.bin").write_bytes(image.to_bytes())
+    (tmp_path / "x.hex").write_text(to_hex(image))
+
+
+@pytest.mark.parametrize("scale", ["10", "12"])
+@pytest.mark.parametrize("kind", ["bin", "hex"])
+def test_an_image_that_may_have_either_resolution_is_not_scaled_by_guess(m512, tmp_path, monkeypatch, kind, scale):
+    monkeypatch.chdir(tmp_path)
+    few_high(tmp_path)
+    told = m512("convert", f"x.{kind}", "y.bin", "--scale", scale)
+    assert told.exit_code == 5 and "page 10 (up to 2004)" in told.stderr and "--bits 12" in told.stderr, told.stderr
+    assert not (tmp_path / "y.bin").exists()
+    for bits in ("10", "12"):
+        done = m512("convert", f"x.{kind}", "y.bin", "--scale", scale, "--bits", bits, "--force")
+        assert done.exit_code == 0 and ("nothing is scaled" in done.stderr) == (bits == scale), done.stderr
+        assert (f"positions scaled from {bits} to {scale} bits" in done.stderr) == (bits != scale)
+
+
+@pytest.mark.parametrize("bits", [10, 12])
+def test_a_scale_that_changes_nothing_says_so(m512, tmp_path, bits):
+    image = image_of(bits, 3)
+    image.bits = bits
+    for name in ("x.bin", "x.m512"):
+        formats.save(tmp_path / name, image)
+    for name in ("x.bin", "x.m512"):
+        done = m512("convert", tmp_path / name, tmp_path / "y.bin", "--scale", bits, "--force")
+        assert done.exit_code == 0 and f"note: nothing is scaled: the positions have {bits} bits already" in done.stderr
+        assert "scaled" not in m512("convert", tmp_path / name, tmp_path / "y.bin", "--force").stderr
+
+
+@pytest.mark.parametrize("says, bits", [("12", "10"), ("10", "12"), ("", "12"), ("12", "12"), ("10", "10"), ("", "10")])
+@pytest.mark.parametrize("suffix", ["m512", "csv"])
+def test_bits_that_a_file_states_itself_are_not_overruled_without_a_word(m512, tmp_path, says, bits, suffix):
+    path, other = tmp_path / "x.m512", says != bits and (says or "10") != bits
+    path.write_text("motion512 1\n" + (f"bits {says}\n" if says else "") + f"page 1 a\n  step 9 | 1:{'2000' if says == '12' else '600'}\n")
+    if suffix == "csv":
+        assert m512("convert", path, tmp_path / "x.csv").exit_code == 0
+        path = tmp_path / "x.csv"
+    for words in (("convert", path, tmp_path / "y.bin"), ("pages", "--bits", bits, path, "check"), ("diff", path, path)):
+        done = m512(*words, *([] if "pages" in words else ["--bits", bits]))
+        assert done.exit_code == 0 and (f"--bits {bits} has no effect on a text or a table" in done.stderr) == other, (words, done.stderr)
+
+
 @pytest.mark.parametrize("bits, says", [(12, "12-bit positions mean nothing to this board"), (10, "pages 128..150: no room among")])
 def test_the_simulated_board_refuses_what_the_real_one_cannot_play(monkeypatch, tmp_path, bits, says):
     from m512.board.sim import Simulator

@@ -152,9 +152,14 @@ def convert(
         from m512.files.scale12 import keep_joints
 
         losses += keep_joints(image, id_list(joints))
-    if scale and int(scale) != image.bits:
+    if scale:
         from m512.files import scale12
 
+        if not bits and image.form in (formats.BINARY, formats.HEX):
+            scale12.must_be_clear(image, source)
+    if scale and int(scale) == image.bits:
+        notes.append(f"nothing is scaled: the positions have {scale} bits already")
+    elif scale:
         notes = [note.replace(f"; {scale12.HINT}", "") for note in notes]
         image, report = scale12.scaled(image, int(scale))
         losses += report
@@ -224,10 +229,11 @@ def diff(first: str, second: str, bits: str | None, board: str, as_json: bool) -
     from m512.pages import difference
 
     here, there = (_motions_of(word, int(bits) if bits else None, board) for word in (first, second))
-    if here.bits != there.bits:
+    if bits or here.bits != there.bits:
         for word, image in ((first, here), (second, there)):
             for note in image.notes:
                 ui.say(f"note: {word}: {note}")
+    if here.bits != there.bits:
         ui.say(f"note: {first} has positions of {here.bits} bits and {second} of {there.bits}: scale one of them first (m512 convert --scale)")
     found = difference.images(here, there)
     if as_json:

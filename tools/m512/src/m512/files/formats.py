@@ -63,7 +63,7 @@ def _text_of(data: bytes, path: Path) -> str:
 
 
 def load(path: Path, bits: int | None = None, base: Image | None = None) -> Image:
-    """Reads any motion file. `bits`: 10 or 12; None guesses from the positions, with a note (a text states it). `base`: supplies what
+    """Reads any motion file. `bits`: 10 or 12; None guesses from the positions, with a note (a text or a table states it). `base`: supplies what
     the file cannot hold (page 0 of a .mtn)."""
     return decode(read_bytes(path), path, bits, base)
 
@@ -97,14 +97,14 @@ def _image(kind: str, data: bytes, path: Path, bits: int | None, base: Image | N
         text = _text_of(data, path)
         image = read_text(text, str(path), storage.folder(path))
         image.text = text
-        return image
+        return scale12.as_said(image, bits)
     if kind == MTN:
         from m512.files import mtn
 
         return mtn.read(data, str(path), base, bits)
     from m512.files import csvpage
 
-    return csvpage.read(_text_of(data, path), str(path))
+    return scale12.as_said(csvpage.read(_text_of(data, path), str(path)), bits)
 
 
 def save(path: Path, image: Image, number: int | None = None, mtn_version: str = "1.01", kind: str | None = None) -> list[str]:

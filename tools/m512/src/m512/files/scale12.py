@@ -9,12 +9,36 @@ from __future__ import annotations
 from collections.abc import Iterable
 from fractions import Fraction
 
+from m512.errors import RefusedError
 from m512.files.image import TWELVE_BIT_MAX, Image
 from m512.files.page import JOINTS, POS_UNUSED, STEPS, Fault, Page, is_used
 from m512.files.wording import counted, pages_text
 
 SHOWN = 4  # clipped positions reported one by one
 HINT = "m512 convert --bits 12 --scale 10 makes it fit a board of 10 bits"
+
+
+def as_said(image: Image, bits: int | None) -> Image:
+    """The image of a text or a table, which states its own resolution. A note says that `bits` is another and has no effect."""
+    if bits and bits != image.bits:
+        image.notes.append(f"--bits {bits} has no effect on a text or a table, which says its resolution itself; this one has {image.bits} bits")
+    return image
+
+
+def must_be_clear(image: Image, source: object) -> None:
+    """RefusedError if an image was judged to have 10 bits and some positions have more: scaling would ruin one or the other."""
+    high = {
+        number: max(words)
+        for number, page in image.items()
+        if (words := [word for step in range(min(page.steps, STEPS)) for word in page.words(step) if 1023 < word <= TWELVE_BIT_MAX])
+        and number
+        and page.fault() is not Fault.CHECKSUM
+    }
+    if image.bits == 10 and high:
+        raise RefusedError(
+            f"{source}: most positions are within 10 bits, but not those in {pages_text(high)} (up to {max(high.values())}), so it is not "
+            "clear what is to be scaled. Say --bits 12 if they are of 12 bits, or --bits 10 if those pages are damaged"
+        )
 
 
 def judged(image: Image, bits: int | None) -> Image:
