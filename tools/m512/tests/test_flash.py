@@ -675,7 +675,9 @@ def test_a_backup_stays_as_it_was_read(m512, backup_of_all, tmp_path, monkeypatc
     assert m512("pages", "b/motions.bin", "rename", "1", "x", "-o", "b/new.bin").exit_code == 0
 
 
-@pytest.mark.parametrize("manifest", ['{"name": "my page", "files": 5}', "{", '{"format": "m512-backup", "files": {"app": {"file": "app.bin"}}}', "[]"])
+@pytest.mark.parametrize(
+    "manifest", ['{"name": "my page", "files": 5}', "{", '{"format": "m512-backup", "files": {"app": {"file": "app.bin"}}}', "[]"]
+)
 def test_a_manifest_that_does_not_name_a_file_does_not_protect_it(m512, tmp_path, manifest):
     (tmp_path / "manifest.json").write_text(manifest)
     (tmp_path / "motions.bin").write_bytes(motion_area())

@@ -403,6 +403,70 @@ def test_files_are_replaced_whole_or_not_at_all(files, monkeypatch):
     assert target.read_bytes() == b"whole" and target.stat().st_mode == mode
 
 
+def in_place(files, *before, name="x.bin"):
+    command = [*before, sys.executable, "-m", "m512", "pages", name, "rename", "3", "new", "--in-place"]
+    return subprocess.run(command, cwd=files, capture_output=True, text=True, timeout=300)
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGINT])
+def test_a_signal_while_the_file_gets_its_name_ends_m512_as_a_signal(files, monkeypatch, m512, number):
+    """The file is written then. m512 said that it cannot be, because its temporary name was gone, and went on to an exit code of 4."""
+    replace = os.replace
+
+    def interrupted(*names):
+        replace(*names)
+        raise KeyboardInterrupt if number == signal.SIGINT else SystemExit(128 + number)
+
+    monkeypatch.setattr(os, "replace", interrupted)
+    done = m512("pages", files / "x.bin", "rename", "3", "new", "--in-place")
+    assert done.exit_code == 128 + number and "cannot write" not in done.stderr, done.stderr
+    assert formats.load(files / "x.bin")[3].name == b"new" and sorted(path.name for path in files.iterdir()) == ["hand.m512", "own.m512", "x.bin"]
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can give files away")
+@pytest.mark.parametrize("name", ["x.bin", "own.m512", "link.bin"])
+def test_a_file_keeps_its_owner_group_and_mode(files, name):
+    (files / "link.bin").symlink_to("x.bin")
+    os.chown(files / name, 1234, 2345)
+    os.chmod(files / name, 0o664)
+    done = in_place(files, name=name)
+    assert (done.returncode, done.stderr) == (0, "")
+    now = (files / name).stat()
+    assert (now.st_uid, now.st_gid, now.st_mode & 0o7777) == (1234, 2345, 0o664)
+
+
+@pytest.mark.parametrize(
+    "uid, gid, says",
+    [(1234, None, "owner"), (None, 2345, "group"), (1234, 2345, "owner and group"), (None, None, "")],
+    ids=["uid", "gid", "both", "none"],
+)
+def test_an_owner_that_cannot_be_kept_is_said(files, monkeypatch, uid, gid, says):
+    """A user who is not root, and a file of another user in a shared folder."""
+    mine = files / "x.bin"
+    monkeypatch.setattr(os, "chown", lambda *_: (_ for _ in ()).throw(PermissionError(1, "Operation not permitted")))
+    status = list(mine.stat())
+    status[4], status[5] = status[4] if uid is None else uid, status[5] if gid is None else gid
+    lost = storage._keep_owner(str(mine), os.stat_result(status), mine)
+    assert [says and f" {says} could not be kept" in line for line in lost] == ([True] if says else [])
+
+
+def test_other_names_of_a_file_keep_the_old_contents_and_that_is_said(files):
+    os.link(files / "x.bin", files / "y.bin")
+    before = (files / "x.bin").read_bytes()
+    done = in_place(files)
+    assert done.returncode == 0 and done.stderr == "loss: x.bin had other names (hard links): they keep the old contents\n"
+    assert (files / "y.bin").read_bytes() == before and (files / "x.bin").read_bytes() != before
+    assert in_place(files).stderr == ""
+
+
+def test_a_folder_that_takes_no_file_is_named(m512, files, monkeypatch):
+    result = m512("convert", files / "x.bin", files / "none" / "y.bin")
+    assert result.exit_code == 4 and f"in the folder {files / 'none'}: No such file or directory" in result.stderr
+    monkeypatch.setattr(storage.tempfile, "mkstemp", lambda **_: (_ for _ in ()).throw(PermissionError(13, "Permission denied")))
+    result = m512("pages", files / "x.bin", "rename", "3", "new", "--in-place")
+    assert result.exit_code == 4 and f"{files / 'x.bin'}: no new file can be made in the folder {files}: Permission denied" in result.stderr
+
+
 # Boards
 
 

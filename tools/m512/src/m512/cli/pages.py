@@ -50,13 +50,7 @@ class Source:
         return image
 
     def store(
-        self,
-        remarks: Iterable[str],
-        output: Any,
-        in_place: bool,
-        yes: bool,
-        number: int | None = None,
-        other: tuple[Image, Path] | None = None,
+        self, remarks: Iterable[str], output: Any, in_place: bool, yes: bool, number: int | None = None, other: tuple[Image, Path] | None = None
     ) -> None:
         """Writes the changed image to `output`, or else back to its file or board. `number`: the page of a .csv. `other`: a second file
         that the motions come from, read and by name."""

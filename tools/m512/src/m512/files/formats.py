@@ -25,8 +25,8 @@ def read_bytes(path: Path) -> bytes:
     return storage.read(path)
 
 
-def write_bytes(path: Path, data: bytes) -> None:
-    storage.write(path, data)
+def write_bytes(path: Path, data: bytes) -> list[str]:
+    return storage.write(path, data)
 
 
 def recognise(data: bytes, path: Path) -> str:
@@ -108,10 +108,9 @@ def _image(kind: str, data: bytes, path: Path, bits: int | None, base: Image | N
 
 
 def save(path: Path, image: Image, number: int | None = None, mtn_version: str = "1.01", kind: str | None = None) -> list[str]:
-    """Writes an image in the format of the path's suffix, or as `kind`. Returns the losses. `number`: the page for a CSV."""
+    """Writes an image in the format of the path's suffix, or as `kind`. Returns the losses, also those of a file that was replaced. `number`: the page for a CSV."""
     data, losses = encode(path, image, number, mtn_version, kind)
-    write_bytes(path, data)
-    return losses
+    return losses + write_bytes(path, data)
 
 
 def kind_of(path: Path) -> str:

@@ -9,6 +9,7 @@ import re
 import stat
 import sys
 import tempfile
+from contextlib import suppress
 from pathlib import Path
 
 from m512.errors import FileError, RefusedError
@@ -100,8 +101,9 @@ def must_fit(size: int, path: Path) -> None:
         raise FileError(f"cannot read {path}: more than {MOST_BYTES >> 20} MiB, which is no file for this program")
 
 
-def write(path: Path, data: bytes) -> None:
-    """Replaces a file in one step: after a crash or on a full disk the old one remains."""
+def write(path: Path, data: bytes) -> list[str]:
+    """Replaces a file in one step: after a crash or on a full disk the old one remains. Returns what could not be kept of the old one
+    besides its contents."""
     try:
         descriptor = _descriptor(path)
         if descriptor == 1:
@@ -120,27 +122,51 @@ def write(path: Path, data: bytes) -> None:
             with open(path, "wb") as stream:
                 stream.write(data)
         else:
-            _replace(Path(os.path.realpath(path)), data)
+            return _replace(Path(os.path.realpath(path)), path, data)
     except BrokenPipeError:  # its reader has gone (cli/__init__.py)
         raise
     except OSError as error:
         raise FileError(f"cannot write {path}: {error.strerror}") from None
+    return []
 
 
-def _replace(path: Path, data: bytes) -> None:
-    if path.exists() and not (os.access(path, os.W_OK) and path.stat().st_mode & 0o222):  # root has access to everything
+def _replace(path: Path, called: Path, data: bytes) -> list[str]:
+    """Replaces the file at `path`, or makes it. `called`: how the user names it. Returns what of the old file could not be kept."""
+    old = path.stat() if path.exists() else None
+    if old and not (os.access(path, os.W_OK) and old.st_mode & 0o222):  # root has access to everything
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
-    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+    try:
+        handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+    except OSError as error:
+        raise FileError(f"cannot write {called}: no new file can be made in the folder {path.parent}: {error.strerror}") from None
     try:
         with os.fdopen(handle, "wb") as file:
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
-        os.chmod(name, path.stat().st_mode & 0o7777 if path.exists() else 0o666 & ~_umask())
+        lost = _keep_owner(name, old, called) if old else []
+        os.chmod(name, old.st_mode & 0o7777 if old else 0o666 & ~_umask())
         os.replace(name, path)
     except BaseException:
-        os.unlink(name)
+        with suppress(FileNotFoundError):  # a signal during the replacement: the file has its new name already
+            os.unlink(name)
         raise
+    if old and old.st_nlink > 1:
+        lost.append(f"{called} had other names (hard links): they keep the old contents")
+    return lost
+
+
+def _keep_owner(name: str, old: os.stat_result, called: Path) -> list[str]:
+    """Gives a new file the owner and group of the old one. Only root can give away a file, and others only to groups of their own."""
+    new = os.stat(name)
+    for uid, gid in ((old.st_uid, old.st_gid), (-1, old.st_gid)):
+        if (new.st_uid, new.st_gid) != (old.st_uid, old.st_gid):
+            with suppress(OSError):
+                os.chown(name, uid, gid)
+            new = os.stat(name)
+    kept = {"owner": new.st_uid == old.st_uid, "group": new.st_gid == old.st_gid}
+    lost = " and ".join(what for what, is_kept in kept.items() if not is_kept)
+    return [f"{called}: its {lost} could not be kept"] if lost else []
 
 
 def _umask() -> int:
