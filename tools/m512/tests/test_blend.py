@@ -34,7 +34,7 @@ def test_blend_partners_are_listed_told_apart_and_kept(m512, tmp_path):
     other = from_bytes(image.to_bytes())
     other[5].blend_right = 0
     other[5].seal()
-    assert [str(change) for change in difference.images(image, other)] == ['page 5 "walk": blend partner to the right 6 -> 0']
+    assert [str(change) for change in difference.images(image, other)] == ['page 5 "walk": blend right 6 -> 0']
     formats.save(tmp_path / "x.csv", image, 5)
     assert formats.load(tmp_path / "x.csv")[5] == image[5]
     assert any("blend partners are left out" in loss for loss in formats.save(tmp_path / "x.mtn", image))
@@ -44,7 +44,7 @@ def test_blend_partners_follow_pages_that_move():
     image = read_text(TEXT)
     operations.renumber(image, 6, 40)
     assert image[5].blend_right == 40 and image[5].blend_left == 7
-    assert "links to page 40 (blend_right)" in " ".join(operations.delete(image, [40]))
+    assert "links to page 40 (blend right)" in " ".join(operations.delete(image, [40]))
 
 
 def test_check_names_partners_that_cannot_be_blended():

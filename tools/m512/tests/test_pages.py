@@ -346,7 +346,7 @@ def test_pages_copy_keeps_self_links_on_the_copy(m512, lib):
 
 def test_pages_delete_tells_who_still_links_there(m512, lib):
     result = m512("pages", lib, "delete", "left", "--in-place")
-    assert bytes(image(lib)[7]) == EMPTY and 'page 3 "walk" still links to page 7 (link1_page)' in result.stderr
+    assert bytes(image(lib)[7]) == EMPTY and 'page 3 "walk" still links to page 7 (link1 page)' in result.stderr
 
 
 def test_pages_renumber_takes_all_links_along(m512, lib):
@@ -365,7 +365,7 @@ def test_pages_extract_and_merge_with_links(m512, lib, tmp_path):
     result = m512("pages", tmp_path / "new.bin", "merge", tmp_path / "two.m512", "walk:40", "left:41", "--in-place")
     now = image(tmp_path / "new.bin")
     assert now[40].next == 40 and now[40].link1_page == 41 and now[41].next == 40 and now[40].exit == 5
-    assert 'page 40 "walk": exit 5 is not among the pages taken' in result.stderr
+    assert 'page 40 "walk": exit 5 is not among the pages taken and leads to page 5 of the target, which is empty' in result.stderr
     assert m512("pages", tmp_path / "new.bin", "merge", lib, "all", "--in-place").exit_code == 0
     assert image(tmp_path / "new.bin")[5].name == b"stop"
 
@@ -536,6 +536,21 @@ def test_diff_finds_every_single_byte():
         b = from_bytes(a.to_bytes())
         b[3].data[at] ^= 1
         assert images(a, b), at
+
+
+LINKED = "motion512 1\npage 3 a\n  next 1\n  exit 9\n  link1 U 8\n  link2 D 4\n  blend left 2\n  step 1s | 1:500\npage 4 d\n  step 1s | 1:5\n"
+
+
+def test_merge_says_which_page_of_the_target_a_link_leads_to(m512, tmp_path):
+    (tmp_path / "a.m512").write_text(LINKED)
+    (tmp_path / "b.m512").write_text("motion512 1\n" + "".join(f"page {n} {name}\n  step 1s | 1:500\n" for n, name in ((1, "ready"), (8, '""'))))
+    result = m512("pages", tmp_path / "b.m512", "merge", tmp_path / "a.m512", "3:20", "4:9", "-o", tmp_path / "c.bin")
+    leads = ['next 1 @page 1 "ready" of the target', 'exit 9 @page 9 "d" of the target', "link1 page 8 @page 8 of the target"]
+    leads += ["blend left 2 @page 2 of the target, which is empty"]
+    assert result.exit_code == 0 and result.stderr.splitlines() == [
+        f'note: page 20 "a": {text.replace("@", "is not among the pages taken and leads to ")}' for text in leads
+    ]
+    assert image(tmp_path / "c.bin")[20].link2_page == 9
 
 
 def test_extract_says_which_partners_are_left_behind(m512, tmp_path):

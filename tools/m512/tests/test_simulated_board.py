@@ -453,3 +453,15 @@ def test_help_says_what_moving_one_joint_of_a_limp_robot_does(m512, started):
     refused = m512("pose", "1:512", "-p", play.path)
     assert refused.exit_code == 8 and "switch them on first" in refused.stderr and holding() == []
     assert "A board moves nothing that was switched off until `torque on`" in " ".join(m512("torque", "--help").stdout.split())
+
+
+def test_put_says_which_page_of_the_board_a_link_leads_to(m512, started, tmp_path):
+    edit = started("boot-cm5.hex", "edit-cm5.hex", text="motion512 1\npage 1 ready\n  step 1s | 1:500\n", applied=True)
+    (tmp_path / "a.m512").write_text(
+        "motion512 1\npages 0..255\npage 3 a\n  next 1\n  exit 9\n  link1 U 0xC8\n  link2 D 4\n  step 1s | 1:5\npage 4 d\n  step 9 | 1:5\n"
+    )
+    result = m512("put", tmp_path / "a.m512", "3:20", "4:9", "-p", edit.path)
+    leads = ['next 1 @page 1 "ready" of the target', 'exit 9 @page 9 "d" of the target', "link1 page 200 @page 200, which the target does not have"]
+    told = [f'note: page 20 "a": {text.replace("@", "is not among the pages taken and leads to ")}' for text in leads]
+    assert result.exit_code == 0 and result.stderr.splitlines() == [*told, "saved: pages 20 9"], result.stderr
+    assert "note" not in m512("put", tmp_path / "a.m512", "4:30", "-p", edit.path).stderr

@@ -17,6 +17,7 @@ from m512.cli.files import PAGE_NUMBER, one_of_csv, page_moves, page_numbers
 from m512.errors import EXIT_DIFFERENT, EmptyPageError, FileError, WordError
 from m512.files import conversion, formats, selection
 from m512.files.page import Page
+from m512.files.wording import field_text
 
 if TYPE_CHECKING:
     from m512.files.image import Image
@@ -263,7 +264,7 @@ def extract(source: Source, page: Sequence[str], **where: Any) -> None:
             source.image[number] = Page()
         else:
             remarks += [
-                f'page {number} "{here.title}": {link.replace("_", " ")} {getattr(here, link)} is left behind'
+                f'page {number} "{here.title}": {field_text(link)} {getattr(here, link)} is left behind'
                 for link in Page.LINKS + Page.PARTNERS
                 if getattr(here, link) not in numbers | {0}
             ]
@@ -288,7 +289,10 @@ def merge(source: Source, other: Path, page: Sequence[str], replace: bool, **whe
     from m512.pages import operations
 
     image = formats.load(other, source.bits)
-    source.store(operations.place(source.image, image, page_moves(page, image), replace), **where, other=(image, other))
+    moves = page_moves(page, image)
+    operations.place(source.image, image, moves, replace)
+    titles = {number: source.image[number].title for number in source.image.used()}
+    source.store(operations.loose_links(image, moves, titles, source.image.end), **where, other=(image, other))
 
 
 @pages.command(epilog="Example: m512 pages lib.bin mirror kick_left 41 --in-place")

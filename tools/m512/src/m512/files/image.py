@@ -20,7 +20,7 @@ from pathlib import Path
 from m512.errors import FileError
 from m512.files import selection
 from m512.files.page import EMPTY, PAGE_BYTES, Fault, Kind, Page
-from m512.files.wording import Findings, counted, named_pages_text
+from m512.files.wording import Findings, counted, field_text, named_pages_text
 
 SIZES = {65536: (0, 128), 65024: (1, 128), 131072: (0, 256)}
 HEX_BASE = {128: 0x0E000, 256: 0x1E000}
@@ -122,7 +122,7 @@ def _cut_links(page: Page, number: int, count: int, cut: Findings) -> None:
     if page.fault(Kind(256, TWELVE_BIT_MAX)) is Fault.OK:
         for link in page.LINKS:
             if getattr(page, link) >= count:
-                cut.add(number, page.title, "links to pages that are left out are now empty", f"{link.replace('_', ' ')} {getattr(page, link)}")
+                cut.add(number, page.title, "links to pages that are left out are now empty", f"{field_text(link)} {getattr(page, link)}")
                 setattr(page, link, 0)
         page.seal()
 

@@ -46,6 +46,11 @@ def counted(count: int, thing: str) -> str:
     return f"{count:,} {thing}" + ("" if count == 1 else "s")
 
 
+def field_text(field: str) -> str:
+    """A page's field as users read it: "link1 page" for link1_page."""
+    return field.replace("_", " ")
+
+
 class Findings:
     """Sentences about pages, collected page by page and printed once each. A value is the part that differs from page to page."""
 

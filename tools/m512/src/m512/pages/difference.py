@@ -45,13 +45,13 @@ FIELDS = {
     "accel": "accel",
     "next": "next",
     "exit": "exit",
-    "link1_page": "linked page 1",
-    "link2_page": "linked page 2",
-    "blend_right": "blend partner to the right",
-    "blend_left": "blend partner to the left",
+    "link1_page": "link1 page",
+    "link2_page": "link2 page",
+    "blend_right": "blend right",
+    "blend_left": "blend left",
     "byte63": "byte 63",
 }
-CODES = {"code": "code", "link1_code": "code of linked page 1", "link2_code": "code of linked page 2"}
+CODES = {"code": "code", "link1_code": "link1 code", "link2_code": "link2 code"}
 BOARD = Kind()  # the default: a page of a board
 SCHEDULES = {SCHEDULE_TIME: "time base", SCHEDULE_SPEED: "speed base"}
 

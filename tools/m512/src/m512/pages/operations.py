@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from m512.errors import EmptyPageError, RefusedError, WordError
 from m512.files.image import Image, is_erased
 from m512.files.page import JOINTS, SCHEDULE_TIME, STEPS, Page, is_used
 from m512.files.selection import page_number
-from m512.files.wording import pages_text
+from m512.files.wording import field_text, named_pages_text, pages_text
 from m512.motion.player import page_seconds
 
 NOMINAL_SPEED = 32
@@ -33,7 +33,7 @@ def check(image: Image) -> list[tuple[int, str]]:
         for link in Page.LINKS:
             target = getattr(page, link)
             if target and image.first <= target < image.end and not _goes_on(image, target):
-                out.append((number, f"{link.replace('_', ' ')} leads to page {target}, which has no action"))
+                out.append((number, f"{field_text(link)} leads to page {target}, which has no action"))
         if page.link1_page and not page.link1_code or page.link2_page and not page.link2_code:
             out.append((number, "a linked page has no code and is never followed"))
         out += [(number, problem) for problem in _partner_problems(image, page)]
@@ -46,7 +46,7 @@ def _partner_problems(image: Image, page: Page) -> list[str]:
     """Why a blend partner is not used. The firmware then plays the page unblended."""
     out = []
     for side in Page.PARTNERS:
-        number, where = getattr(page, side), side.replace("_", " ")
+        number, where = getattr(page, side), field_text(side)
         if not number:
             continue
         if not image.first <= number < image.end:
@@ -162,7 +162,7 @@ def delete(image: Image, numbers: Iterable[int]) -> list[str]:
     for number, page in image.items():
         if number not in gone:
             remarks += [
-                f'page {number} "{page.title}" still links to page {getattr(page, link)} ({link})'
+                f'page {number} "{page.title}" still links to page {getattr(page, link)} ({field_text(link)})'
                 for link in Page.LINKS + Page.PARTNERS
                 if getattr(page, link) in gone
             ]
@@ -200,22 +200,31 @@ def renumber(image: Image, source: int, target: int, swap: bool = False) -> list
     return [f"links changed in pages {', '.join(map(str, touched))}"] if touched else []
 
 
-def place(image: Image, source: Image, moves: list[tuple[int, int]], replace: bool = False) -> list[str]:
-    """Takes pages (source number, target number) from another image and updates the links among them."""
+def place(image: Image, source: Image, moves: list[tuple[int, int]], replace: bool = False) -> None:
+    """Takes pages (source number, target number) from another image and updates the links among them. loose_links() names the others."""
     if source.bits != image.bits:
         raise RefusedError(f"the sources have {image.bits} and {source.bits} bits: scale one of them first (convert --scale)")
-    remarks, moved = [], dict(moves)
+    moved = dict(moves)
     for there, here in moves:
         keep_trim(there, here)
         _must_be_free(image, here, replace)
     for there, here in moves:
         page = need_good(source, there).copy()
         relink(page, moved)
+        image[here] = page
+
+
+def loose_links(source: Image, moves: list[tuple[int, int]], titles: Mapping[int, str], end: int) -> list[str]:
+    """Where the links of the pages taken lead that are not among them. titles: {number: title} of the pages that the target holds
+    afterwards; end: how many it has."""
+    taken, remarks = dict(moves), []
+    for there, here in moves:
         for link in Page.LINKS + Page.PARTNERS:
             old = getattr(source[there], link)
-            if old and old not in moved:
-                remarks.append(f'page {here} "{page.title}": {link} {old} is not among the pages taken')
-        image[here] = page
+            if old and old not in taken:
+                page = f"{named_pages_text({old: titles.get(old, '')})} of the target"
+                where = page if old in titles else f"{page}, which is empty" if old < end else f"page {old}, which the target does not have"
+                remarks.append(f'page {here} "{source[there].title}": {field_text(link)} {old} is not among the pages taken and leads to {where}')
     return remarks
 
 
