@@ -110,6 +110,17 @@ def test_ctrl_c_in_a_terminal_stops_the_simulated_robot_softly(world):
     wait_for_the_end(simulator)
 
 
+@pytest.mark.parametrize("when", ["starting", "playing"])
+def test_a_reader_that_has_gone_stops_the_robot(world, when):
+    """`m512 play walk --wait 2>&1 | head -3`: nobody sees any more what the robot does."""
+    process = world.start("play", "wave", "--sim", "--motions", "wave.m512", "--wait")
+    while when == "playing" and "playing" not in process.stderr.readline():
+        assert process.poll() is None
+    process.stderr.close()
+    assert process.wait(600) == 128 + signal.SIGPIPE
+    process.stdout.close()
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 @pytest.mark.parametrize("when", ["starting", "playing"])
 def test_a_signal_ends_the_simulator_too(world, number, when):

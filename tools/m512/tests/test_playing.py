@@ -2,10 +2,13 @@
 """`m512 play` and `pose` on a line that loses bytes, and when Ctrl-C or a signal comes at any moment: the robot does what is said."""
 
 import json
+import os
 from contextlib import nullcontext
 
 import pytest
 from play_peer import PlayPeer
+
+from m512 import ui
 
 CTRL_C, TERMINATED = KeyboardInterrupt(), SystemExit(143)
 
@@ -152,3 +155,28 @@ def test_the_same_field_is_the_same_in_each_json(m512):
                 robot.do_break()
                 state = json.loads(m512(*words, "--json", "-p", robot.path).stdout)
                 assert fields.items() <= state.items() and state["faulty"] == "00000000" and state["dv"] == 96, words
+
+
+@pytest.mark.parametrize("words, begun", [(("play", "2", "--wait"), "play 2"), (("pose", "1:900"), "move 60 1 384")])
+def test_a_reader_of_remarks_that_has_gone_stops_the_robot(m512, monkeypatch, words, begun):
+    with PlayPeer() as robot:
+        monkeypatch.setattr("m512.ui.is_unread", lambda: len(robot.asked) > 8)
+        result = m512(*words, "-p", robot.path)
+    assert result.exit_code == 141 and begun in robot.asked and robot.asked[-1] == "stop", robot.asked
+    with PlayPeer() as robot:
+        assert m512("play", "2", "-p", robot.path).exit_code == 0 and "stop" not in robot.asked
+
+
+def test_whether_a_reader_of_remarks_is_there(tmp_path, monkeypatch):
+    """On a full disk the work goes on, as in test_trust.py."""
+    monkeypatch.setattr(ui, "_unread", False)
+    read, write = os.pipe()
+    with open("/dev/full", "w") as full, open(tmp_path / "log", "w") as log, os.fdopen(write, "w", buffering=1) as pipe:
+        for stream in (full, log, pipe, None):
+            monkeypatch.setattr(ui.sys, "stderr", stream)
+            assert not ui.is_unread()
+        os.close(read)
+        monkeypatch.setattr(ui.sys, "stderr", pipe)
+        assert ui.is_unread()
+        ui.say("this puts the stream off")
+        assert ui.is_unread()

@@ -661,6 +661,14 @@ def test_restore_that_is_refused_leaves_the_board_as_it_was_found(m512, tmp_path
         assert bytes(board.flash) == before and board.left[-1] == 2
 
 
+@pytest.mark.parametrize("word", ["PORT", "/dev/no_port", "no_port"])
+def test_doctor_does_not_ask_for_the_port_that_was_named(m512, real_board, word):
+    with Link(real_board.path):
+        told = m512("doctor", "-p", real_board.path if word == "PORT" else word)
+    assert told.exit_code == 3 and "BAD  port" in told.stdout and "name the port with -p" not in told.stdout, told.stdout
+    assert ("in use by another program" in told.stdout) == (word == "PORT")
+
+
 def test_port_is_opened_by_one_program_alone(real_board):
     with (
         Link(real_board.path),
@@ -709,6 +717,18 @@ def test_include_of_an_endless_file_is_an_error(tmp_path):
     (tmp_path / "x.m512").write_text('motion512 1\ninclude "/dev/zero"\n')
     with pytest.raises(M512Error, match="/dev/zero"):
         formats.load(tmp_path / "x.m512")
+
+
+@pytest.mark.parametrize("name", ["fifo", "-", "/dev/stdin", "/dev/fd/0"])
+def test_include_of_a_pipe_does_not_wait(m512, tmp_path, monkeypatch, name):
+    """Nobody writes to it, so m512 waited for ever."""
+    monkeypatch.chdir(tmp_path)
+    os.mkfifo("fifo")
+    (tmp_path / "x.m512").write_text(f'motion512 1\ninclude "{name}"\n')
+    done = subprocess.run(
+        [sys.executable, "-m", "m512", "pages", "x.m512", "list"], stdin=subprocess.PIPE, capture_output=True, text=True, timeout=20
+    )
+    assert done.returncode == 4 and "x.m512:2: cannot include" in done.stderr, done.stderr
 
 
 def test_csv_of_12_bits_stays_12_bits(m512, tmp_path):
@@ -855,6 +875,28 @@ def test_ctrl_c_has_an_exit_code_of_its_own(m512, files, monkeypatch):
     monkeypatch.setattr(formats, "load", stop)
     result = m512("pages", files / "x.bin", "list")
     assert result.exit_code == 130 and "stopped" in result.stderr
+
+
+def test_ctrl_c_during_the_imports_is_no_traceback(tmp_path):
+    (tmp_path / "click.py").write_text("raise KeyboardInterrupt\n")
+    done = run("--help", env={**os.environ, "PYTHONPATH": str(tmp_path)})
+    assert (done.returncode, done.stderr) == (130, b"m512: stopped\n")
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize(
+    "words, ignored", [(["pages", "x.bin", "list"], False), (["pages", "none.bin", "list"], False), (["pages", "x.bin", "list"], True)]
+)
+def test_a_signal_after_the_last_word_is_no_traceback(files, number, words, ignored):
+    """Python calls what is registered here when the command is done. `ignored`: as under nohup."""
+    code = f"""if True:
+        import atexit, os, runpy, signal, sys
+        sys.argv = ["m512", *{words}]
+        {f"signal.signal({number}, signal.SIG_IGN)" if ignored else ""}
+        atexit.register(lambda: os.kill(os.getpid(), {number}))
+        runpy.run_module("m512", run_name="__main__")"""
+    done = subprocess.run([sys.executable, "-c", code], cwd=files, capture_output=True, text=True, timeout=300)
+    assert done.returncode == (0 if ignored else -number) and "Exception" not in done.stderr and "Traceback" not in done.stderr, done.stderr
 
 
 # The package

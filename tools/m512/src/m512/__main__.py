@@ -1,6 +1,26 @@
 # SPDX-License-Identifier: MIT
-"""`python -m m512`."""
+"""The program `m512`, also `python -m m512`: the command line, and signals before and after it."""
 
-from m512.cli import main
+import signal
+import sys
 
-main()
+
+def main() -> None:
+    """Runs the command line. Ctrl-C during the imports ends it as at any other moment. Once the command is done, a signal ends the program
+    at once: an exception in Python's own end would be shown and lost."""
+    try:
+        from m512.cli import main as command_line
+
+        command_line()
+    except KeyboardInterrupt:
+        print("m512: stopped", file=sys.stderr)
+        sys.exit(130)
+    finally:
+        for name in ("SIGINT", "SIGTERM", "SIGHUP"):
+            number = getattr(signal, name, None)
+            if number is not None and signal.getsignal(number) is not signal.SIG_IGN:
+                signal.signal(number, signal.SIG_DFL)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,10 +1,27 @@
 # SPDX-License-Identifier: MIT
 """Handling of a stream that nobody reads any more: `m512 ... | head`."""
 
+from __future__ import annotations
+
 import contextlib
 import os
+import select
+import stat
 import sys
 from typing import TextIO
+
+
+def reader_has_gone(stream: TextIO | None) -> bool:
+    """Whether the stream is a pipe whose reader has gone. False where this cannot be told: another system, another kind of stream."""
+    try:
+        number = stream.fileno() if stream else -1
+        if number < 0 or not stat.S_ISFIFO(os.fstat(number).st_mode) or not hasattr(select, "poll"):
+            return False
+        poll = select.poll()
+        poll.register(number, 0)
+        return any(event & select.POLLERR for _, event in poll.poll(0))
+    except (OSError, ValueError):
+        return False
 
 
 def end_results() -> None:

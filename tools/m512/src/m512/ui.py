@@ -12,9 +12,10 @@ from typing import Callable
 import click
 
 from m512.errors import FileError, RefusedError
-from m512.streams import drop
+from m512.streams import drop, reader_has_gone
 
 Progress = Callable[[int, int], None]
+_unread = False  # the reader of remarks has gone, and they are dropped since
 
 
 def plain(text: str) -> str:
@@ -31,10 +32,17 @@ def show(text: str) -> None:
 
 def say(text: str) -> None:
     """Prints a remark to stderr; stdout is for results. The work continues when stderr cannot be written (`2>&1 | head`, a full disk)."""
+    global _unread
     try:
         click.echo(plain(text), err=True)
-    except OSError:
+    except OSError as error:
+        _unread = isinstance(error, BrokenPipeError)
         drop(sys.stderr)
+
+
+def is_unread() -> bool:
+    """Whether nobody can read remarks any more: the reader of a pipe has gone (`2>&1 | head`)."""
+    return _unread or reader_has_gone(sys.stderr)
 
 
 @contextmanager

@@ -76,6 +76,7 @@ def _port(word: str, add: Add) -> str | None:
         ", ".join(device for device, _ in found) or "none found",
         "" if found or word else "plug in the USB adapter; on Linux look at `dmesg | tail`",
     )
+    url = ""
     try:
         url = ports.pick(word)
         from m512.board.link import Link
@@ -84,7 +85,7 @@ def _port(word: str, add: Add) -> str | None:
     except M512Error as error:
         if found or word:
             first = str(error).splitlines()[0].removesuffix("; there are:")  # the line above lists them
-            add("port", BAD, first, "" if "-p" in first or "--port" in first else "name the port with -p")
+            add("port", BAD, first, "-p takes one of the ports above" if found and word and not url else "")
         return None
     add("port", OK, f"{url} opens")
     return url

@@ -155,8 +155,8 @@ def _is_ours(options: dict[str, Any]) -> bool:
 
 def _follow(client: Client, start: Callable[[], None], wait: bool, is_ours: bool) -> bool:
     """Starts a movement and, with `wait`, shows the state until the robot is idle. The first Ctrl-C stops, the second breaks, at any
-    moment from the start on. Returns whether there was one. Anything else that ends this program (a closed terminal window) also stops
-    the movement, because nobody can press Ctrl-C any more."""
+    moment from the start on. Returns whether there was one. Anything else that ends this program (a closed terminal window, or a pipe
+    whose reader has gone) also stops the movement, because nobody can press Ctrl-C any more."""
     try:
         return _followed(client, start, wait)
     except (PortError, NoAnswerError) as error:
@@ -185,8 +185,10 @@ def _followed(client: Client, start: Callable[[], None], wait: bool) -> bool:
                 before = here
             if state["state"] == "idle":
                 return asked > 0
+            if ui.is_unread():
+                raise BrokenPipeError
             client.link.sleep(0.1)
-        except SystemExit:
+        except (SystemExit, BrokenPipeError):
             client.ask("stop")
             raise
         except KeyboardInterrupt:
