@@ -42,6 +42,7 @@
 #define MEM_EE_MAILBOX 0x0800
 #define MEM_EE_MAILBOX_END 0x0A02
 #define MEM_EE_LOADER 0x0FF0
+#define MEM_EE_APP_MARK 0x0FF0 /* an application without a record is incomplete (boot/memory.h) */
 #define MEM_EE_PLAY_MODE 0x0FF2
 #define MEM_EE_START_WORD 0x0FF3
 #define MEM_EE_MAILBOX_STATE 0x0FF4

@@ -115,6 +115,6 @@ void check_all(void)
 
 void check_id(void)
 {
-    SAY("ID Motion512 boot 1.00 " PORTS_BOARD_NAME " api=1 features=007F app=");
+    SAY("ID Motion512 boot 1.00 " PORTS_BOARD_NAME " api=1 app=");
     put_app();
 }

@@ -48,6 +48,7 @@ static void report(const load_record_t *record, bool is_good)
 {
     memory_ee_write(MEM_EE_LOAD_RECORD, record, sizeof *record);
     if (is_good && (uint8_t)record->sum == record->last) {
+        memory_download_good();
         PUT("Success");
     } else {
         PUT("Error");

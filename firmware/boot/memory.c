@@ -17,7 +17,7 @@ uint8_t memory_work[MEMORY_WORK_BYTES];
 memory_cursor_t memory_cursor;
 uint16_t memory_rewrites;
 memory_scan_t memory_sums;
-
+bool memory_app_came;
 
 NOINLINE uint32_t flash_addr(uint16_t page)
 {
@@ -109,7 +109,18 @@ memory_result_t memory_commit(uint16_t page, const uint8_t *data)
 
 bool memory_write_work(uint16_t page)
 {
+    if (page == 0) {
+        memory_app_came = true;
+        memory_ee_set(MEM_EE_APP_MARK, MARK_INCOMPLETE);
+    }
     return memory_commit(page, memory_work) <= MEMORY_EQUAL;
+}
+
+void memory_download_good(void)
+{
+    if (memory_app_came) {
+        memory_ee_set(MEM_EE_APP_MARK, MARK_NONE);
+    }
 }
 
 uint8_t memory_ee(uint16_t addr)
@@ -167,7 +178,7 @@ memory_app_t memory_app(void)
         return MEMORY_APP_NONE;
     }
     if ((pgm_read_dword(MEM_APP_RECORD) & MAGIC_LE) != MAGIC_LE) {
-        return MEMORY_APP_PLAIN;
+        return memory_ee(MEM_EE_APP_MARK) == MARK_INCOMPLETE ? MEMORY_APP_BAD : MEMORY_APP_PLAIN;
     }
     for (uint16_t at = 0; at != length; at++) {
         crc = crc16_byte(crc, (at & ~1u) == CRC_AT ? 0xFF : pgm_read_byte(at));

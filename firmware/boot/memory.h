@@ -44,9 +44,18 @@ void memory_read_page(uint16_t page, uint8_t *to);
 typedef enum { MEMORY_WRITTEN = 0, MEMORY_EQUAL = 1, MEMORY_REFUSED = 2, MEMORY_BROKEN = 3 } memory_result_t;
 memory_result_t memory_commit(uint16_t page, const uint8_t *data);
 
-/* The same with the first 256 bytes of memory_work. true: the page now holds them. */
+/* The same with the first 256 bytes of memory_work. true: the page now holds them. Page 0 is the first one of an
+ * application: from it on, until memory_download_good, EEPROM says that the application is incomplete. */
 bool memory_write_work(uint16_t page);
 extern uint16_t memory_rewrites;
+
+/* A download has ended well: if page 0 came with it, the application is complete. */
+void memory_download_good(void);
+extern bool memory_app_came; /* memory_write_work had page 0 since the last prompt */
+
+/* What EEPROM MEM_EE_APP_MARK says. Every other value counts as MARK_NONE: the byte may be another program's. */
+#define MARK_INCOMPLETE 0x50u
+#define MARK_NONE 0xFFu
 
 /* EEPROM: only bytes that differ are written, 8.5 ms each. Addresses are modulo its size. */
 uint8_t memory_ee(uint16_t addr);
@@ -63,7 +72,8 @@ extern memory_scan_t memory_sums;
 void memory_scan_start(void);
 void memory_scan(uint16_t page);
 
-/* The application: none; without a record (started unchecked); its record is correct; its record is wrong. */
+/* The application: none; without a record (started unchecked); its record is correct; its record is wrong, or it has none
+ * and its download has not ended well. */
 typedef enum { MEMORY_APP_NONE = 0, MEMORY_APP_PLAIN = 1, MEMORY_APP_GOOD = 2, MEMORY_APP_BAD = 3 } memory_app_t;
 memory_app_t memory_app(void);
 

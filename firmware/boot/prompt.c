@@ -3,6 +3,7 @@
 
 #include "block.h"
 #include "button.h"
+#include "memory.h"
 #include "parse.h"
 #include "stk500.h"
 #include "print.h"
@@ -28,6 +29,7 @@ static void prompt(void)
     length = 0;
     is_binary = false;
     was_released = false;
+    memory_app_came = false;
 }
 
 static void __attribute__((noinline)) run_line(void)

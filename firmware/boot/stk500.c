@@ -122,6 +122,7 @@ static uint8_t carry_out(uint8_t command)
     case PROG_PAGE: return program() ? OK : FAILED;
     case READ_PAGE: read(); break;
     case READ_SIGN: PUT("\x1E\x97\x02"); break;
+    case LEAVE: memory_download_good(); break;
     default: break;
     }
     return OK;

@@ -64,7 +64,7 @@ static void help(void)
         uint8_t c = print_byte(entry);
         uart_put(c < 0x80 ? c : ' ');
     }
-    SAY("Hex numbers; # at reset stays here");
+    SAY("Hex; # at reset stays");
 }
 
 /* Prints a dump. Without an argument it continues where the last dump or transfer ended. */
@@ -220,7 +220,7 @@ void words_run(const parse_t *line, parse_status_t status)
 {
     uint8_t code = find(line->word);
     if (code == UNKNOWN) {
-        SAY("Bad Command.('help' for instructions definition)");
+        SAY("Bad Command.(see 'help')");
         return;
     }
     uint8_t limit = print_byte(&limits[code]);

@@ -24,7 +24,21 @@ PROMISE = "Whenever the power fails, each motion page, setting and download is o
 SCENES = {scene.name: scene for scene in (*saves.SCENES, *loads.SCENES, *settings.SCENES)}
 LIVES = {life.name: life for life in lives.LIVES}
 LIFE_COUNT = 5
-SAMPLED = ("save", "save-factory", "save-play", "mailbox", "repair", "app-blocks", "motions-load", "words", "taken", "settings", "pairs-save", "life")
+SAMPLED = (
+    "save",
+    "save-factory",
+    "save-play",
+    "mailbox",
+    "repair",
+    "app-blocks",
+    "foreign-load",
+    "motions-load",
+    "words",
+    "taken",
+    "settings",
+    "pairs-save",
+    "life",
+)
 SAMPLE_STATES = 2  # per scene
 DEEPEST = 3
 SHOWN = 12  # failures that are printed individually

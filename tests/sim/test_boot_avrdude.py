@@ -196,9 +196,38 @@ def test_sync_in_the_window_stays_without_a_banner():
 
 def test_a_typed_zero_is_text():
     board = prompt_board()
-    assert say(board, "0") == "\r\n Bad Command.('help' for instructions definition)"
-    assert say(board, "00 ") == "\r\n Bad Command.('help' for instructions definition)"
+    assert say(board, "0") == "\r\n Bad Command.(see 'help')"
+    assert say(board, "00 ") == "\r\n Bad Command.(see 'help')"
     assert say(board, "f 0 ").startswith("\r\n 00000000 : ")
+
+
+def begin_application(board):
+    """Enters the programming mode and writes the first page of an application without a record."""
+    assert ask(board, b"\x50\x20", 2) == IN_SYNC_OK
+    for request in page(0, PLAIN_APP + bytes(256 - len(PLAIN_APP))):
+        assert ask(board, request, 2) == IN_SYNC_OK
+
+
+def leave(board):
+    board.send(b"\x51\x20")
+    board.expect(IN_SYNC_OK)
+    board.expect(PROMPT)
+
+
+def test_an_application_without_a_record_is_complete_when_avrdude_leaves(stk):
+    begin_application(stk)
+    leave(stk)
+    assert say(stk, "id").endswith("app=plain")
+
+
+def test_an_application_without_a_record_is_incomplete_when_avrdude_is_stopped(stk):
+    begin_application(stk)
+    stk.expect(PROMPT, ms=12000)  # silence ends the session
+    assert say(stk, "id").endswith("app=bad")
+    for request in (SYNC, b"\x50\x20", *page(0xE000, noise(256))):  # another session, without the application
+        assert ask(stk, request, 2) == IN_SYNC_OK
+    leave(stk)
+    assert say(stk, "id").endswith("app=bad")
 
 
 def test_signature(stk):

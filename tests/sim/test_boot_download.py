@@ -3,7 +3,7 @@
 
 import pytest
 
-from tests.sim.boot_board import APP_END, BOOT_START, PLAIN_APP, PROMPT, begin_load, end_load, load, noise, prompt_board, say
+from tests.sim.boot_board import APP_END, BOOT_START, MAP, PLAIN_APP, PROMPT, begin_load, end_load, load, noise, prompt_board, say
 
 LINE_RATE = 2_000_000 / 35 / 10  # bytes a second
 
@@ -174,6 +174,80 @@ def test_cr_lf_is_no_data(board):
     board.send(b"\x0a\x0a\x14")
     assert end_load(board)[0] == "Success"
     assert bytes(board.flash[0x2000:0x2002]) == b"\x0a\x0a"
+
+
+# Applications without a record: only the loader itself can know that one is incomplete.
+
+PLAIN = PLAIN_APP + noise(700, 4)
+WRONG_SUM = (sum(PLAIN) + 1) & 0xFF
+DAMAGED = "\r\n Jump Address : 0x00000000\r\n Damaged: FORCE starts it."
+
+
+def after_a_reset(board):
+    """The loader's verdict after a reset that would start the application, or "started"."""
+    say(board, "app")
+    board.reset()
+    board.run(ms=400)
+    board.take()
+    return "started" if board.pc < BOOT_START else say(board, "id")[-3:]
+
+
+def cut_short(board):
+    """The first part of an application; then the power fails."""
+    begin_load(board, 0)
+    board.send(PLAIN[:600])
+    board.run(ms=20)
+    board.power_on()
+    board.run(ms=200)
+    board.take()
+
+
+def test_an_application_whose_download_ended_in_an_error_is_not_started(board):
+    assert load(board, 0, PLAIN, WRONG_SUM)[0] == "Error"
+    assert say(board, "id").endswith("app=bad") and say(board, "go") == DAMAGED
+    assert after_a_reset(board) == "bad"
+    board.send("force\r")
+    board.run(ms=100)
+    assert board.pc < BOOT_START
+
+
+def test_an_application_whose_download_was_cut_short_is_not_started(board):
+    cut_short(board)
+    assert bytes(board.flash[:256]) == PLAIN[:256] and after_a_reset(board) == "bad"
+
+
+def test_an_incomplete_application_over_an_equal_first_page_is_not_started(board):
+    board.flash[: len(PLAIN)] = PLAIN
+    assert load(board, 0, PLAIN[:256] + noise(400, 5), 0)[0] == "Error"
+    assert after_a_reset(board) == "bad"
+
+
+def test_other_downloads_do_not_make_an_application_complete(board):
+    load(board, 0, PLAIN, WRONG_SUM)
+    assert load(board, 0xE000, noise(512))[0] == "Success"
+    assert load(board, 0x2000, noise(512))[0] == "Success"
+    assert after_a_reset(board) == "bad"
+
+
+def test_the_whole_application_is_started_again(board):
+    for _ in range(2):
+        load(board, 0, PLAIN, WRONG_SUM)
+        assert load(board, 0, PLAIN)[0] == "Success"
+        assert say(board, "id").endswith("app=plain")
+    assert after_a_reset(board) == "started"
+
+
+@pytest.mark.parametrize("byte", [0xFF, 0x00, 0x11])
+def test_what_another_program_left_in_the_mark_is_no_mark(board, byte):
+    board.flash[: len(PLAIN)] = PLAIN
+    board.eeprom[MAP["MEM_EE_APP_MARK"]] = byte
+    assert after_a_reset(board) == "started"
+
+
+def test_a_part_of_an_application_leaves_it_startable(board):
+    load(board, 0, PLAIN)
+    assert load(board, 0x2000, noise(512))[0] == "Success"
+    assert after_a_reset(board) == "started"
 
 
 def test_flash_that_does_not_take_the_data_is_tried_ten_times_and_is_an_error(board):

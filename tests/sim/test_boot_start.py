@@ -73,7 +73,7 @@ def run_to_application(board, ms=400):
     return started(board)
 
 
-@pytest.mark.parametrize("length, earliest_ms, latest_ms", [(0x400, 58, 66), (SHIPPED_BYTES, 145, 165)])
+@pytest.mark.parametrize("length, earliest_ms, latest_ms", [(0x400, 58, 66), (SHIPPED_BYTES, 140, 165)])
 def test_application_starts_after_the_window_of_60_ms_and_its_crc(length, earliest_ms, latest_ms):
     board = board_with(application(length))
     board.power_on()

@@ -7,7 +7,7 @@ import pytest
 
 from tests.sim.boot_board import APP_END, BOOT_MODE, PROMPT, crc16, new_board, noise, prompt_board, say
 
-BAD_COMMAND = "\r\n Bad Command.('help' for instructions definition)"
+BAD_COMMAND = "\r\n Bad Command.(see 'help')"
 BAD_ARGUMENT = "\r\n Bad Argument."
 BAD_ADDRESS = "\r\n Bad Address."
 
@@ -409,7 +409,7 @@ def test_check_sees_a_damaged_loader():
 
 
 def test_id_is_one_line(board):
-    assert re.fullmatch(r"\r\n ID Motion512 boot 1\.00 CM5 api=1 features=007F app=none", say(board, "id"))
+    assert re.fullmatch(r"\r\n ID Motion512 boot 1\.00 CM5 api=1 app=none", say(board, "id"))
 
 
 def test_cm2_has_the_same_prompt():

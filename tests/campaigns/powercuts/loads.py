@@ -15,6 +15,7 @@ from .saves import MAIL_PAGE, MAIL_STATE, MAILBOX
 
 FLASH_PAGE = 256
 LOAD_RECORD = set(range(MAP["MEM_EE_LOAD_RECORD"], BOOT_MODE))
+APP_MARK, INCOMPLETE = MAP["MEM_EE_APP_MARK"], 0x50
 
 
 @contextlib.contextmanager
@@ -66,13 +67,19 @@ def by_fast_blocks(board, pages):
     by_blocks(board, pages, fast=True)
 
 
-def by_load(board, pages):
+def by_load(board, pages, too_much=0, answer="Success"):
     """`load`, as the original's tools do it: raw bytes, then their sum."""
     first = min(pages)
     data = b"".join(pages[number] for number in range(first, max(pages) + 1))
     begin_load(board, FLASH_PAGE * first)
-    board.send(data + bytes([sum(data) & 0xFF]))
-    assert end_load(board)[0] == "Success"
+    board.send(data + bytes([sum(data) + too_much & 0xFF]))
+    assert end_load(board)[0] == answer
+
+
+def by_wrong_load(board, pages):
+    """The same with bytes that were damaged on the way: the sum does not fit."""
+    damaged = {number: data[:-1] + b"?" if number % 20 == 7 else data for number, data in pages.items()}
+    by_load(board, damaged, 1, "Error")
 
 
 def by_stk500(board, pages):
@@ -108,8 +115,9 @@ class Download:
         self.board.power_on()
         robot.to_loader(self.board)
         self.memories = Memories(self.board)
-        self.memories.free_eeprom |= LOAD_RECORD if protocol is by_load else set()
-        self.pages, self.start = application(f"{self.new_image}-{self.kind}.hex"), 0
+        self.memories.free_eeprom |= LOAD_RECORD if protocol in (by_load, by_wrong_load) else set()
+        self.memories.free_eeprom.add(APP_MARK)
+        self.pages, self.start = dict(application(f"{self.new_image}-{self.kind}.hex")), 0
         self.old = self.memories.flash[:APP_END]
         self.new = overlaid(self.old, self.pages)
 
@@ -164,6 +172,49 @@ class Download:
         assert self.now() == self.new
         self.board.send("go\r")
         robot.application_answers(self.board, self.new_image)
+
+
+class Foreign(Download):
+    """Both applications are of somebody else, so they have no record by which the loader knows an incomplete one."""
+
+    promise = "A download of code without a record that was cut, or ended in an error, is started only when it is whole"
+    rates = (24, 1, 1)
+
+    def __init__(self, name, protocol, seed, **options):
+        super().__init__(name, protocol, seed, **options)
+        self.old = without_record(self.old)
+        self.board.flash[:APP_END] = self.old
+        self.pages[0] = without_record(self.pages[0])
+        self.new = overlaid(self.old, self.pages)
+        self.memories.flash = bytes(self.board.flash)
+
+    def is_marked(self):
+        return self.board.eeprom[APP_MARK] == INCOMPLETE
+
+    def settled(self):
+        if self.is_marked():
+            self.board.expect(PROMPT, ms=1500)
+        else:
+            super().settled()
+
+    def verdict(self, cut):
+        assert len(self.neither()) <= 1 or self.protocol is by_wrong_load
+        self.memories.app_is_free = True
+        self.memories.check()
+        now = self.now()
+        state = "none" if now[:2] == b"\xff\xff" else "bad" if self.is_marked() else "plain"
+        robot.loader_answers(self.board, state)
+        whole = {self.old: "old", self.new: "new"}.get(now)
+        assert whole or state != "plain", "an incomplete application would be started"
+        assert cut or (whole, state) == ("new", "plain") or self.protocol is by_wrong_load, "nothing was cut, and it is not the new application"
+        if state != "plain" and zlib.crc32(now) % self.finish_one_in == 0:
+            self.finish()
+        return whole if state == "plain" else "refused"
+
+
+def without_record(data):
+    at = MAP["MEM_APP_RECORD"]
+    return data[:at] + bytes(4) + data[at + 4 :]
 
 
 class Motions(Download):
@@ -316,6 +367,10 @@ SCENES = (
     download_scene(Download, "app-load", by_load, rates=(24, 1, 1)),
     download_scene(Download, "app-stk500", by_stk500, rates=(24, 1, 1)),
     download_scene(Download, "app-cm2", by_fast_blocks, rates=(48, 1, 1), kind="cm2", old_image="play", new_image="edit"),
+    download_scene(Foreign, "foreign-blocks", by_blocks),
+    download_scene(Foreign, "foreign-load", by_load),
+    download_scene(Foreign, "foreign-error", by_wrong_load),
+    download_scene(Foreign, "foreign-stk500", by_stk500),
     download_scene(Motions, "motions-blocks", by_fast_blocks),
     download_scene(Motions, "motions-load", by_load),
     download_scene(Motions, "motions-stk500", by_stk500),

@@ -59,9 +59,9 @@ class BlockBoard(LoaderBoard):
         elif byte == 0x0D:
             line, self.line = bytes(self.line).strip(), bytearray()
             if line == b"id":
-                self.send(b"\r\n ID Motion512 boot 1.00 " + {1: b"CM5", 2: b"CM2", 3: b"CM510"}[self.board] + b" api=1 features=007F app=none")
+                self.send(b"\r\n ID Motion512 boot 1.00 " + {1: b"CM5", 2: b"CM2", 3: b"CM510"}[self.board] + b" api=1 app=none")
             elif line.strip(b"#"):
-                self.send(b"\r\n Bad Command.('help' for instructions definition)")
+                self.send(b"\r\n Bad Command.(see 'help')")
             self.send(PROMPT)
         elif byte == 8:
             self.line[-1:] = b""

@@ -132,6 +132,26 @@ def test_flash_application_and_start(m512, peer, app_hex):
     assert not getattr(peer, "hurt", [])
 
 
+FOREIGN = b"\x0c\x94\x46\x00" + bytes(4996)  # an application without a record
+
+
+def test_an_application_without_a_record_is_marked_until_it_is_complete(m512, tmp_path):
+    foreign = hex_file(tmp_path / "foreign.hex", (0, FOREIGN))
+    with BlockPeer(bytearray(old_flash())) as peer:
+        peer.broken_pages = {10}
+        assert m512("flash", foreign, "-p", peer.path).exit_code != 0
+        assert peer.eeprom[0xFF0] == 0x50
+        peer.broken_pages = set()
+        assert m512("flash", foreign, "-p", peer.path).exit_code == 0
+        assert peer.eeprom[0xFF0] == 0xFF and peer.flash[:5000] == FOREIGN
+        peer.eeprom[0xFF0] = 0x50  # as a download that ended before this was cleared
+        assert m512("flash", foreign, "-p", peer.path).exit_code == 0
+        assert peer.eeprom[0xFF0] == 0xFF
+        peer.eeprom[0xFF0] = 0x34  # another program's
+        assert m512("flash", foreign, "-p", peer.path).exit_code == 0
+        assert peer.eeprom[0xFF0] == 0x34
+
+
 @pytest.mark.parametrize("kind", [BlockPtyPeer, FactoryPtyPeer])
 def test_flash_through_a_real_port(m512, motions, kind):
     flash = bytearray(old_flash())

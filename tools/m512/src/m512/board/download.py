@@ -14,12 +14,13 @@ from m512.board.block import BlockLoader
 from m512.board.factory import FactoryLoader
 from m512.board.factory_line import BOOT_MODE, Unsure
 from m512.board.loaders import Loader
-from m512.board.memory import FLASH_PAGE, Plan
+from m512.board.memory import FLASH_PAGE, Plan, Record, app_bytes
 from m512.errors import BoardError, CancelledError, NoAnswerError, PortError, RefusedError
 from m512.files.wording import counted
 
 PhaseMaker = Callable[[str], AbstractContextManager[Callable[[int, int], None]]]
 BOOT_APPLICATION = 0x11
+APP_MARK, INCOMPLETE, COMPLETE = 0xFF0, 0x50, 0xFF  # EEPROM: our loader does not start an incomplete application (boot/memory.h)
 UNFIT = ("none", "damaged")  # states of an application that our loader does not start
 FLASH_ONE = "flash one: m512 run play-cm5.hex"
 
@@ -60,7 +61,7 @@ def download(loader: Loader, plan: Plan, phase: PhaseMaker, todo: list[int] | No
             if isinstance(loader, FactoryLoader):
                 _to_factory(loader, pages, progress, plan.pages)  # reads back page by page
                 return Report(len(plan.pages), len(todo), loader.link.now() - begun, loader.retries)
-            _to_ours(loader, pages, progress)
+            _to_ours(loader, pages, progress, plan)
         with phase("Verifying") as progress:
             wrong = loader.different(pages, progress)
         if wrong:
@@ -69,11 +70,20 @@ def download(loader: Loader, plan: Plan, phase: PhaseMaker, todo: list[int] | No
                 + ", ".join(f"0x{n * FLASH_PAGE:05X}" for n in wrong[:8])
                 + ". Repeat the command; if that does not help the flash is worn out"
             )
+    if isinstance(loader, BlockLoader) and _lacks_record(plan) and loader.read_eeprom(APP_MARK, APP_MARK + 1)[0] == INCOMPLETE:
+        loader.write_eeprom({APP_MARK: COMPLETE})
     return Report(len(plan.pages), len(todo), loader.link.now() - begun, loader.retries)
 
 
-def _to_ours(loader: BlockLoader, pages: dict[int, bytes], progress: Callable[[int, int], None]) -> None:
+def _lacks_record(plan: Plan) -> bool:
+    """Whether an application is written that has no record, by which the loader knows an incomplete one."""
+    return 0 in plan.pages and Record.of(app_bytes(plan.pages)) is None
+
+
+def _to_ours(loader: BlockLoader, pages: dict[int, bytes], progress: Callable[[int, int], None], plan: Plan) -> None:
     try:
+        if _lacks_record(plan):
+            loader.write_eeprom({APP_MARK: INCOMPLETE})
         loader.write(pages, progress)
     except PortError as error:
         raise PortError(f"{error}: it goes on where it stopped") from None
