@@ -6,7 +6,7 @@ import { fileFormats, motionInstance, motionLibrary, robotBody } from './app/ass
 import { RobotSession } from './app/robot-session.ts';
 import type { ChosenStorage } from './app/document-parts.ts';
 import type { EditorParts } from './app/editor.ts';
-import { simulatedMotions } from './app/simulated-source.ts';
+import { simulatedMotions } from './app/robot-memory.ts';
 import { documentFrom } from './model/document.ts';
 import { PageFormat } from './model/page-format.ts';
 import { AppShell } from './view/app-shell.ts';
@@ -21,9 +21,14 @@ async function start(): Promise<void> {
     const [body, parts, storage] = await Promise.all([robotBody(), editorParts(), documentStorage()]);
     const session = new RobotSession(body, parts, fileFormats(), storage);
     document.addEventListener('visibilitychange', takeTyped); // the last event that a page receives, also on reload
-    window.addEventListener('beforeunload', event => session.documents.state.get().saving === 'off' && event.preventDefault());
+    window.addEventListener('beforeunload', event => losesWork(session) && event.preventDefault());
     await Promise.all([session.start(), show(session, parts)]); // the robot starts in its worker while the page is built
     keepOffline(session);
+}
+
+/** Something is lost when the page is left: documents, or what the robot in the page has saved. */
+function losesWork({ documents, state }: RobotSession): boolean {
+    return documents.state.get().saving === 'off' || state.get().hasUnkept;
 }
 
 /** Commits a half-typed field as if the person had left it. */

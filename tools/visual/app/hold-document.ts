@@ -4,6 +4,10 @@
 
 /** How long the previous page may hold its lock while the page reloads. */
 const RELOAD_MS = 1000;
+/** A tab that reloads takes its lock again within this time, also on a slow computer. */
+const CLOSED_MS = 10_000;
+
+const ROBOT = 'robot';
 
 export type Release = () => void;
 
@@ -16,12 +20,24 @@ export function holdDocument(id: string): Promise<Release | null> {
 
 /** Locks the memory of the robot in the page for as long as this tab lives. false: another tab has it. */
 export async function holdRobot(): Promise<boolean> {
-    return (await lock('robot')) !== null;
+    return (await lock(ROBOT)) !== null;
+}
+
+/** Resolves when the tab that has the memory of the robot in the page is closed. This tab then has the lock. */
+export async function robotFreed(): Promise<void> {
+    do {
+        await navigator.locks.request(nameOf(ROBOT), () => undefined); // waits for it and lets go
+        await new Promise(resolve => setTimeout(resolve, CLOSED_MS));
+    } while (!(await tryLock(ROBOT)));
 }
 
 /** Locks the memory of My servos until the returned function is called. null: another tab has it. */
 export function holdServos(): Promise<Release | null> {
     return lock('servos');
+}
+
+function nameOf(lock: string): string {
+    return `motion512-${lock}`;
 }
 
 async function lock(name: string): Promise<Release | null> {
@@ -34,7 +50,7 @@ async function lock(name: string): Promise<Release | null> {
 function tryLock(name: string): Promise<Release | null> {
     if (!('locks' in navigator)) return Promise.resolve(HOLDS_NOTHING);
     return new Promise((resolve, reject) => {
-        const held = navigator.locks.request(`motion512-${name}`, { ifAvailable: true }, async granted => {
+        const held = navigator.locks.request(nameOf(name), { ifAvailable: true }, async granted => {
             if (granted) await new Promise<void>(release => resolve(release));
             else resolve(null);
         });

@@ -3,6 +3,7 @@
 
 import type { FormatsWorker } from '../model/file-formats.ts';
 import type { Body } from '../model/body.ts';
+import { documentFrom } from '../model/document.ts';
 import { dirtyPages } from '../model/editor-state.ts';
 import type { Shape } from '../model/motion.ts';
 import type { Connection } from '../robot/connection.ts';
@@ -36,6 +37,7 @@ import { MotionTrials } from './trials.ts';
 import { watchPageList } from './page-list.ts';
 import { PageVersion } from './page-version.ts';
 import { MotionPreview } from './preview.ts';
+import type { MemoryEvents } from './robot-memory.ts';
 import { RobotImages } from './robot-images.ts';
 import { RobotPlays } from './robot-plays.ts';
 import type { SourceEvents } from './simulated-source.ts';
@@ -67,6 +69,8 @@ const startState = (): SessionState => ({
     shownPage: null,
     isPowered: true,
     isLate: false,
+    isSecond: false,
+    hasUnkept: false,
 });
 
 export class RobotSession implements Session {
@@ -185,7 +189,7 @@ export class RobotSession implements Session {
         watchCauses({ messages: this.messages, robot: this.state, editor: this.editor.state, documents: this.documents.state });
     }
 
-    private events(): Omit<SourceEvents, 'motions'> {
+    private events(): Omit<SourceEvents, 'motions'> & MemoryEvents {
         return {
             frame: state => {
                 this.lastFrame = state;
@@ -206,6 +210,7 @@ export class RobotSession implements Session {
                 this.state.set(change);
                 if (change.physics === 'on') this.arrival.standUp();
             },
+            backUp: image => this.documents.backUp(ROBOT_IN_PAGE, documentFrom(image, '').pages),
         };
     }
 

@@ -8,21 +8,18 @@ import type { Where } from '../robot/protocol.ts';
 import { askWhere, command, play } from '../robot/protocol.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { RobotState } from '../robot/robot-state.ts';
-import { MOTIONS_ADDRESS } from '../sim/board.ts';
 import type { Images } from '../sim/machine.ts';
 import type { FromSim, ToSim } from '../sim/messages.ts';
 import { SimulatedRobot } from '../sim/robot-client.ts';
 import type { SessionState, ImageName } from '../view/session/session.ts';
-import { forgetRobot, loadRobot, saveRobot } from '../view/robot-store.ts';
 import type { KeptRobot } from '../view/robot-store.ts';
 import { TEXTS } from '../view/texts/texts.ts';
-import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
-import { holdRobot } from './hold-document.ts';
-import { boardModule, motionLibrary, physics, robotImages } from './assets.ts';
+import { boardModule, physics, robotImages } from './assets.ts';
+import { RobotMemory, motionsIn } from './robot-memory.ts';
+import type { MemoryEvents } from './robot-memory.ts';
 import { TickClock } from './tick-clock.ts';
 import { Turns } from './turns.ts';
 
-const KEY = 'cm5';
 /** The page of the motion library that takes the robot to its standing pose. */
 const READY_PAGE = 1;
 const STAND_LIMIT_MS = 8000;
@@ -48,19 +45,10 @@ export interface SourceEvents {
     motions(image: Uint8Array): void;
 }
 
-function motionsIn({ flash }: KeptRobot): Uint8Array {
-    return flash.slice(MOTIONS_ADDRESS, MOTIONS_ADDRESS + PAGE_BYTES * PAGE_COUNT);
-}
-
-/** The motion pages of the robot in the page at start: stored ones, or the motion library. */
-export async function simulatedMotions(): Promise<Uint8Array> {
-    const kept = await loadRobot(KEY).catch(() => null);
-    return kept ? motionsIn(kept) : motionLibrary();
-}
-
 export class SimulatedSource {
     private readonly body: Body;
-    private readonly events: SourceEvents;
+    private readonly events: SourceEvents & MemoryEvents;
+    private readonly memory: RobotMemory;
     private robot: SimulatedRobot | null = null;
     /** One robot at a time: the second of two quick requests waits for the first. */
     private readonly turns = new Turns();
@@ -68,11 +56,6 @@ export class SimulatedSource {
     private standing: Promise<void> | null = null;
     private isInHand = false;
     private clock = new TickClock();
-    /** Only one tab stores its robot's memories. Two would overwrite each other. */
-    private readonly mayKeep = holdRobot();
-    /** false: what is stored could not be read, and must not be replaced by what the robot then has: the motions of a new one. */
-    private mayStore = true;
-    private isSecondShown = false;
     private readonly waiting: ((state: RobotState) => void)[] = [];
     /** Tells who waits for the robot to stand up that it never will. */
     private giveUp: (why: RobotError) => void = () => undefined;
@@ -91,15 +74,16 @@ export class SimulatedSource {
     image: ImageName = 'play';
     connection: Connection | null = null;
 
-    constructor(body: Body, events: SourceEvents) {
+    constructor(body: Body, events: SourceEvents & MemoryEvents) {
         this.body = body;
         this.events = events;
+        this.memory = new RobotMemory(events);
     }
 
     /** Starts the first robot. */
     start(image: ImageName): Promise<void> {
         return this.turns.run(async () => {
-            const [parts, kept] = await Promise.all([this.parts(image), this.load()]);
+            const [parts, kept] = await Promise.all([this.parts(image), this.memory.load()]);
             this.begin(parts, kept);
         });
     }
@@ -127,11 +111,7 @@ export class SimulatedSource {
         return this.turns.run(async () => {
             const parts = await this.parts(image);
             await this.end();
-            if (await this.mayKeep)
-                await forgetRobot(KEY).then(
-                    () => (this.mayStore = true),
-                    () => this.tellNotKept(),
-                );
+            await this.memory.forget();
             this.begin(parts, null);
         });
     }
@@ -141,16 +121,11 @@ export class SimulatedSource {
         return { image, module, images };
     }
 
-    /** The robot's current memories, or after a crash the last stored ones. */
+    /** The robot's memories for the next one. */
     private async memories(): Promise<KeptRobot | null> {
-        try {
-            const memories = await this.robot?.memories();
-            if (!memories) return await this.load();
-            await this.keep(memories);
-            return memories;
-        } catch {
-            return this.load();
-        }
+        const memories = await this.robot?.memories().catch(() => null);
+        if (memories) this.events.motions(motionsIn(memories));
+        return this.memory.passOn(memories ?? null);
     }
 
     private begin({ image, module, images }: Parts, kept: KeptRobot | null): void {
@@ -278,7 +253,8 @@ export class SimulatedSource {
                         : { physics: 'off', message: { text: `${TEXTS.robot.noPhysics} (${message.error})`, tone: 'bad' } },
                 );
             case 'memories':
-                return void this.keep(message.memories);
+                this.events.motions(motionsIn(message.memories));
+                return void this.memory.written(message.memories);
             case 'violation':
                 return this.stop(TEXTS.robot.violation(message.violation, message.text));
             case 'crashed':
@@ -308,37 +284,5 @@ export class SimulatedSource {
         robot?.dispose();
         this.events.change({ physics: 'loading' });
         if (this.isShown) this.events.change({ speed: 1, version: null, where: null, message: null });
-    }
-
-    private async load(): Promise<KeptRobot | null> {
-        try {
-            const kept = await loadRobot(KEY);
-            this.mayStore = true;
-            return kept;
-        } catch {
-            this.mayStore = false;
-            this.tellNotKept();
-            return null;
-        }
-    }
-
-    private async keep(memories: KeptRobot): Promise<void> {
-        this.events.motions(motionsIn(memories));
-        if (!(await this.mayKeep)) return this.tellSecond();
-        try {
-            if (!this.mayStore) throw new Error('what is stored could not be read');
-            await saveRobot(KEY, memories);
-        } catch {
-            this.tellNotKept();
-        }
-    }
-
-    private tellNotKept(): void {
-        this.events.change({ message: { text: TEXTS.robot.notKept, tone: 'bad' } });
-    }
-
-    private tellSecond(): void {
-        if (!this.isSecondShown) this.events.change({ message: { text: TEXTS.robot.second, tone: 'bad' } });
-        this.isSecondShown = true;
     }
 }

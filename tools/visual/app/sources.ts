@@ -11,6 +11,7 @@ import { RobotError } from '../robot/robot-error.ts';
 import type { SessionState } from '../view/session/session.ts';
 import type { Store } from '../view/store.ts';
 import type { DocumentEditor } from './editor.ts';
+import type { MemoryEvents } from './robot-memory.ts';
 import { ServosSource } from './servos-source.ts';
 import { SimulatedSource } from './simulated-source.ts';
 import type { SourceEvents } from './simulated-source.ts';
@@ -19,7 +20,7 @@ import { YourSource } from './your-source.ts';
 export interface SourcesParts {
     readonly state: Store<SessionState>;
     readonly editor: DocumentEditor;
-    readonly events: Omit<SourceEvents, 'motions'>;
+    readonly events: Omit<SourceEvents, 'motions'> & MemoryEvents;
     /** Whether the page may ask a robot something by itself. */
     mayAsk(): boolean;
     /** Another robot is used from now on. */

@@ -52,7 +52,8 @@ export type FromSim =
     | { readonly kind: 'physics'; readonly error: string | null }
     | { readonly kind: 'bytes'; readonly bytes: Uint8Array }
     | { readonly kind: 'state'; readonly state: RobotState }
-    /** Memories to keep: the robot has written flash or EEPROM and is now at rest. `id`: answers the request with that id. */
+    /** Memories to keep: the robot has written flash or EEPROM and is now at rest, or is asked for its memories. `id`: answers the request
+     *  with that id. */
     | { readonly kind: 'memories'; readonly memories: Memories; readonly id: number | null }
     | { readonly kind: 'violation'; readonly violation: string; readonly text: string }
     | { readonly kind: 'crashed'; readonly text: string };

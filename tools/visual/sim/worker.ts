@@ -95,9 +95,13 @@ function sendFrame(robot: Simulation, nowMs: number): void {
         seenOperations = operations;
         writtenAtMs = nowMs;
     } else if (operations !== keptOperations && nowMs - writtenAtMs > REST_MS) {
-        keptOperations = operations;
-        tell({ kind: 'memories', memories: readMemories(robot.board), id: null });
+        tellWritten(robot);
     }
+}
+
+function tellWritten({ board }: Simulation): void {
+    keptOperations = seenOperations = board.operations;
+    tell({ kind: 'memories', memories: readMemories(board), id: null });
 }
 
 function handle(message: ToSim): void {
@@ -138,6 +142,7 @@ function handle(message: ToSim): void {
         case 'floor':
             return simulation.setFloor(message.floor);
         case 'memories':
+            if (board.operations !== keptOperations) tellWritten(simulation);
             return tell({ kind: 'memories', memories: readMemories(board), id: message.id });
         default:
             message satisfies never;

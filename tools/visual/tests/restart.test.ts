@@ -72,6 +72,7 @@ function page() {
             if (change.stopped !== undefined) seen.stopped = change.stopped;
         },
         motions: image => (seen.motions = Uint8Array.from(image)),
+        backUp: () => Promise.resolve(),
     });
     return { source, seen };
 }

@@ -58,6 +58,7 @@ async function held() {
         connection: () => undefined,
         change: () => undefined,
         motions: () => undefined,
+        backUp: () => Promise.resolve(),
     });
     await source.start('play');
     await vi.waitFor(() => expect(source.connection?.version?.image).toBe('play'), SOON);

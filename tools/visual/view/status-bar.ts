@@ -18,13 +18,15 @@ export class StatusBar extends HTMLElement {
         say: text => setText(this.spoken, text),
         after: (delayMs, call) => void setTimeout(call, delayMs),
     });
+    /** Stands as long as what the robot saves is not kept. */
+    private readonly unkept = make('p', { class: 'unkept', role: 'status', 'aria-label': TEXTS.status.memory, 'data-tone': 'bad' });
     private readonly facts = make('p', { class: 'facts' });
     private readonly disposals: (() => void)[] = [];
     /** As the robot in the page reported last. */
     private posture = { hasFallen: false, isHeld: false };
 
     connectedCallback(): void {
-        this.replaceChildren(this.doing, this.message, this.facts, this.spoken);
+        this.replaceChildren(this.doing, this.message, this.facts, this.unkept, this.spoken);
         this.disposals.push(
             this.session.state.watch(state => this.render(state)),
             this.session.onFrame(({ hasFallen, isHeld }) => {
@@ -49,6 +51,7 @@ export class StatusBar extends HTMLElement {
         });
         this.announcer.look(state, posture);
         this.write(this.message, state.message);
+        setText(this.unkept, state.isSecond && state.source === 'simulated' ? TEXTS.robot.second : '');
         const where = state.where;
         const version = state.version;
         setText(

@@ -36,6 +36,11 @@ async function saveLaw(page: Page, law = 'classic'): Promise<void> {
     await page.keyboard.press('Enter');
 }
 
+/** Whether the browser asks a person who leaves the page. */
+function isAskedToStay(page: Page): Promise<boolean> {
+    return page.evaluate(() => !window.dispatchEvent(new Event('beforeunload', { cancelable: true })));
+}
+
 test('a second tab says that it has a copy, and what that means, and the board does not talk over it', async () => {
     const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false });
     await person.untilStanding();
@@ -49,18 +54,19 @@ test('a second tab says that it has a copy, and what that means, and the board d
     await person.leave();
 });
 
-test('what the first tab has saved stays, whatever the second saves or forgets; the second says so', async () => {
+test('what the first tab has saved stays, whatever the second saves or forgets; the second says so all the time', async () => {
     const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
     await person.untilStanding();
     const second = await person.page.context().newPage();
     await second.goto(suite.address);
     await second.locator('status-bar .doing').filter({ hasText: 'The robot stands and waits.' }).waitFor();
+    const notice = second.getByRole('status', { name: "Robot's memory" }).filter({ hasText: /^Another tab keeps its robot/ });
+    await notice.waitFor();
+    expect(await isAskedToStay(second)).toBe(false); // nothing is saved yet
     const before = await keptEeprom(second);
     await saveLaw(second);
-    await second
-        .getByRole('log', { name: 'Last message' })
-        .filter({ hasText: /^Another tab has this robot, too/ })
-        .waitFor();
+    await expect.poll(() => isAskedToStay(second)).toBe(true);
+    await notice.waitFor();
     expect(await keptEeprom(second)).toBe(before);
     await saveLaw(person.page);
     await expect.poll(() => keptEeprom(person.page)).not.toBe(before);
@@ -80,5 +86,25 @@ test('what the first tab has saved stays, whatever the second saves or forgets; 
     await person.untilStanding();
     await saveLaw(person.page, 'exact');
     await expect.poll(() => keptEeprom(person.page)).not.toBe(saved);
+    await person.leave();
+});
+
+test('the first tab is closed: the second keeps its robot from then on, with what it has saved before', async () => {
+    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
+    await person.untilStanding();
+    const second = await person.page.context().newPage();
+    await second.goto(suite.address);
+    await second.locator('status-bar .doing').filter({ hasText: 'The robot stands and waits.' }).waitFor();
+    await saveLaw(second);
+    await expect.poll(() => isAskedToStay(second)).toBe(true);
+    const before = await keptEeprom(second);
+    await person.page.close();
+    await second
+        .getByRole('log', { name: 'Last message' })
+        .filter({ hasText: /^The other tab is closed/ })
+        .waitFor();
+    await expect.poll(() => keptEeprom(second)).not.toBe(before);
+    await expect.poll(() => isAskedToStay(second)).toBe(false);
+    expect(await second.getByRole('status', { name: "Robot's memory" }).textContent()).toBe('');
     await person.leave();
 });

@@ -65,6 +65,10 @@ export interface SessionState {
     readonly adapter?: 'out' | 'back' | null;
     /** The simulated robot has not answered for longer than a start takes. */
     readonly isLate: boolean;
+    /** Another tab keeps its robot, so what the robot in this page saves is lost with the tab. */
+    readonly isSecond: boolean;
+    /** The robot in the page has saved something that the browser does not have. */
+    readonly hasUnkept: boolean;
 }
 
 /** A hand at a point of a link (metres, in the link's frame) that pulls towards a target in the room. */

@@ -190,6 +190,7 @@ const DE: Texts = {
         activity: 'Was der Roboter tut',
         message: 'Letzte Meldung',
         announcements: 'Ansagen',
+        memory: 'Speicher des Roboters',
         starting: 'Startet …',
         timeStands: 'die Zeit steht',
         timeRuns: times => `Zeit ${times}×`,
@@ -284,7 +285,10 @@ const DE: Texts = {
         crashed: 'Der simulierte Roboter ist abgestürzt. Starte ihn unter „Roboter“ neu; was er gespeichert hatte, ist noch da.',
         notKept:
             'Dieser Browser bewahrt den Speicher des Roboters nicht auf (privates Fenster oder Speicher voll). Was du speicherst, geht verloren, wenn du die Seite schließt.',
-        second: 'Ein anderer Tab hat denselben Roboter. Was der Roboter in diesem Tab speichert, geht verloren, wenn du den Tab schließt. Dokumente bleiben erhalten.',
+        second: 'Ein anderer Tab bewahrt seinen Roboter auf, dieser hier also nicht: Was der Roboter hier speichert, geht mit diesem Tab verloren. Schließe den anderen Tab, dann bewahrt dieser seinen Roboter auf. Dokumente bleiben erhalten.',
+        tookOver: 'Der andere Tab ist geschlossen: Dieser Tab bewahrt seinen Roboter ab jetzt auf.',
+        otherBackedUp:
+            'Der andere Tab hatte in seinem Roboter andere Bewegungen gespeichert. Sie sind als Sicherung aufbewahrt: Unter „Zum Roboter …“ lassen sie sich vergleichen.',
         isBackedUp: 'Alle Bewegungen deines Roboters wurden gelesen und in diesem Browser als Sicherung gespeichert.',
         violation: (kind, words) =>
             `Die Firmware hat getan, was kein Chip erlaubt. Starte den Roboter unter „Roboter“ neu. (${kind}: ${words})`,

@@ -425,6 +425,7 @@ export const EN = {
         activity: 'What the robot does',
         message: 'Last message',
         announcements: 'Announcements',
+        memory: "Robot's memory",
         starting: 'Starting …',
         timeStands: 'time stands still',
         timeRuns: (times: number) => `${times}× time`,
@@ -467,7 +468,10 @@ export const EN = {
         crashed: 'The simulated robot has crashed. Restart it under "Robot"; what it had saved is still there.',
         notKept:
             "This browser does not save the robot's memory (private window, or the disk is full). What you save is lost when you close the page.",
-        second: 'Another tab has this robot, too. What the robot saves in this tab is lost when you close the tab. Documents stay.',
+        second: 'Another tab keeps its robot, so this one is not kept: what it saves is lost with this tab. Close the other tab; then this one keeps its robot. Documents stay.',
+        tookOver: 'The other tab is closed: this tab keeps its robot from now on.',
+        otherBackedUp:
+            'The other tab had saved other motions in its robot. They are kept as a backup: under "To the robot …" they can be compared.',
         isBackedUp: 'All motions of your robot are read, and saved in this browser as a backup.',
         /** kind and words come from the simulator. */
         violation: (kind: string, words: string) =>

@@ -189,6 +189,7 @@ const ES: Texts = {
         activity: 'Qué hace el robot',
         message: 'Último mensaje',
         announcements: 'Avisos',
+        memory: 'Memoria del robot',
         starting: 'Arrancando …',
         timeStands: 'el tiempo está parado',
         timeRuns: times => `tiempo ×${times}`,
@@ -277,7 +278,10 @@ const ES: Texts = {
         crashed: 'El robot simulado ha fallado. Reinícialo en «Robot»; lo que había guardado sigue ahí.',
         notKept:
             'Este navegador no guarda la memoria del robot (ventana privada o disco lleno). Lo que guardes se pierde al cerrar la página.',
-        second: 'Otra pestaña tiene también este robot. Lo que el robot guarda en esta pestaña se pierde cuando la cierras. Los documentos se conservan.',
+        second: 'Otra pestaña conserva su robot, así que el de esta no se conserva: lo que guarde se pierde con esta pestaña. Cierra la otra; entonces esta conserva su robot. Los documentos se conservan.',
+        tookOver: 'La otra pestaña está cerrada: desde ahora esta conserva su robot.',
+        otherBackedUp:
+            'La otra pestaña había guardado otros movimientos en su robot. Quedan como copia de seguridad: se pueden comparar en «Al robot …».',
         isBackedUp: 'Se han leído todos los movimientos de tu robot, y están guardados en este navegador como copia de seguridad.',
         violation: (kind, words) => `El firmware hizo algo que ningún chip permite. Reinicia el robot en «Robot». (${kind}: ${words})`,
         startsEdit: 'El robot de la página se reinicia con Edit, el firmware que guarda movimientos.',

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// The memory of the robot in the page, in the browser. One tab stores that of its robot, because two would overwrite each other. The robot of
+// another tab is not kept until the first tab is closed; then it is, and what the first tab has stored meanwhile becomes a backup.
+
+import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
+import { MOTIONS_ADDRESS } from '../sim/board.ts';
+import type { SessionState } from '../view/session/session.ts';
+import { forgetRobot, loadRobot, saveRobot } from '../view/robot-store.ts';
+import type { KeptRobot } from '../view/robot-store.ts';
+import { TEXTS } from '../view/texts/texts.ts';
+import { motionLibrary } from './assets.ts';
+import { holdRobot, robotFreed } from './hold-document.ts';
+
+const KEY = 'cm5';
+
+export interface MemoryEvents {
+    change(change: Partial<SessionState>): void;
+    /** Stores these motion pages (65,536 bytes) as a backup of the robot in the page. Rejects if it cannot. */
+    backUp(image: Uint8Array): Promise<void>;
+}
+
+export function motionsIn({ flash }: KeptRobot): Uint8Array {
+    return flash.slice(MOTIONS_ADDRESS, MOTIONS_ADDRESS + PAGE_BYTES * PAGE_COUNT);
+}
+
+function isSame(a: Uint8Array, b: Uint8Array): boolean {
+    return a.length === b.length && a.every((byte, i) => byte === b[i]);
+}
+
+/** The motion pages of the robot in the page at start: stored ones, or the motion library. */
+export async function simulatedMotions(): Promise<Uint8Array> {
+    const kept = await loadRobot(KEY).catch(() => null);
+    return kept ? motionsIn(kept) : motionLibrary();
+}
+
+export class RobotMemory {
+    private readonly events: MemoryEvents;
+    private mayKeep: Promise<boolean>;
+    /** false: what is stored could not be read, and must not be replaced by what the robot then has: the motions of a new one. */
+    private mayStore = true;
+    /** What the robot has written and the browser has not stored. */
+    private unkept: KeptRobot | null = null;
+    /** What was stored when this tab read or stored it last. */
+    private known: KeptRobot | null = null;
+    /** Another tab had the memory until now: what is stored may be newer than what this robot began with. */
+    private isBehind = false;
+
+    constructor(events: MemoryEvents) {
+        this.events = events;
+        this.mayKeep = this.hold();
+    }
+
+    /** What is stored; null: nothing, or it cannot be read, which is reported. */
+    async load(): Promise<KeptRobot | null> {
+        try {
+            this.known = await loadRobot(KEY);
+            this.mayStore = true;
+            this.isBehind = false;
+            return this.known;
+        } catch {
+            this.mayStore = false;
+            this.tellNotKept();
+            return null;
+        }
+    }
+
+    /** The robot has written its memory. It counts as unkept until it is stored. */
+    written(memories: KeptRobot): Promise<void> {
+        this.setUnkept(memories);
+        return this.keep(memories);
+    }
+
+    /** The memory for the robot that follows one with this memory; null: one that has crashed. */
+    async passOn(memories: KeptRobot | null): Promise<KeptRobot | null> {
+        if (!memories) return this.unkept ?? this.load();
+        if (this.isBehind && !this.unkept) return this.load();
+        await this.keep(memories);
+        return memories;
+    }
+
+    /** Never rejects. Errors are reported. */
+    async forget(): Promise<void> {
+        this.setUnkept(null);
+        if (!(await this.mayKeep)) return;
+        try {
+            await this.backUpOther();
+            await forgetRobot(KEY);
+            this.mayStore = true;
+        } catch {
+            this.tellNotKept();
+        }
+    }
+
+    /** false: another tab keeps its robot. This one does as soon as that tab is closed. */
+    private async hold(): Promise<boolean> {
+        const isHeld = await holdRobot();
+        this.events.change({ isSecond: !isHeld });
+        if (!isHeld) void this.takeOver();
+        return isHeld;
+    }
+
+    private async takeOver(): Promise<void> {
+        await robotFreed();
+        this.mayKeep = Promise.resolve(true);
+        this.isBehind = true;
+        this.events.change({ isSecond: false, message: { text: TEXTS.robot.tookOver, tone: 'good' } });
+        if (this.unkept) await this.keep(this.unkept);
+    }
+
+    private async keep(memories: KeptRobot): Promise<void> {
+        const { unkept } = this;
+        if (!(await this.mayKeep)) return;
+        try {
+            if (!this.mayStore) throw new Error('what is stored could not be read');
+            await this.backUpOther();
+            await saveRobot(KEY, memories);
+            if (unkept === this.unkept) this.setUnkept(null); // otherwise the robot has written again
+        } catch {
+            this.tellNotKept();
+        }
+    }
+
+    /** Before something is stored: if another tab has stored other motions since this one read them, they become a backup. */
+    private async backUpOther(): Promise<void> {
+        if (!this.isBehind) return;
+        const stored = await loadRobot(KEY);
+        if (stored && (!this.known || !isSame(motionsIn(stored), motionsIn(this.known)))) {
+            await this.events.backUp(motionsIn(stored));
+            this.events.change({ message: { text: TEXTS.robot.otherBackedUp, tone: 'good' } });
+        }
+        this.isBehind = false;
+    }
+
+    private setUnkept(memories: KeptRobot | null): void {
+        this.unkept = memories;
+        this.events.change({ hasUnkept: memories !== null });
+    }
+
+    private tellNotKept(): void {
+        this.events.change({ message: { text: TEXTS.robot.notKept, tone: 'bad' } });
+    }
+}
