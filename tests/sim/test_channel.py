@@ -19,7 +19,7 @@ BYTE_MS = 10 / 57.6
 WAIT_MS = 700
 CUT_OFF_MS = 250
 SETTLE_MS = 1200  # the play of the page, including its approach
-MANY = 8  # requests without a pause between them
+MANY = 6  # requests without a pause between them
 SERVOS = (1, 2, 3, 4)
 
 PAGES = {
@@ -215,7 +215,7 @@ def test_requests_without_a_pause_between_them_restart_nothing(side, first, at_o
         if side is EditSide:
             side_now.robot.line("step 6")
             assert side_now.robot.unsaved
-        resets, end = board.resets, board.now_ms + 2000
+        resets, end = board.resets, board.now_ms + 1300
         board.send(first + "\r")
         board.run(ms=60)
         waiting = 0
@@ -225,7 +225,7 @@ def test_requests_without_a_pause_between_them_restart_nothing(side, first, at_o
                 waiting += 1
             board.run(ms=2)
             side_now.pump()
-            assert board.resets == resets, f"{asked} at {board.now_ms - end + 2000:.0f} ms: reset by {board.reset_cause}"
+            assert board.resets == resets, f"{asked} at {board.now_ms - end + 1300:.0f} ms: reset by {board.reset_cause}"
             assert all(answer.endswith(" OK") for answer in ear.answers), ear.answers
             waiting -= len(ear.answers)
             ear.answers.clear()
