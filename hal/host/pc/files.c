@@ -43,19 +43,28 @@ static void make_folders(void)
 void files_open(void)
 {
     const char *home = getenv("HOME"), *data = getenv("XDG_DATA_HOME");
+    int length;
     if (pc_options.robot != NULL) {
-        snprintf(folder, sizeof folder, "%s", pc_options.robot);
+        length = snprintf(folder, sizeof folder, "%s", pc_options.robot);
     } else if (data != NULL && data[0] == '/') {
-        snprintf(folder, sizeof folder, "%s/motion512", data);
-    } else if (home != NULL) {
-        snprintf(folder, sizeof folder, "%s/.local/share/motion512", home);
+        length = snprintf(folder, sizeof folder, "%s/motion512", data);
+    } else if (home != NULL && home[0] == '/') {
+        length = snprintf(folder, sizeof folder, "%s/.local/share/motion512", home);
     } else {
-        pc_fail(EXIT_FILE, "no home folder to keep the robot's pages in: name one with --robot");
+        pc_fail(EXIT_FILE, "no home folder (HOME) to keep the robot's pages in: name a folder with --robot");
+    }
+    if (length < 0 || (size_t)length >= sizeof folder) {
+        pc_fail(EXIT_FILE, "the path of the robot's folder is too long: %s... --robot names another", folder);
     }
     make_folders();
     const int lock = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);   /* stays open until the program ends */
-    if (lock < 0 || flock(lock, LOCK_EX | LOCK_NB) != 0) {
-        pc_fail(EXIT_FILE, "%s: in use by another program for this robot: end that first", folder);
+    if (lock < 0) {
+        pc_fail(EXIT_FILE, "%s: the robot's folder cannot be used: %s. --robot names another", folder,
+                errno == ENOTDIR ? "it is a file" : errno == ENOENT ? "it is a link that leads nowhere" : strerror(errno));
+    }
+    if (flock(lock, LOCK_EX | LOCK_NB) != 0) {
+        pc_fail(EXIT_FILE, "%s: %s", folder,
+                errno == EWOULDBLOCK ? "in use by another program for this robot: end that first" : strerror(errno));
     }
 }
 
@@ -96,9 +105,14 @@ static void read_motions(uint8_t *bytes, uint32_t count)
 {
     FILE *file = fopen(pc_options.motions, "rb");
     const size_t got = file != NULL ? fread(bytes, 1, count, file) : 0;
-    const bool is_whole = file != NULL && ferror(file) == 0 && fgetc(file) == EOF;
+    const bool is_read = file != NULL && ferror(file) == 0;
+    const int why = errno;
+    const bool is_whole = is_read && fgetc(file) == EOF;
     if (file != NULL) {
         fclose(file);
+    }
+    if (!is_read) {
+        pc_fail(EXIT_FILE, "%s: cannot be read: %s", pc_options.motions, strerror(why));
     }
     if (got == 0 || got % 512 != 0 || !is_whole) {
         pc_fail(EXIT_FILE, "%s: not a raw motion area of at most %u pages (m512 convert makes one)", pc_options.motions,
@@ -126,6 +140,12 @@ bool machine_recall(machine_memory_t memory, uint8_t *bytes, uint32_t count)
         pc_fail(EXIT_FILE, "%s: not a file of %u bytes. Move it away, and a new one is made", path, (unsigned)count);
     }
     files[memory] = file;
+    if (memory == MACHINE_PAGES && pc_options.motions != NULL) {
+        char sentence[2 * PATH_BYTES];
+        snprintf(sentence, sizeof sentence, "%s has its own motions: %s is not read. m512 changes them", folder,
+                 pc_options.motions);
+        machine_tell(sentence);
+    }
     return true;
 }
 

@@ -17,7 +17,7 @@ static const char help[] =
     "  PORT               the adapter's serial port, such as /dev/ttyUSB0\n"
     "  --rate BPS         the rate of the servos (1000000)\n"
     "  --robot FOLDER     where motion pages and settings are kept (default: ~/.local/share/motion512)\n"
-    "  --motions FILE     the pages that a new folder begins with: a raw motion area\n"
+    "  --motions FILE     the pages that a new folder begins with: a raw motion area; one that has pages keeps its own\n"
     "  --pty[=LINK]       the console is a pty, not this terminal; LINK becomes a link to it\n"
     "  --tcp[=NUMBER]     the console is a socket on 127.0.0.1 (%d)\n"
     "  --off              switch the torque of all servos off at the end\n";
