@@ -2,6 +2,7 @@
  * cmd_step.c - commands for whole steps: count, write, insert, delete, copy, swap, take, paste. */
 #include "commands.h"
 
+#include <string.h>
 #include "crc16.h"
 #include "pgm.h"
 #include "report.h"
@@ -20,9 +21,22 @@ static uint8_t refuse_unused(void)
     return dialog_refuse(TEXT_P("That step is not used"));
 }
 
+/* Byte `at` of a page: from RAM while it is open. */
+static uint8_t byte_of(uint8_t page, uint16_t at)
+{
+    return page == the_session.page ? the_session.cells[at] : page_store_byte(page, at);
+}
+
+static void copy_step_of(uint8_t page, uint8_t from, uint8_t to)
+{
+    for (uint8_t i = 0; i < PAGE_STEP_BYTES; i++) {
+        session_set_byte(session_step_at(to) + i, byte_of(page, session_step_at(from) + i));
+    }
+}
+
 static void copy_step(uint8_t from, uint8_t to)
 {
-    session_set_bytes(session_step_at(to), &the_session.cells[session_step_at(from)], PAGE_STEP_BYTES);
+    copy_step_of(the_session.page, from, to);
 }
 
 bool cmd_step_is_trim(uint8_t step)
@@ -186,26 +200,28 @@ COMMAND(cmd_move)
     return dialog_edited();
 }
 
+static bool are_equal(uint8_t a, uint8_t b)
+{
+    return memcmp(&the_session.cells[session_step_at(a)], &the_session.cells[session_step_at(b)], PAGE_STEP_BYTES) == 0;
+}
+
 COMMAND(cmd_swap)
 {
     if (is_trim_page()) {
         return SHELL_ERR_REPORTED;
     }
-    uint8_t steps = the_session.cells[PAGE_AT_STEPS];
-    if (args->number[0] >= steps || args->number[1] >= steps) {
+    const uint8_t a = (uint8_t)args->number[0], b = (uint8_t)args->number[1], steps = the_session.cells[PAGE_AT_STEPS];
+    if (a >= steps || b >= steps) {
         return refuse_unused();
     }
-    session_begin_turn(UNDO_TURN(UNDO_TURN_SWAP, args->number[0], args->number[1]));
+    if (are_equal(a, b)) {
+        return SHELL_OK;   /* no edit, so REDO stays */
+    }
+    session_begin_turn(UNDO_TURN(UNDO_TURN_SWAP, a, b));
     return dialog_edited();
 }
 
 /* ---- TAKE, PASTE ---- */
-
-/* Byte `at` of the noted page: from RAM while that page is open. */
-static uint8_t noted_byte(uint16_t at)
-{
-    return the_dialog.take_page == the_session.page ? the_session.cells[at] : page_store_byte(the_dialog.take_page, at);
-}
 
 /* There is no room for a copy of the noted steps. Their CRC tells whether they are still the same. */
 static uint16_t crc_of_noted(void)
@@ -213,7 +229,7 @@ static uint16_t crc_of_noted(void)
     uint16_t crc = CRC16_START;
     const uint16_t end = session_step_at(the_dialog.take_first + the_dialog.take_count);
     for (uint16_t at = session_step_at(the_dialog.take_first); at != end; at++) {
-        crc = crc16_byte(crc, noted_byte(at));
+        crc = crc16_byte(crc, byte_of(the_dialog.take_page, at));
     }
     return crc;
 }
@@ -239,14 +255,6 @@ COMMAND(cmd_take)
     return SHELL_OK;
 }
 
-static void paste_step(uint8_t from, uint8_t to)
-{
-    uint16_t from_at = session_step_at(from), to_at = session_step_at(to);
-    for (uint8_t left = PAGE_STEP_BYTES; left > 0; left--) {
-        session_set_byte(to_at++, noted_byte(from_at++));
-    }
-}
-
 COMMAND(cmd_paste)
 {
     uint8_t to = session_steps();
@@ -260,17 +268,18 @@ COMMAND(cmd_paste)
     if (args->count > 1) {
         to = (uint8_t)args->number[0];
     }
-    if (to + count > PAGE_STEPS) {
+    const uint8_t end = (uint8_t)(to + count);
+    if (end > PAGE_STEPS) {
         return dialog_refuse(TEXT_P("No room: 7 steps at most"));
     }
     session_begin();
-    if (to + count > the_session.cells[PAGE_AT_STEPS]) {
-        session_set_byte(PAGE_AT_STEPS, to + count);
+    if (end > the_session.cells[PAGE_AT_STEPS]) {
+        set_count(end);
     }
     /* Copies upwards or downwards, so that overlapping steps of a page are read before they are overwritten. */
     for (uint8_t i = 0; i < count; i++) {
         uint8_t k = to > the_dialog.take_first ? (uint8_t)(count - 1u - i) : i;
-        paste_step(the_dialog.take_first + k, to + k);
+        copy_step_of(the_dialog.take_page, the_dialog.take_first + k, to + k);
     }
     return dialog_edited();
 }

@@ -105,13 +105,6 @@ void session_set_byte(uint16_t address, uint8_t byte)
     change_byte(address, bits);
 }
 
-void session_set_bytes(uint16_t address, const uint8_t *bytes, uint8_t count)
-{
-    while (count-- > 0) {
-        session_set_byte(address++, *bytes++);
-    }
-}
-
 void session_set_word(uint16_t address, uint16_t word)
 {
     session_set_byte(address, (uint8_t)word);

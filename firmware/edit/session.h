@@ -57,7 +57,6 @@ void session_open(uint8_t page);
 void session_begin(void);
 void session_set_byte(uint16_t address, uint8_t byte);
 void session_set_word(uint16_t address, uint16_t word);
-void session_set_bytes(uint16_t address, const uint8_t *bytes, uint8_t count);
 /* Updates is_changed. false: the change is done but cannot be undone. */
 bool session_end(void);
 

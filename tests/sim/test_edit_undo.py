@@ -121,6 +121,18 @@ def test_the_last_eight_commands_come_back_one_by_one(r):
     r.line("off")
 
 
+@pytest.mark.parametrize("nothing", ["swap 2 2", "swap 0 1", "move 2 2", "step 7", "name big 4"])
+def test_an_edit_that_changes_nothing_keeps_undo_and_redo(r, nothing):
+    edit(r, "page 4", "move 0 1", "goto 9 4", "set 5")
+    before = ram_page(r)
+    edit(r, "set 6", "undo", nothing)
+    assert ram_page(r) == before
+    edit(r, "redo")
+    assert ram_page(r) != before
+    edit(r, "undo", nothing, "undo", "undo")
+    assert not r.unsaved
+
+
 def test_a_new_edit_ends_what_could_be_redone(r):
     edit(r, "goto 1 1", "set 5", "set 6", "undo", "set 7")
     assert r.line("redo").endswith("Nothing to redo")
