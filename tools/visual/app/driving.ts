@@ -46,6 +46,11 @@ export class Driving {
         this.keys.hold(held);
     }
 
+    /** A key press waits for the robot. */
+    get isWaiting(): boolean {
+        return this.wish !== null;
+    }
+
     /** Drops a key press that still waits for the robot, and stops a walk by the stick. */
     forget(): void {
         this.wish = null;
@@ -104,6 +109,7 @@ export class Driving {
     }
 
     private refuse(error: unknown): void {
+        if (!this.wish) return; // nobody waits for it any more
         this.wish = null;
         this.parts.messages.fail(error);
     }

@@ -11,6 +11,7 @@ import type { Requests } from '../robot/requests.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { Overlay, SessionState } from '../view/session/session.ts';
 import type { Store } from '../view/store.ts';
+import { aborted } from './aborted.ts';
 import type { DocumentEditor } from './editor.ts';
 import type { RobotTransfer } from './transfer.ts';
 import { Turns } from './turns.ts';
@@ -32,6 +33,8 @@ export class RobotPlays {
     private cancels = 0;
     /** Pages are brought into the robot for one play at a time. */
     private turns = new Turns();
+    /** Aborted when what waits is dropped. */
+    private dropping = new AbortController();
 
     constructor(parts: PlayParts) {
         this.parts = parts;
@@ -39,18 +42,30 @@ export class RobotPlays {
 
     /** Plays a page as it is in the robot. false: another play was requested meanwhile and takes its place. */
     play(page: number): Promise<boolean> {
-        return this.begin(page, this.next());
+        return this.orDropped(this.begin(page, this.next()));
     }
 
     /** Plays a page as it is in the document. Otherwise like play(). */
     playEdited(page: number): Promise<boolean> {
         const { format, state } = this.parts.editor;
         const isLast = this.next();
-        return this.turns.run(async () => {
+        const done = this.turns.run(async () => {
             if (!isLast()) return false;
             await this.bringPages(format.reach(state.get().document, page));
             return this.begin(page, isLast);
         });
+        return this.orDropped(done);
+    }
+
+    /** As cancel(), but they reject at once, with this reason: a robot that is off may never answer. */
+    drop(why: RobotError): void {
+        this.cancel();
+        this.dropping.abort(why);
+        this.dropping = new AbortController();
+    }
+
+    private orDropped(play: Promise<boolean>): Promise<boolean> {
+        return Promise.race([play, aborted(this.dropping.signal)]);
     }
 
     /** Cancels requested plays that still wait. */

@@ -92,6 +92,8 @@ export class RobotSession implements Session {
     private late: ReturnType<typeof setTimeout> | undefined;
     /** Counts run() and Stop. A motion that waits for the robot does not begin behind either. */
     private runs = 0;
+    /** A run() waits for the robot. */
+    private isRunWaiting = false;
     private readonly messages = new StatusMessages(this.state);
     private readonly sources: RobotSources;
     private readonly arrival: Arrival;
@@ -154,7 +156,7 @@ export class RobotSession implements Session {
             editor: this.editor,
             transfer: this.transfer,
         });
-        this.sim = new SimulatorControls(this.state, simulated);
+        this.sim = new SimulatorControls(this.state, simulated, () => this.dropForRestart());
         this.plays = new RobotPlays({
             state: this.state,
             editor: this.editor,
@@ -207,7 +209,7 @@ export class RobotSession implements Session {
             },
             connection: state => this.arrival.connectionChanged(state),
             change: change => {
-                this.state.set(change);
+                this.state.set(change.message === null ? { ...change, message: this.messages.unread } : change);
                 if (change.physics === 'on') this.arrival.standUp();
             },
             backUp: image => this.documents.backUp(ROBOT_IN_PAGE, documentFrom(image, '').pages),
@@ -269,7 +271,9 @@ export class RobotSession implements Session {
         const mine = ++this.runs;
         preview.setLooping(true);
         preview.start(page);
+        this.isRunWaiting = true;
         await this.untilReady();
+        if (mine === this.runs) this.isRunWaiting = false;
         const { isRunning, page: shown } = preview.state.get();
         const isWanted = mine === this.runs && isRunning && shown === page; // otherwise the person has chosen something else
         if (isWanted && this.state.get().stopped === null) await this.playEdited(page);
@@ -311,6 +315,7 @@ export class RobotSession implements Session {
     }
 
     setTorque(on: boolean, servos: readonly number[] = []): Promise<boolean> {
+        if (!on && servos.length === 0) this.dropWaiting();
         return this.act(() => setTorque(this.connection.requests, on, servos));
     }
 
@@ -364,21 +369,35 @@ export class RobotSession implements Session {
     }
 
     runImage(image: ImageName): void {
+        this.dropForRestart();
         this.images.run(image);
     }
 
     forget(): Promise<void> {
+        this.dropForRestart();
         return this.images.forget();
     }
 
     private dropWaiting(): void {
         clearTimeout(this.late);
         this.runs++;
+        this.isRunWaiting = false;
         this.preview.pause();
         this.plays.cancel();
         this.sources.simulated.dropInterrupted();
         this.driving.forget();
         this.stops.tell();
+    }
+
+    /** The robot is switched off, reset, restarted or told to forget. What still waits for it must not move or change it afterwards. */
+    private dropForRestart(): void {
+        const dropped = new RobotError('dropped');
+        if (this.driving.isWaiting || this.follower.isOn || this.isRunWaiting) this.messages.fail(dropped);
+        this.plays.drop(dropped); // each says so
+        this.dropWaiting();
+        this.driving.letGo();
+        this.transfer.cancel();
+        if (this.state.get().connection === 'ready') this.connection.requests.dropMoves();
     }
 
     /** What was asked of one robot must not move or change the next one. */

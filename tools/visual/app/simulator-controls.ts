@@ -11,10 +11,13 @@ const STARTED_MS = 1500;
 export class SimulatorControls implements SimControls {
     private readonly state: Store<SessionState>;
     private readonly robot: Pick<SimulatedSource, 'post' | 'connection'>;
+    private readonly restarts: () => void;
 
-    constructor(state: Store<SessionState>, robot: Pick<SimulatedSource, 'post' | 'connection'>) {
+    /** restarts: the robot is switched off or reset, and does not go on with anything. */
+    constructor(state: Store<SessionState>, robot: Pick<SimulatedSource, 'post' | 'connection'>, restarts: () => void) {
         this.state = state;
         this.robot = robot;
+        this.restarts = restarts;
     }
 
     setSpeed(speed: number): void {
@@ -28,11 +31,13 @@ export class SimulatorControls implements SimControls {
     }
 
     setPower(on: boolean): void {
+        if (!on) this.restarts();
         this.robot.post({ kind: 'power', on });
         if (on) setTimeout(() => this.robot.connection?.askAgain(), STARTED_MS);
     }
 
     press(button: PanelButton, down: boolean): void {
+        if (button === 'mode' && down) this.restarts();
         this.robot.post({ kind: 'button', button, down });
     }
 

@@ -23,6 +23,13 @@ export class StatusMessages {
         this.state = state;
     }
 
+    /** A trouble that can hardly have been read yet; null: none. It stays when the robot restarts. */
+    get unread(): Notice | null {
+        const { trouble } = this;
+        const isUnread = trouble !== null && this.state.get().message === trouble.message && performance.now() < trouble.untilMs;
+        return isUnread ? trouble.message : null;
+    }
+
     /** null clears the message. */
     say(message: Notice | null): void {
         this.state.set({ message });

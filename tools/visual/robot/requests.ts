@@ -54,11 +54,21 @@ export class Requests {
             const request = { text, timeoutMs: options.timeoutMs ?? ANSWER_MS, moves: options.moves ?? false, resolve, reject };
             options.signal?.addEventListener('abort', () => this.cancel(request), { once: true });
             if (options.signal?.aborted) return reject(new RobotError('cancelled'));
-            if (options.stops) for (const one of this.queue.filter(({ moves }) => moves)) this.cancel(one);
+            if (options.stops) this.dropQueued();
             if (options.stops) this.queue.unshift(request);
             else this.queue.push(request);
             this.next();
         });
+    }
+
+    /** Cancels what would move the robot and is not answered yet: the robot is switched off or reset. */
+    dropMoves(): void {
+        this.dropQueued();
+        if (this.current?.moves) this.cancel(this.current);
+    }
+
+    private dropQueued(): void {
+        for (const one of this.queue.filter(({ moves }) => moves)) this.cancel(one);
     }
 
     /** Handles a received answer line. */

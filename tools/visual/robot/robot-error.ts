@@ -17,6 +17,7 @@ export type RobotErrorCode =
     | 'new-version' // it is not on the host any more: a newer version of the page has replaced it
     | 'was-hidden' // the page was hidden while it drove servos; the play was ended
     | 'cancelled' // somebody cancelled it
+    | 'dropped' // the robot was switched off, reset or restarted before it could do it
     | 'page-changed' // a page of the robot has changed since it was read; its number is in `words`
     | 'page-unsaved' // the page in Edit's memory has somebody else's edits
     | 'page-not-saved' // after a save the robot still has another page; its number is in `words`

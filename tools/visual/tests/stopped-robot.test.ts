@@ -11,10 +11,14 @@ import { libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
 
 vi.mock('../app/assets.ts', () => ({
     boardModule: () => Promise.resolve(null),
-    robotImages: () => Promise.resolve({ boot: '', application: '', motions: new Uint8Array(65_536) }),
+    robotImages: (image: string) => Promise.resolve({ boot: '', application: image, motions: new Uint8Array(65_536) }),
     physics: () => Promise.reject(new Error('not here')),
 }));
-vi.mock('../view/robot-store.ts', () => ({ loadRobot: () => Promise.resolve(null), saveRobot: () => Promise.resolve() }));
+vi.mock('../view/robot-store.ts', () => ({
+    loadRobot: () => Promise.resolve(null),
+    saveRobot: () => Promise.resolve(),
+    forgetRobot: () => Promise.resolve(),
+}));
 
 const BODY = JSON.parse(await readFile(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
 const { format } = await makeFormat();
@@ -23,12 +27,25 @@ const WALK = 20;
 const FRAME_MS = 5;
 const SOON = { timeout: 20_000, interval: 5 };
 
+const MEMORIES = { flash: new Uint8Array(0x20000), eeprom: new Uint8Array(), servos: new Uint8Array() };
+
+/** How many pages a request for checksums is about. */
+function pages(text: string): number {
+    const [, first = 0, last = -1] = /@crcs (\d+) (\d+)/.exec(text) ?? [];
+    return Number(last) - Number(first) + 1;
+}
+
 /** The worker of a robot that a hand holds while it walks in the air. A play of page 1 lasts for three questions. */
 class Worker {
     static last: Worker;
     onmessage: ((event: { data: FromSim }) => void) | null = null;
+    /** The requests that all workers got. */
+    static readonly all: string[] = [];
+    /** The next one does not answer before it is told to. */
+    static startsSilent = false;
     readonly sent: string[] = [];
-    isSilent = false;
+    isSilent = Worker.startsSilent;
+    private image = '';
     private isHeld = true;
     private page = WALK;
     private asked = 0;
@@ -40,8 +57,11 @@ class Worker {
     }
 
     postMessage(message: ToSim): void {
-        if (message.kind === 'hold') this.isHeld = message.held;
-        if (message.kind === 'bytes' && !this.isSilent) setTimeout(() => this.answer(String.fromCharCode(...message.bytes)));
+        if (message.kind === 'start') this.image = message.images.application;
+        if (message.kind === 'memories') setTimeout(() => this.tell({ kind: 'memories', memories: MEMORIES, id: message.id }));
+        if (message.kind === 'bytes' && message.sender === 'remote') Worker.all.push('remote');
+        else if (message.kind === 'hold') this.isHeld = message.held;
+        else if (message.kind === 'bytes' && !this.isSilent) setTimeout(() => this.answer(String.fromCharCode(...message.bytes)));
     }
 
     terminate(): void {
@@ -61,18 +81,19 @@ class Worker {
 
     /** Edit has saved a page. */
     save(): void {
-        const memories = { flash: new Uint8Array(0x20000), eeprom: new Uint8Array(), servos: new Uint8Array() };
-        this.tell({ kind: 'memories', memories, id: null });
+        this.tell({ kind: 'memories', memories: MEMORIES, id: null });
     }
 
     private answer(text: string): void {
         const [request = '', word = '', page = ''] = /(@\w+) ?(\d*)/.exec(text) ?? [];
         this.sent.push(request.trim());
+        Worker.all.push(request.trim());
         if (word === '@stop' || word === '@break') this.page = 0;
         if (word === '@play') [this.page, this.asked] = [Number(page), 0];
         if (word === '@where' && this.page === 1 && ++this.asked > 3) this.page = 0;
         const words: Record<string, string> = {
-            '@ver': 'image=play version=1.0.0 board=cm5 protocol=1 can=list,page ',
+            '@ver': `image=${this.image} version=1.0.0 board=cm5 protocol=1 can=list,page `,
+            '@crcs': `${'0000'.repeat(pages(text))} `, // none of the document's
             '@where': `state=${this.page ? 'playing' : 'idle'} page=${this.page} step=1 repetition=1 code=0 dv=96 faulty=0 `,
         };
         this.tell({ kind: 'bytes', bytes: new TextEncoder().encode(`\x1e${word} ${words[word] ?? ''}OK\r\n`) });
@@ -102,6 +123,8 @@ class Worker {
 }
 
 beforeEach(() => {
+    Worker.all.length = 0;
+    Worker.startsSilent = false;
     vi.stubGlobal('Worker', Worker);
     vi.stubGlobal('navigator', {});
     vi.stubGlobal('document', { hidden: false, addEventListener: () => undefined });
@@ -116,9 +139,11 @@ async function page() {
     const parts = { format, player: await makeMotion(), document: library };
     const formats = { cancel: () => undefined } as unknown as FormatsWorker;
     const session = new RobotSession(BODY, parts, formats, { storage: new PassingStorage(), isKept: true });
+    const said: string[] = []; // here physics never comes, which each new robot says
+    session.state.watch(({ message }) => message && !/^Physics/.test(message.text) && said.push(message.text));
     await session.documents.start(library);
     await session.start();
-    return { session, worker: Worker.last, plays: () => Worker.last.sent.filter(text => text.startsWith('@play')) };
+    return { session, said, worker: Worker.last, plays: () => Worker.last.sent.filter(text => text.startsWith('@play')) };
 }
 
 /** What the promise resolves to, or that it did not in time. */
@@ -184,4 +209,59 @@ test('a motion that is saved in Edit of the robot in the page: the list of its m
     const before = lists();
     worker.save();
     await vi.waitFor(() => expect(lists()).toBe(before + 1), SOON);
+});
+
+/** What switches the robot off, resets it, or makes another one of it. */
+const RESTARTS: readonly (readonly [string, (session: RobotSession) => unknown])[] = [
+    ['Power off', session => session.sim.setPower(false)],
+    ['MODE', session => session.sim.press('mode', true)],
+    ['a restart', session => session.runImage('play')],
+    ['Factory fresh', session => session.forget()],
+];
+
+/** Until the robot that runs now has answered often. */
+async function untilQuiet(): Promise<void> {
+    await vi.waitFor(() => expect(Worker.last.sent.filter(text => text.startsWith('@where')).length).toBeGreaterThan(12), SOON);
+}
+
+test.each(RESTARTS)('%s while a motion waits for the robot to stand: it never plays, and it is said', async (_, restart) => {
+    const { session, plays, said } = await page();
+    await vi.waitFor(() => expect(plays()).toEqual(['@play 1']), SOON);
+    const asked = session.play(2);
+    void restart(session);
+    expect(await within(3000, asked)).toBeUndefined();
+    await untilQuiet();
+    expect(Worker.all).not.toContain('@play 2');
+    expect(said.at(-1)).toMatch(/^Not done: the robot was switched off/);
+});
+
+test.each(RESTARTS)('%s while a key and the motion of a link wait: neither moves it, and it is said', async (_, restart) => {
+    const { session, plays, said } = await page();
+    await vi.waitFor(() => expect(plays()).toEqual(['@play 1']), SOON);
+    session.state.set({ physics: 'loading' });
+    const ran = session.run(2);
+    session.remote(new Set(['up']));
+    session.remote(new Set());
+    void restart(session);
+    session.state.set({ physics: 'off' });
+    expect(await within(3000, ran)).toBeUndefined();
+    await untilQuiet();
+    expect(Worker.all).not.toContain('@play 2');
+    expect(Worker.all).not.toContain('remote');
+    expect(said.at(-1)).toMatch(/^Not done: the robot was switched off/);
+});
+
+test.each(RESTARTS)('%s while Edit starts to take a motion that is to be played: it is neither written nor played', async (_, restart) => {
+    const { session, worker, plays } = await page();
+    await vi.waitFor(() => expect(plays()).toHaveLength(2), SOON);
+    Worker.startsSilent = true;
+    const asked = session.playEdited(2);
+    await vi.waitFor(() => expect(Worker.last).not.toBe(worker), SOON); // it restarts with Edit
+    Worker.startsSilent = false;
+    void restart(session);
+    expect(await within(3000, asked)).toBeUndefined();
+    Worker.last.isSilent = false;
+    await untilQuiet();
+    expect(session.transfer.isWriting).toBe(false);
+    expect(Worker.all.filter(text => /^@(open|data|save|play 2$)/.test(text))).toEqual([]);
 });

@@ -237,6 +237,8 @@ const DE: Texts = {
             'was-hidden':
                 'Diese Seite war verdeckt, deshalb wurde die Bewegung sanft beendet. Eine verdeckte Seite kann den Takt nicht halten: Lass sie sichtbar.',
             cancelled: 'Angehalten.',
+            dropped:
+                'Nicht ausgeführt: Der Roboter wurde vorher ausgeschaltet, zurückgesetzt oder neu gestartet. Gib es ihm noch einmal auf.',
             'page-changed':
                 'Diese Bewegung hat sich im Roboter geändert, seit sie gelesen wurde; sie wurde nicht überschrieben. Vergleiche noch einmal. Bewegung:',
             'page-unsaved':

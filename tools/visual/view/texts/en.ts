@@ -57,6 +57,7 @@ const errors: Record<RobotErrorCode, string> = {
         'There is a new version of this page, and the file that was needed is gone; the robot goes on as it was. Reload the page.',
     'was-hidden': 'This page was hidden, so the motion was ended softly. A hidden page cannot keep time: keep it in sight.',
     cancelled: 'Stopped.',
+    dropped: 'Not done: the robot was switched off, reset or restarted first. Ask it once more.',
     'page-changed': 'This motion has changed in the robot since it was read; nothing was written over it. Compare once more. Motion:',
     'page-unsaved': "The motion in Edit's memory has edits that are not saved. Type SAVE or UNDO in the terminal, then try again.",
     'page-not-saved':

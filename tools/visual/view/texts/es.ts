@@ -233,6 +233,7 @@ const ES: Texts = {
             'was-hidden':
                 'Esta página estaba oculta, así que el movimiento terminó con suavidad. Una página oculta no puede llevar el tiempo: mantenla a la vista.',
             cancelled: 'Detenido.',
+            dropped: 'No se ha hecho: antes el robot se apagó, se restableció o se reinició. Pídeselo otra vez.',
             'page-changed':
                 'Este movimiento ha cambiado en el robot desde que se leyó; no se ha sobrescrito. Compara otra vez. Movimiento:',
             'page-unsaved':
