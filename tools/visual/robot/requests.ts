@@ -4,6 +4,9 @@
 //   waiting in the queue --sent--> under way --answer--> resolved, or rejected with the board's ERR
 //                                     |
 //                                     +--time over--> rejected; late answers to it are dropped until the line is settled
+//
+// A request that moves the robot and is given up may still arrive, because a line that stalls keeps its bytes. So `@stop` goes right behind
+// it, and once more, if that is not answered either, as soon as anything is.
 
 import type { Clock } from './clock.ts';
 import type { Line } from './line.ts';
@@ -32,6 +35,10 @@ interface Request {
     readonly reject: (error: RobotError) => void;
 }
 
+function isStop(text: string): boolean {
+    return text === '@stop' || text === '@break';
+}
+
 export class Requests {
     private readonly line: Pick<Line, 'write'>;
     private readonly clock: Clock;
@@ -40,6 +47,9 @@ export class Requests {
     private abandoned: string | null = null;
     private cancelTimer: () => void = () => undefined;
     private isEnded = false;
+    /** A request that moves was given up. now: `@stop` is sent next; later: it was sent, and is due again when another
+     *  request is answered first. A newer request that moves takes the place of the old one and is not stopped. */
+    private stopDue: 'no' | 'now' | 'later' = 'no';
 
     constructor(line: Pick<Line, 'write'>, clock: Clock) {
         this.line = line;
@@ -74,6 +84,7 @@ export class Requests {
     /** Handles a received answer line. */
     take(line: string): void {
         if (this.abandoned !== null && isAnswer(this.abandoned, line)) {
+            if (isStop(this.abandoned)) this.stopDue = 'no';
             this.settle();
             return;
         }
@@ -82,6 +93,7 @@ export class Requests {
         this.finish();
         const word = request.text.split(' ', 1)[0] ?? '';
         const refusal = / ERR (\d+) (.*)$/.exec(line);
+        if (this.stopDue === 'later' && refusal?.[1] !== ERR_LINE) this.stopDue = request.moves || isStop(request.text) ? 'no' : 'now';
         if (refusal?.[1] === ERR_LINE)
             request.reject(new RobotError('no-answer', request.text)); // it was not executed
         else if (refusal) request.reject(new RobotError('refused', refusal[2] ?? '', { number: Number(refusal[1]) }));
@@ -101,7 +113,7 @@ export class Requests {
 
     private next(): void {
         if (this.current || this.abandoned !== null) return;
-        const request = this.queue.shift();
+        const request = this.stopDue === 'now' ? this.ownStop() : this.queue.shift();
         if (!request) return;
         this.current = request;
         this.cancelTimer = this.clock.after(request.timeoutMs, () => this.timeOut(request));
@@ -111,6 +123,12 @@ export class Requests {
             request.reject(cause instanceof RobotError ? cause : new RobotError('port-lost', '', { cause }));
             this.next();
         });
+    }
+
+    private ownStop(): Request {
+        this.stopDue = 'later';
+        const ignore = (): void => undefined;
+        return { text: '@stop', timeoutMs: ANSWER_MS, moves: false, resolve: ignore, reject: ignore };
     }
 
     private finish(): void {
@@ -135,6 +153,7 @@ export class Requests {
     private abandon(request: Request, error: RobotError): void {
         this.finish();
         this.abandoned = request.text;
+        if (request.moves) this.stopDue = 'now';
         this.cancelTimer = this.clock.after(SETTLE_MS, () => this.settle());
         request.reject(error);
     }
