@@ -20,7 +20,7 @@
 #define FIX_POS_BITS 16
 #define FIX_POS_ONE ((int32_t)1 << FIX_POS_BITS)
 
-/* Position in servo units of a q16.16 that is not negative: floor. The plain expression is pos >> 16. */
+/* Position in servo units of a q16.16: floor, in two's complement. The plain expression is pos >> 16. */
 static inline uint16_t fix_pos(int32_t pos_q16_16)
 {
     return (uint16_t)((uint32_t)pos_q16_16 >> FIX_POS_BITS);
@@ -101,9 +101,16 @@ static inline uint16_t fix_size(int16_t value)
     return (uint16_t)(value < 0 ? -value : value);
 }
 
+/* Positions are compared as signed: a joint that its trim puts outside the range of pages stands below 0 or above 1023
+ * (player_start). */
+static inline bool fix_is_below(uint16_t pos, uint16_t other_pos)
+{
+    return (int16_t)pos < (int16_t)other_pos;
+}
+
 static inline uint16_t fix_distance(uint16_t from_pos, uint16_t to_pos)
 {
-    return to_pos > from_pos ? (uint16_t)(to_pos - from_pos) : (uint16_t)(from_pos - to_pos);
+    return fix_is_below(from_pos, to_pos) ? (uint16_t)(to_pos - from_pos) : (uint16_t)(from_pos - to_pos);
 }
 
 #endif

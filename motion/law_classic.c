@@ -8,7 +8,7 @@
  *            RISE  CRUISE   FALL  HOLD
  *              A   N - 2A     A     P    ticks
  *
- * Ranges: |M| <= 1023; |v|, |w|, |g| <= 1023; acc within +-4893; M - acc within +-5916. */
+ * Ranges: |M| <= 1323; |v|, |w|, |g| <= 1023; acc within +-4893; M - acc within +-6216. */
 #include "classic_math.h"
 #include "law.h"
 #include "step_ticks.h"
@@ -107,7 +107,8 @@ static divisor_t divisor_of(uint16_t divisor)
 /* Rule 7: (K - w * 2A) / divisor. The original has the quotient in 16 bits before it limits it. */
 static int16_t speed_of(const player_classic_t *classic, uint8_t ramp, const divisor_t *by)
 {
-    const int32_t speed_units = (int32_t)speed_units_of(fix_size(classic->distance));
+    const uint16_t size_pos = fix_size(classic->distance);   /* longer only from outside the range: see player_start */
+    const int32_t speed_units = (int32_t)speed_units_of(size_pos > PAGE_POS_MAX ? PAGE_POS_MAX : size_pos);
     const int32_t gained = (int32_t)classic->entry * (2 * ramp);
     const int32_t dividend = (classic->distance < 0 ? -speed_units : speed_units) - gained;
     const uint32_t size = (uint32_t)(dividend < 0 ? -dividend : dividend);
@@ -190,8 +191,10 @@ static void begin_fall(player_t *player)
 ALWAYS_INLINE void put(player_classic_t *classic, int16_t distance)
 {
     int16_t pos = (int16_t)(classic->start_pos + distance);
-    if ((uint16_t)pos > PAGE_POS_MAX) {
-        pos = pos < 0 ? 0 : (int16_t)PAGE_POS_MAX;
+    if ((uint16_t)pos > PAGE_POS_MAX) {   /* a joint that started outside may still be there */
+        const int16_t end = pos < 0 ? 0 : (int16_t)PAGE_POS_MAX;
+        const bool is_outside = pos < 0 ? classic->start_pos < 0 : classic->start_pos > (int16_t)PAGE_POS_MAX;
+        pos = is_outside ? pos : end;
     }
     classic->out_pos = pos;
 }

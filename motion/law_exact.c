@@ -14,8 +14,8 @@
  * direction gives the sign at the end. A position carries its rounding: upward it starts half a unit high, downward a hair
  * less, so that dropping the fraction rounds to the nearest and mirrored motions give mirrored goals.
  *
- * Ranges: distance 0..1023; mean = distance / N; entry, exit <= mean;
- * cruise = mean + (mean - (entry + exit) / 2) A / (N - A) <= 2 mean <= 2046. entry, exit and cruise are multiples of
+ * Ranges: distance 0..1323; mean = distance / N; entry, exit <= mean;
+ * cruise = mean + (mean - (entry + exit) / 2) A / (N - A) <= 2 mean <= 2646. entry, exit and cruise are multiples of
  * 2^-15. */
 #include "law.h"
 #include "step_ticks.h"
@@ -80,7 +80,7 @@ typedef struct {
 /* Speed at the end of the step at at_pos: the smaller mean speed of the two steps, or 0 if the joint stops there. */
 static uint32_t exit_speed(const plan_t *plan, bool down, uint16_t at_pos, uint16_t next_pos, uint32_t mean)
 {
-    if (!plan->runs_on || (down ? next_pos >= at_pos : next_pos <= at_pos)) {
+    if (!plan->runs_on || !(down ? fix_is_below(next_pos, at_pos) : fix_is_below(at_pos, next_pos))) {
         return 0;
     }
     const uint32_t next_mean = even(fix_mean(fix_distance(at_pos, next_pos), plan->next_recip));
@@ -91,7 +91,7 @@ static void plan_joint(const plan_t *plan, player_joint_t *joint, uint16_t next_
 {
     player_exact_t *exact = &joint->exact;
     const uint16_t from_pos = fix_pos(exact->pos_q16_16), to_pos = joint->target_pos;
-    const bool down = to_pos < from_pos;
+    const bool down = fix_is_below(to_pos, from_pos);
     const uint32_t mean = even(fix_mean(fix_distance(from_pos, to_pos), plan->recip));
     const uint32_t entry = size_of(exact->exit_q16_16);
     const uint32_t exit = mean != 0 ? exit_speed(plan, down, to_pos, next_pos, mean) : 0;
@@ -234,11 +234,16 @@ void exact_brake(player_t *player)
     }
 }
 
-/* A joint that would leave its range stops at the end of it. */
+static bool is_outside(int32_t pos_q16_16)
+{
+    return fix_pos(pos_q16_16) > PAGE_POS_MAX;   /* also below 0 */
+}
+
+/* A joint that would leave its range stops at the end of it. One that started outside goes on inward. */
 static void keep_in_range(player_exact_t *exact)
 {
     const int32_t pos = exact->pos_q16_16 + exact->speed_q16_16;
-    if (pos < 0 || pos >= fix_from_pos(PAGE_POS_MAX + 1u)) {
+    if (is_outside(pos) && !is_outside(exact->pos_q16_16)) {
         exact->speed_q16_16 = exact->accel_q16_16 = 0;
         exact->pos_q16_16 = pos < 0 ? 0 : fix_from_pos(PAGE_POS_MAX);
     }

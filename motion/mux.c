@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "mux.h"
+#include "fix.h"
 
 /* 1024 units / 300 degrees / 128 ticks. */
 uint16_t mux_units_per_tick_q8_8(uint16_t deg_s)
@@ -44,8 +45,8 @@ uint16_t mux_goal(mux_t *mux, uint8_t joint, uint16_t from_pos, uint16_t asked_p
     if (state == MET) {
         return asked_pos;
     }
-    const bool is_below = asked_pos < from_pos;
-    const uint16_t distance = (uint16_t)(is_below ? from_pos - asked_pos : asked_pos - from_pos);
+    const bool is_below = fix_is_below(asked_pos, from_pos);
+    const uint16_t distance = fix_distance(from_pos, asked_pos);
     const bool is_near = distance <= most_pos, has_passed = state == (is_below ? SOURCE_ABOVE : SOURCE_BELOW);
     if (may_meet && (is_near || has_passed)) {
         mux_forget(mux, (uint32_t)1 << joint);

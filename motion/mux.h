@@ -36,8 +36,9 @@ void mux_forget(mux_t *mux, uint32_t joints);
 /* How far a joint may go in this tick. */
 uint8_t mux_allow(mux_speed_t *speed);
 
-/* The goal in this tick of a joint that was at from_pos and whose source asks for asked_pos. most_pos: movement while
- * it seeks. may_meet: false while the source itself still moves to its first position. */
+/* The goal in this tick of a joint that was at from_pos and whose source asks for asked_pos. Both may be outside 0..1023, as
+ * in player_start. most_pos: movement while it seeks. may_meet: false while the source itself still moves to its first
+ * position. */
 uint16_t mux_goal(mux_t *mux, uint8_t joint, uint16_t from_pos, uint16_t asked_pos, uint8_t most_pos, bool may_meet);
 
 #endif

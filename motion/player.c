@@ -65,7 +65,7 @@ static void begin_play(player_t *player, player_law_t law, const uint16_t pose_p
     player->is_planned = false;
     player->carry_q5_11 = STEP_TICKS_CARRY_START;
     for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
-        player->joint[i].target_pos = pose_pos[i] > PAGE_POS_MAX ? PAGE_POS_MAX : pose_pos[i];
+        player->joint[i].target_pos = pose_pos[i];
     }
     if (law == PLAYER_LAW_CLASSIC) {
         classic_start(player);

@@ -28,7 +28,8 @@ void player_set_shape(player_t *player, const shape_t *shape);
 
 /* Starts at step 1 of `page`.
  * link     : what codes and stops do to the play, after link_call; NULL: a play without codes, which follows the next links
- * pose_pos : where the joints are (page coordinates; values above 1023 are taken as 1023)
+ * pose_pos : where the joints are, page coordinates. A joint may start outside 0..1023 by as much as its trim (-300..1323,
+ *            in two's complement): its goals begin there, and its first step takes it into the range
  * present  : bit per joint that the play may move
  * Pages with PLAY_COUNT 0 are passed over: player.next.page is the page that plays first. The next player_tick makes the
  * first goals. After an error only .fault and .fault_page have changed. */
@@ -54,7 +55,7 @@ uint8_t player_tick(player_t *player, link_t *link) NOINLINE; /* so that tools/b
  * their way, and after a break, pause or resume, gets the goals of every tick equally early. */
 void player_plan(player_t *player, link_t *link) NOINLINE;
 
-/* Where the play wants a joint of `present`, 0..1023. */
+/* Where the play wants a joint of `present`: 0..1023, or on the way there from outside (player_start). */
 uint16_t player_goal(const player_t *player, uint8_t joint);
 
 /* Copies the goals of those joints; leaves the others. */

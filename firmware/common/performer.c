@@ -350,13 +350,10 @@ static bool ask_one_joint(performer_t *performer)
     const uint32_t joint = servo_link_bit(id);
     const bool of_layer = (performer_layers_joints(performer) & joint) != 0;
     servo_link_put(&performer->ready_left, id, false);
-    if (!of_layer && servo_link_engage(performer->servos, joint) == 0) {
+    if (!of_layer && !servo_link_engage(performer->servos, id, &performer->goal_pos[id])) { /* a layer keeps it up to date */
         servo_link_put(&performer->faulty, id, true);
         performer_event_put(&performer->events, PERFORMER_EV_UNREADY, id, 0, 0);
         return performer->settings->fault_rule == SETTINGS_FAULT_LIMP;
-    }
-    if (!of_layer) {   /* a layer keeps goal_pos up to date */
-        performer->goal_pos[id] = performer->servos->present_pos[id];
     }
     servo_link_put(&performer->joints, id, true);
     return true;

@@ -44,7 +44,6 @@ uint8_t performer_layer_page(const performer_t *performer)
 
 layers_status_t performer_take_for_code(performer_t *performer, uint8_t id)
 {
-    servo_link_t *servos = performer->servos;
     const uint32_t joint = servo_link_bit(id);
     set_speed(performer);
     if (code_motion_slot(&performer->layers->code, id) == NULL) {
@@ -59,10 +58,10 @@ layers_status_t performer_take_for_code(performer_t *performer, uint8_t id)
     if (!performer_is_idle(performer)) {
         return LAYERS_ERR_BUSY;
     }
-    if ((performer_usable(performer) & joint) == 0 || servo_link_engage(servos, joint) == 0) {
+    if ((performer_usable(performer) & joint) == 0 ||
+        !servo_link_engage(performer->servos, id, &performer->goal_pos[id])) {
         return LAYERS_ERR_JOINTS;
     }
-    performer->goal_pos[id] = servos->present_pos[id];
     return LAYERS_OK;
 }
 

@@ -140,7 +140,7 @@ void requests_print_now(void)
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
         if (servo_link_has(&servos->present, id)) {
             const uint16_t present_pos = servos->present_pos[id];
-            print_pos(servo_link_has(&with_goals, id), performer->goal_pos[id]);
+            print_pos(servo_link_has(&with_goals, id), servo_link_limited(performer->goal_pos[id]));
             print_pos(!servo_link_has(&servos->silent, id) && present_pos != SERVO_LINK_NO_POSE, present_pos);
         }
     }

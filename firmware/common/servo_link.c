@@ -42,19 +42,19 @@ uint32_t servo_link_drivable(const servo_link_t *link)
     return link->present & link->torque & ~link->silent;
 }
 
-static uint16_t limited(int16_t pos)
+uint16_t servo_link_limited(uint16_t pos)
 {
-    return pos < 0 ? 0 : pos > POS_MAX ? POS_MAX : (uint16_t)pos;
+    return (int16_t)pos < 0 ? 0 : pos > POS_MAX ? POS_MAX : pos;
 }
 
 uint16_t servo_link_to_servo(const servo_link_t *link, uint8_t id, uint16_t pos)
 {
-    return limited((int16_t)pos + link->trim_pos[id]);
+    return servo_link_limited((uint16_t)(pos + (uint16_t)link->trim_pos[id]));
 }
 
 uint16_t servo_link_to_page(const servo_link_t *link, uint8_t id, uint16_t servo_pos)
 {
-    return limited((int16_t)servo_pos - link->trim_pos[id]);
+    return servo_link_limited((uint16_t)(servo_pos - (uint16_t)link->trim_pos[id]));
 }
 
 void servo_link_set_trim(servo_link_t *link, const int16_t trim_pos[SERVO_LINK_JOINTS])

@@ -112,9 +112,13 @@ bool servo_link_next_fault(servo_link_t *link, servo_fault_t *fault);
  * directly. */
 void servo_link_quiet(servo_link_t *link);
 
-/* Page coordinates of a joint <-> servo coordinates: trim added or subtracted, limited to 0..1023. */
+/* Page coordinates of a joint <-> servo coordinates: trim added or subtracted, limited to 0..1023. A limited position is for
+ * pages and for people. A motion begins at that of servo_link_engage. */
 uint16_t servo_link_to_servo(const servo_link_t *link, uint8_t id, uint16_t pos);
 uint16_t servo_link_to_page(const servo_link_t *link, uint8_t id, uint16_t servo_pos);
+
+/* A page coordinate in two's complement, limited to 0..1023. */
+uint16_t servo_link_limited(uint16_t pos);
 
 /* Sets the offsets added to each goal (page_store_trim); NULL: none. An offset beyond +-SERVO_LINK_TRIM_MAX counts as 0.
  * Discards all poses read so far. */
@@ -154,9 +158,11 @@ uint32_t servo_link_torque_on(servo_link_t *link, uint32_t ids);
  * those that did; the others also count as off until a poll reads otherwise. */
 uint32_t servo_link_torque_off(servo_link_t *link, uint32_t ids);
 
-/* Prepares servos for a goal every tick: switches torque on as above, reads the pose, and sets the moving speed to 0, which
- * means full speed. A servo with a slow one may still be on its way (a single move): it stops where it is, and its pose
- * becomes the goal. 4 ms per servo. Returns those that are ready. */
-uint32_t servo_link_engage(servo_link_t *link, uint32_t ids);
+/* Prepares a servo that is present for a goal every tick: switches torque on as above, reads its position, and sets the
+ * moving speed to 0, which means full speed. A servo with a slow one may still be on its way (a single move): it stops where
+ * it is, and its position becomes the goal. 4 ms. true: it is ready, and *pos is where it stands, in page coordinates that
+ * are not limited (-300..1323, in two's complement): as a goal it moves no joint, not even one that its trim puts outside
+ * 0..1023. */
+MUST_CHECK bool servo_link_engage(servo_link_t *link, uint8_t id, uint16_t *pos);
 
 #endif

@@ -39,8 +39,8 @@ static uint32_t for_each(servo_link_t *link, uint32_t ids, servo_action_t action
     return done;
 }
 
-/* Ends the tick's traffic, then acts on those of `ids` that are present. */
-static uint32_t for_present(servo_link_t *link, uint32_t ids, servo_action_t action)
+/* Ends the tick's traffic, then acts on those of `ids` that are present. NOINLINE saves 40 bytes. */
+static NOINLINE uint32_t for_present(servo_link_t *link, uint32_t ids, servo_action_t action)
 {
     servo_link_quiet(link);
     return for_each(link, ids & link->present, action);
@@ -234,21 +234,20 @@ uint32_t servo_link_torque_off(servo_link_t *link, uint32_t ids)
 
 /* A servo with a speed limit may still be on its way to a far goal. Its goal and its limit change in one packet, because
  * without the limit it would leap. */
-static bool engage(servo_link_t *link, uint8_t id)
+bool servo_link_engage(servo_link_t *link, uint8_t id, uint16_t *pos)
 {
     uint8_t table[READ_BYTES];
     uint8_t *goal = table + (DXL_AT_GOAL - READ_FROM), *speed = table + (DXL_AT_SPEED - READ_FROM);
+    servo_link_quiet(link);
+    system_kick();
     if (!switch_on(link, id, table)) {
         return false;
     }
+    const uint8_t *present = table + (DXL_AT_PRESENT - READ_FROM);
+    *pos = (uint16_t)((word_at(present) & 1023u) - (uint16_t)link->trim_pos[id]);
     if (word_at(speed) != 0) {
-        memcpy(goal, table + (DXL_AT_PRESENT - READ_FROM), 2);
+        memcpy(goal, present, 2);
         memset(speed, 0, 2);
     }
     return servo_link_write(link, id, DXL_AT_GOAL, goal, 4);
-}
-
-uint32_t servo_link_engage(servo_link_t *link, uint32_t ids)
-{
-    return for_present(link, ids, engage);
 }

@@ -89,6 +89,8 @@ PLACES = (
     "step by the exact law",
     "next step as the page says",
     "aim arrived",
+    "motion begins",
+    "motion begins outside the trimmed range",
     "swing swung",
     "@where names the play",
     "@pose gives the pose",

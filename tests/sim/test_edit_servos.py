@@ -5,6 +5,7 @@
 import pytest
 
 from m512.files.image import Image
+from tests.sim.channel import request
 from tests.sim.edit_robot import UNUSED, page, robot
 from tests.sim.edit_servos import goals, start, writes_since
 
@@ -167,6 +168,24 @@ def test_a_page_is_played_with_the_trim_while_page_0_is_open():
         assert r.cell(0, 3) == "0650"  # the work pose has no trim here, and neither has GO
         r.line("go 0", ms=1000)
         assert r.board.servos[3].goal == 512
+
+
+@pytest.mark.parametrize("line", [b"play 7\r", request("@move 60 3 200")])
+@pytest.mark.parametrize("trim, at", [(-100, 1010), (150, 20)])
+def test_a_trimmed_joint_outside_the_range_of_pages_does_not_leap(trim, at, line):
+    """60 degrees/s are 1.6 units a tick, from where the joint stands on. The table shows positions of pages."""
+    trimmed = page("Offset", [(0, {3: 512}), (0, {3: 512 + trim}), (0, {3: trim & 0xFFFF})])
+    with start(pages={0: trimmed, 7: page("pose", [(30, {3: 600})])}) as r:
+        r.board.servos[3].push_to(at)
+        r.board.run(ms=500)
+        r.board.send(line)
+        r.board.run(ms=250)
+        r.keys(request("@break"), ms=500)
+        assert r.cell(0, 3) == ("0000" if trim > 0 else "1023") and abs(r.board.servos[3].goal - at) < abs(trim) - 13
+        r.board.send(line)
+        r.board.run(ms=1500)
+        row = [at] + [frame.goals[3] for frame in r.board.trace if 3 in frame.goals]
+        assert len(row) > 150 and max(abs(b - a) for a, b in zip(row, row[1:])) <= 2
 
 
 def test_a_damaged_trim_is_told_at_the_start():

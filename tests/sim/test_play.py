@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from m512.files.image import Image
+from m512.files.image import Image, from_bytes
 from tests.sim.channel import request
 from tests.sim.play_robot import JOINTS, PAUSE, STOP, UP, ask, motions, page, paste, robot, tick_of, walk_steps
 
@@ -141,6 +141,23 @@ def test_trim_of_page_0_is_added():
     board.expect("Ended", ms=4000)
     board.run(ms=100)
     assert (board.servos[1].goal, board.servos[2].goal, board.servos[3].goal) == (517, 505, 512)
+
+
+@pytest.mark.parametrize("line", ["play 1", "@move 60 3 200", "aim 3 512", "swing 3 512 40 2000"])
+@pytest.mark.parametrize("trim, at", [(-100, 1010), (-300, 1000), (150, 20)])
+def test_a_trimmed_joint_outside_the_range_of_pages_does_not_leap(trim, at, line):
+    """60 degrees/s are 1.6 units a tick, from where the joint stands on."""
+    image = from_bytes(motions())
+    image[0] = page("Offset", [(0, {}), (0, {})])
+    image[0].set_word(2, 3, trim & 0xFFFF)
+    image[0].seal()
+    board = robot(pages=image.to_bytes())
+    board.servos[3].push_to(at)
+    board.run(ms=500)
+    ask(board, line)
+    board.run(ms=1500)
+    row = [at] + [frame.goals[3] for frame in board.trace if 3 in frame.goals]
+    assert len(row) > 150 and max(abs(b - a) for a, b in zip(row, row[1:])) <= 2
 
 
 def test_a_damaged_trim_page_is_told_and_an_erased_one_is_none():

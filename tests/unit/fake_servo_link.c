@@ -2,6 +2,7 @@
 #include "fake_servo_link.h"
 
 #include <string.h>
+#include "page.h"
 
 #define FAULTS 8u
 
@@ -32,6 +33,11 @@ void fake_servo_link_fault(servo_link_t *link, uint8_t id, uint8_t kind, uint8_t
     faults[fault_count++] = (servo_fault_t){.id = id, .kind = kind, .errors = errors};
 }
 
+uint16_t servo_link_limited(uint16_t pos)
+{
+    return (int16_t)pos < 0 ? 0 : pos > PAGE_POS_MAX ? PAGE_POS_MAX : pos;
+}
+
 bool servo_link_next_fault(servo_link_t *link, servo_fault_t *fault)
 {
     (void)link;
@@ -49,7 +55,7 @@ uint32_t servo_link_read_pose(servo_link_t *link, uint32_t ids)
     const uint32_t answering = ids & link->present & ~link->silent & ~fake_servo_link.mute;
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
         if ((answering & SERVO_LINK_BIT(id)) != 0) {
-            link->present_pos[id] = fake_servo_link.pose_pos[id];
+            link->present_pos[id] = servo_link_limited(fake_servo_link.pose_pos[id]);
         }
     }
     return answering;
@@ -93,10 +99,11 @@ void servo_link_slopes(servo_link_t *link, const uint8_t compliance[SERVO_LINK_J
     memcpy(fake_servo_link.compliance, compliance, sizeof fake_servo_link.compliance);
 }
 
-uint32_t servo_link_engage(servo_link_t *link, uint32_t ids)
+bool servo_link_engage(servo_link_t *link, uint8_t id, uint16_t *pos)
 {
     fake_servo_link.engagements++;
-    return servo_link_torque_on(link, ids);
+    *pos = fake_servo_link.pose_pos[id];
+    return servo_link_torque_on(link, SERVO_LINK_BIT(id)) != 0;
 }
 
 void servo_link_poll(servo_link_t *link)

@@ -15,7 +15,7 @@ typedef struct {
     uint8_t compliance[SERVO_LINK_JOINTS];
     uint16_t engagements;                 /* calls of servo_link_engage */
     uint32_t mute;                        /* joints that answer neither a pose read nor a torque-on */
-    uint16_t pose_pos[SERVO_LINK_JOINTS]; /* actual positions of the servos */
+    uint16_t pose_pos[SERVO_LINK_JOINTS]; /* actual positions of the servos, page coordinates without limit */
 } fake_servo_link_t;
 
 extern fake_servo_link_t fake_servo_link;

@@ -64,6 +64,17 @@ static void test_mux_moves_nothing_in_a_pause(void)
     TEST_ASSERT_EQUAL_HEX32(BIT, mux.seeking);
 }
 
+static void test_mux_leads_a_joint_back_from_outside_the_range(void)
+{
+    TEST_ASSERT_EQUAL_UINT16(1108, goal(1110, 900));
+    mux_change(&mux, BIT);
+    TEST_ASSERT_EQUAL_UINT16((uint16_t)-98, goal((uint16_t)-100, 100));
+    TEST_ASSERT_EQUAL_UINT16(1, goal((uint16_t)-1, 100));
+    TEST_ASSERT_EQUAL_HEX32(BIT, mux.seeking);
+    TEST_ASSERT_EQUAL_UINT16(0, goal((uint16_t)-2, 0));
+    TEST_ASSERT_EQUAL_HEX32(0, mux.seeking);
+}
+
 static void test_mux_forgets(void)
 {
     mux_forget(&mux, BIT);
@@ -90,6 +101,7 @@ int main(void)
     RUN_TEST(test_mux_does_not_meet_a_source_that_is_on_the_other_side_from_the_beginning);
     RUN_TEST(test_mux_waits_for_a_source_that_may_not_be_met);
     RUN_TEST(test_mux_moves_nothing_in_a_pause);
+    RUN_TEST(test_mux_leads_a_joint_back_from_outside_the_range);
     RUN_TEST(test_mux_forgets);
     RUN_TEST(test_mux_speed_keeps_the_fraction);
     return UNITY_END();

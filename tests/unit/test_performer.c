@@ -71,6 +71,40 @@ static void test_performer_approach_keeps_to_the_speed_limit(void)
     TEST_ASSERT_GREATER_THAN_UINT16(62, count);
 }
 
+/* Joint 1 goes from where it stands, outside the range, to the target: 2 units a tick at most, from the first goal on. */
+static void expect_slow_way(int last, int target)
+{
+    for (uint16_t count = 0; last != target; count++) {
+        TEST_ASSERT_LESS_THAN_UINT16(2000, count);
+        const uint16_t frames = fake_servo_link.frames;
+        ticks(1);
+        const int now = fake_servo_link.frames != frames ? (int16_t)fake_servo_link.goal_pos[1] : last;
+        TEST_ASSERT_TRUE(target < last ? now <= last && now >= last - 2 : now >= last && now <= last + 2);
+        last = now;
+    }
+}
+
+static void test_performer_approach_begins_outside_the_range(void)
+{
+    static const int16_t poses[] = {1110, -130};
+    for (uint8_t i = 0; i < 2; i++) {
+        setUp();
+        fake_servo_link.pose_pos[1] = (uint16_t)poses[i];
+        start(1, 0);
+        expect_slow_way(poses[i], 612);
+        setUp();
+        fake_servo_link.pose_pos[1] = (uint16_t)poses[i];
+        const uint16_t to[PAGE_JOINTS] = {[1] = 512};
+        TEST_ASSERT_EQUAL_UINT8(PERFORMER_OK, performer_move(&performer, to, SERVO_LINK_BIT(1), 60));
+        expect_slow_way(poses[i], 512);
+        setUp();
+        fake_servo_link.pose_pos[1] = (uint16_t)poses[i];
+        TEST_ASSERT_EQUAL(LAYERS_OK, performer_take_for_code(&performer, 1));
+        TEST_ASSERT_EQUAL(LAYERS_OK, layers_aim(&layers, 1, 512, 60));
+        expect_slow_way(poses[i], 512);
+    }
+}
+
 static void test_performer_needs_no_approach_when_it_is_there(void)
 {
     fake_servo_link.pose_pos[1] = 612;
@@ -243,6 +277,7 @@ int main(void)
     RUN_TEST(test_performer_start_refuses_a_second_play);
     RUN_TEST(test_performer_asks_one_servo_at_a_time_and_moves_nobody_meanwhile);
     RUN_TEST(test_performer_approach_keeps_to_the_speed_limit);
+    RUN_TEST(test_performer_approach_begins_outside_the_range);
     RUN_TEST(test_performer_needs_no_approach_when_it_is_there);
     RUN_TEST(test_performer_without_approach_plays_from_the_present_pose);
     RUN_TEST(test_performer_drives_only_who_is_there_and_used);

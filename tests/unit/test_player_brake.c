@@ -46,7 +46,7 @@ static void play_to(player_law_t law, uint8_t tick)
 
 static int speed_of(uint16_t before, uint16_t after)
 {
-    return (int)after - (int)before;
+    return (int16_t)(uint16_t)(after - before);
 }
 
 static int size_of(int value)
@@ -308,6 +308,40 @@ static void test_player_exact_goes_on_from_any_tick_of_short_steps(void)
     }
 }
 
+/* Joints that their trim puts outside 0..1023 begin where they are, under both laws, and slow down there as well. 623 and
+ * 624 units in 60 ticks, two thirds of them ramps: 15.6 units a tick at most. */
+static void play_from_outside(player_law_t law)
+{
+    for (uint8_t at = 1; at < PLAY_TICKS; at = (uint8_t)(at + TEST_STRIDE)) {
+        setUp();
+        pose[0] = 1323;
+        pose[1] = (uint16_t)-300;
+        sparse_pages[1].steps = 1;
+        TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, 1, law, pose, ALL));
+        uint16_t last[2] = {pose[0], pose[1]};
+        for (uint8_t tick = 1; player_is_moving(&player); tick++) {
+            (void)player_tick(&player, &l);
+            for (uint8_t i = 0; i < 2; i++) {
+                const int way = speed_of(last[i], player_goal(&player, i));
+                TEST_ASSERT_LESS_OR_EQUAL_INT(16, size_of(way));
+                /* The classic law has an odd last tick. */
+                TEST_ASSERT_TRUE(way == 0 || (way < 0) == (i == 0) || tick > 60);
+                last[i] = player_goal(&player, i);
+            }
+            if (tick == at) {
+                player_break(&player);
+            }
+        }
+        TEST_ASSERT_TRUE(at < 70 || (size_of(last[0] - 700) <= 4 && size_of(last[1] - 324) <= 4));
+    }
+}
+
+static void test_player_from_outside_the_range_begins_there(void)
+{
+    play_from_outside(PLAYER_LAW_EXACT);
+    play_from_outside(PLAYER_LAW_CLASSIC);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -322,5 +356,6 @@ int main(void)
     RUN_TEST(test_player_break_while_paused_ends_the_play_where_it_stands);
     RUN_TEST(test_player_break_stops_on_half_the_way_that_its_speed_would_take);
     RUN_TEST(test_player_break_near_the_end_of_the_range_stays_in_range);
+    RUN_TEST(test_player_from_outside_the_range_begins_there);
     return UNITY_END();
 }

@@ -221,6 +221,36 @@ static void test_player_move_pause_anywhere_keeps_limit_and_target(void)
     }
 }
 
+/* A joint that its trim puts outside 0..1023 begins where it is and comes back within the limit: 60 degrees/s are 1.6 units
+ * a tick. A break at any tick slows it down on the way, outside the range as well. */
+static void test_player_move_from_outside_the_range_begins_there(void)
+{
+    static const int16_t starts[] = {-300, -40, -1, 1024, 1063, 1323}, targets[] = {0, 512, 1023};
+    for (uint8_t k = 0; k < 6; k++) {
+        for (uint8_t t = 0; t < 3; t++) {
+            uint16_t total = 2;
+            for (uint16_t at = 1; at <= total; at = (uint16_t)(at + 1 + at / 3)) {
+                setUp();
+                from[1] = (uint16_t)starts[k];
+                to[1] = (uint16_t)targets[t];
+                total = start(60);
+                int last = starts[k], way = 0;
+                bool under_way = total != 0;
+                for (uint16_t ticks = 1; under_way; ticks++) {
+                    under_way = tick();
+                    way = (int16_t)goal[1] - last;
+                    TEST_ASSERT_TRUE(starts[k] < targets[t] ? way >= 0 && way <= 2 : way <= 0 && way >= -2);
+                    last = (int16_t)goal[1];
+                    if (ticks == at && at < total) {
+                        player_break(&player);
+                    }
+                }
+                TEST_ASSERT_TRUE(at < total || total == 0 || last == targets[t]);
+            }
+        }
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -234,5 +264,6 @@ int main(void)
     RUN_TEST(test_player_move_break_slows_down_without_turning_back);
     RUN_TEST(test_player_move_break_near_the_end_goes_on_to_it);
     RUN_TEST(test_player_move_pause_anywhere_keeps_limit_and_target);
+    RUN_TEST(test_player_move_from_outside_the_range_begins_there);
     return UNITY_END();
 }

@@ -105,11 +105,36 @@ static void test_torque_off_reaches_the_deaf_too(void)
     TEST_ASSERT_EQUAL_HEX32(0, servos.torque);
 }
 
+static int16_t engaged_at(uint8_t id)
+{
+    uint16_t pos;
+    TEST_ASSERT_TRUE(servo_link_engage(&servos, id, &pos));
+    return (int16_t)pos;
+}
+
+/* The position that it returns as a goal is where the servo stands, also where the trim puts it outside the pages' range. */
+static void test_engage_knows_where_a_trimmed_servo_stands(void)
+{
+    static const struct {
+        int16_t trim, page_pos;
+        uint16_t servo_pos;
+    } cases[] = { { -100, 1110, 1010 }, { -300, 1323, 1023 }, { 150, -130, 20 }, { 300, -300, 0 }, { 20, 480, 500 } };
+    robot(1);
+    for (uint8_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        int16_t trim[SERVO_LINK_JOINTS] = { [1] = cases[i].trim };
+        servo_link_set_trim(&servos, trim);
+        fake_bus_set_word(1, DXL_AT_PRESENT, cases[i].servo_pos);
+        TEST_ASSERT_EQUAL_INT16(cases[i].page_pos, engaged_at(1));
+        TEST_ASSERT_EQUAL(cases[i].servo_pos, servo_link_to_servo(&servos, 1, (uint16_t)cases[i].page_pos));
+        TEST_ASSERT_EQUAL(servo_link_limited((uint16_t)cases[i].page_pos), servos.present_pos[1]);
+    }
+}
+
 static void test_engage_takes_back_a_speed_limit(void)
 {
     robot(2);
     fake_bus_set_word(1, DXL_AT_SPEED, 100);
-    servo_link_engage(&servos, SERVO_LINK_BIT(1));
+    (void)engaged_at(1);
     TEST_ASSERT_EQUAL(0, fake_bus_word(1, DXL_AT_SPEED));
 }
 
@@ -124,7 +149,7 @@ static void test_engage_stops_a_servo_that_a_single_move_still_drives(void)
         fake_bus_set_word(1, DXL_AT_GOAL, 900);
         fake_bus_set_word(1, DXL_AT_SPEED, 100);
         fake_bus_set_word(1, DXL_AT_PRESENT, 415);
-        TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(1), servo_link_engage(&servos, SERVO_LINK_ALL));
+        TEST_ASSERT_EQUAL(415, engaged_at(1));
         TEST_ASSERT_EQUAL(415, fake_bus_word(1, DXL_AT_GOAL));
         TEST_ASSERT_EQUAL(0, fake_bus_word(1, DXL_AT_SPEED));
         TEST_ASSERT_EQUAL(415, servos.present_pos[1]);
@@ -137,7 +162,7 @@ static void test_engage_leaves_a_servo_without_a_speed_limit_where_it_is(void)
     robot(1);
     fake_bus_set_word(1, DXL_AT_GOAL, 600);
     fake_bus_set_word(1, DXL_AT_PRESENT, 590);   /* sags under load */
-    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(1), servo_link_engage(&servos, SERVO_LINK_ALL));
+    TEST_ASSERT_EQUAL(590, engaged_at(1));
     TEST_ASSERT_EQUAL(600, fake_bus_word(1, DXL_AT_GOAL));
 }
 
@@ -196,7 +221,9 @@ static void test_torque_off_and_engage_name_who_did_not_obey(void)
     fake_bus_servo(2)->mishear_next = 3;
     TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(1), servo_link_torque_off(&servos, SERVO_LINK_ALL));
     fake_bus_servo(1)->mishear_next = 3;
-    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(2), servo_link_engage(&servos, SERVO_LINK_ALL));
+    uint16_t pos;
+    TEST_ASSERT_FALSE(servo_link_engage(&servos, 1, &pos));
+    (void)engaged_at(2);
 }
 
 int main(void)
@@ -210,6 +237,7 @@ int main(void)
     RUN_TEST(test_torque_on_leaves_those_alone_that_hold_already);
     RUN_TEST(test_servo_that_does_not_tell_its_pose_stays_off);
     RUN_TEST(test_torque_off_reaches_the_deaf_too);
+    RUN_TEST(test_engage_knows_where_a_trimmed_servo_stands);
     RUN_TEST(test_engage_takes_back_a_speed_limit);
     RUN_TEST(test_engage_stops_a_servo_that_a_single_move_still_drives);
     RUN_TEST(test_engage_leaves_a_servo_without_a_speed_limit_where_it_is);

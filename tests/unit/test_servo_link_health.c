@@ -174,7 +174,8 @@ static void test_servo_that_a_command_has_found_again_gets_its_slopes(void)
     servo_link_lost(&servos, 2);
     fake_bus_servo(2)->table[DXL_AT_CW_SLOPE] = 32;
     servo_link_quiet(&servos);
-    (void)servo_link_engage(&servos, SERVO_LINK_BIT(2));
+    uint16_t pos;
+    TEST_ASSERT_TRUE(servo_link_engage(&servos, 2, &pos));
     for (uint8_t tick = 0; tick < 4; tick++) {
         tick_with_goals(SERVO_LINK_ALL);
     }

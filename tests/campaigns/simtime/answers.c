@@ -191,9 +191,10 @@ static void look_at_pose(const char *answer)
         const servo_t *servo = id < JOINTS ? session.joint[id].servo : NULL;
         char text[64] = "no such servo";
         if (servo != NULL) {
-            snprintf(text, sizeof text, "%u:%.0f:%u", id, servo->position, servo->table[TORQUE_AT]);
+            snprintf(text, sizeof text, "%u:%d:%u", id, to_page(id, servo->position), servo->table[TORQUE_AT]);
         }
-        if (servo == NULL || fabs(servo->position - position) > 3 || (servo->table[TORQUE_AT] != 0) != (torque != 0)) {
+        if (servo == NULL || abs(to_page(id, servo->position) - (int)position) > 3 ||
+            (servo->table[TORQUE_AT] != 0) != (torque != 0)) {
             wrong(at, text);
         }
         there++;

@@ -14,6 +14,7 @@ SECOND = 128
 START = 3 * SECOND  # the search for servos is over
 LOOKED_AT = 220  # ticks until everything is painted and the rules have checked it
 CAPITALS, DEAF, SPOILT = 0.06, 0.1, 0.4  # shares: of lines; of sessions in which some servos ignore SYNC WRITE; of sent pages
+TRIMMED, TRIM_MOST = 0.3, 200  # share of sessions; with it every position that a page or a line here names is in reach
 LONG, MANY = 180 * SECOND, 100_000
 LAW_PAGES = range(20, 30)
 SOFT_PAGES = (1, 2, 3, 4, 5, 6, 7, 8, 9, 12, 13, 14, 21, 22, *LAW_PAGES)
@@ -128,8 +129,8 @@ def in_capitals(rng, text):
 class Person:
     """Adds actions to a list one after another. `at` is the tick of the next action."""
 
-    def __init__(self, rng, servos):
-        self.rng, self.servos, self.at, self.actions = rng, servos, START, []
+    def __init__(self, rng, servos, trims):
+        self.rng, self.servos, self.trims, self.at, self.actions = rng, servos, trims, START, []
 
     def act(self, words, wait=0):
         self.actions.append((self.at, words))
@@ -190,6 +191,19 @@ class Person:
         else:
             self.act(f"cutwrite {self.rng.randrange(1, 40)}", self.rng.randrange(2, SECOND))
 
+    def hand_leaves_the_range(self):
+        """Pushes a trimmed joint to an end of its servo, where no position of a page takes it, and then moves it."""
+        rng = self.rng
+        if not self.trims:
+            return
+        servo = rng.choice(list(self.trims))
+        self.line("break" if isinstance(self, Player) else "re", 4 * SECOND)
+        self.line(f"off {servo}", SECOND)
+        self.act(f"push {servo} {rng.randrange(10, 40) if self.trims[servo] > 0 else rng.randrange(983, 1013)}", 3 * SECOND)
+        if rng.random() < 0.7:
+            self.line(f"on {servo}", SECOND)
+        self.line(rng.choice(self.moves_of(servo)), rng.randrange(SECOND, 6 * SECOND))
+
     def hand_pushes(self):
         if self.servos:
             self.act(f"push {self.servo()} {self.rng.randrange(200, 824)}", self.rng.randrange(SECOND))
@@ -212,6 +226,10 @@ class Person:
 
 class Player(Person):
     """A person at Play."""
+
+    def moves_of(self, servo):
+        rng = self.rng
+        return f"play {rng.choice(PLAYED)}", f"@move {rng.choice((20, 60))} {servo} 200", f"aim {servo} 512", f"swing {servo} 512 40 2000"
 
     def plays(self):
         self.line(f"play {self.rng.choice(PLAYED)}" if self.rng.random() < 0.9 else "play walk start")
@@ -502,6 +520,7 @@ class Player(Person):
         ("computer_is_late", 0.7),
         ("power_fails", 1.5),
         ("hand_pushes", 1),
+        ("hand_leaves_the_range", 2),
         ("battery", 0.7),
     )
 
@@ -511,6 +530,9 @@ class Editor(Person):
 
     def line(self, text, wait=None):
         super().line(text, self.rng.randrange(30, 2 * SECOND) if wait is None else wait)
+
+    def moves_of(self, servo):
+        return f"play {self.rng.choice(PLAYED)}", f"@move 60 {servo} 200"
 
     def opens(self):
         self.line(f"page {self.rng.choice((1, 2, 3, 5, 13, 30, 31, 100, 200))}", SECOND)
@@ -699,6 +721,7 @@ class Editor(Person):
         ("computer_is_late", 0.5),
         ("power_fails", 2),
         ("hand_pushes", 3),
+        ("hand_leaves_the_range", 2),
     )
 
 
@@ -709,10 +732,14 @@ def made(seed, motions):
     actions = [(0, f"seed {seed}"), (0, f"motions {motions}")] + [(0, f"servo {servo}") for servo in servos]
     if servos and rng.random() < DEAF:
         actions += [(0, f"deaf {servo}") for servo in rng.sample(servos, min(len(servos), rng.choice((1, 2, 6))))]
+    trims = {}
+    if rng.random() < TRIMMED:
+        trims = {servo: rng.choice((-1, 1)) * rng.randrange(40, TRIM_MOST + 1) for servo in servos if rng.random() < 0.4}
+        actions += [(0, f"trim {servo} {offset}") for servo, offset in trims.items()]
     kinds = rng.choice(((Player,), (Player,), (Player,), (Editor,), (Editor, Player), (Player, Editor)))
     at = START
     for kind in kinds:
-        person = kind(rng, servos)
+        person = kind(rng, servos, trims)
         actions.append((0 if at == START else at, "image " + ("edit" if kind is Editor else "play")))
         person.at = at + (START if at > START else 0)
         ends = person.at + rng.choice((20, 60, 120)) * SECOND

@@ -27,10 +27,8 @@ static void look_at_flash(const table_t *shown)
 /* Page 0 has positions: goals include the robot's trim. */
 static bool has_trim(void)
 {
-    table_t trim;
-    table_load(&trim, 0);
     for (unsigned id = 0; id < JOINTS; id++) {
-        if (trim.cell[3][id] != NO_VALUE && trim.cell[3][id] != OFF) {
+        if (trim_of(id) != 0) {
             return true;
         }
     }

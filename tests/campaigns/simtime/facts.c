@@ -4,6 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define TRIM_MAX 300               /* a larger one counts as damaged */
+#define POS_MAX 1023
+
 const uint8_t *page_at(unsigned page)
 {
     return simtime_memory(MACHINE_PAGES) + page % PAGES * PAGE_BYTES;
@@ -50,6 +53,23 @@ uint32_t joints_named(const char *words)
         }
         joints |= id < JOINTS ? 1u << id : 0;
     }
+}
+
+int trim_of(unsigned id)
+{
+    const uint8_t *word = page_at(0) + 3 * STEP_BYTES + 2 * id;   /* step 2 */
+    const int trim = (int16_t)(word[0] | word[1] << 8);
+    return sum_of(page_at(0)) == 0xFF && abs(trim) <= TRIM_MAX ? trim : 0;
+}
+
+int limited(int pos)
+{
+    return pos < 0 ? 0 : pos > POS_MAX ? POS_MAX : pos;
+}
+
+int to_page(unsigned id, double servo_pos)
+{
+    return limited((int)servo_pos - trim_of(id));
 }
 
 bool is_stop_of(unsigned buttons)

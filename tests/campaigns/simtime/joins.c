@@ -32,7 +32,7 @@ static bool is_led_away(unsigned page, unsigned id)
     const unsigned ticks = (unsigned)at[2 * STEP_BYTES - 1] * at[SPEED_AT] / 32;   /* motion/LAWS.md, time base */
     const bool plays = page_is_good(page) && at[COUNT_AT] != 0 && at[STEPS_AT] != 0 && at[SCHEDULE_AT] == TIME_BASE &&
                        ticks > LOOKED;
-    return plays && to < 1024 && abs(to - session.joint[id].goal) > FAR;
+    return plays && to < 1024 && abs(to + trim_of(id) - session.joint[id].goal) > FAR;
 }
 
 static void layer_typed(unsigned page, const char *words)

@@ -43,8 +43,8 @@ typedef struct {
 } step_t;
 
 static struct {
-    uint16_t now[JOINTS];
-    uint16_t goal[KEPT][JOINTS];   /* at the end of each tick */
+    int16_t now[JOINTS];           /* without trim; a joint may come from outside 0..1023 */
+    int16_t goal[KEPT][JOINTS];    /* at the end of each tick */
     uint32_t now_tick[JOINTS];
     int twice[JOINTS];             /* a late tick sends two goals: the first of the last such pair */
     uint32_t ticks;
@@ -196,7 +196,7 @@ static void must_be_over(unsigned page)
 
 /* ---- the exact law ---- */
 
-static uint16_t goal_at(uint32_t tick, unsigned id)
+static int goal_at(uint32_t tick, unsigned id)
 {
     return law.goal[tick % KEPT][id];
 }
@@ -225,7 +225,7 @@ static void plan(step_t *step, const step_t *before)
         if (before != NULL) {
             step->start[id] = before->start[id] + before->distance[id];
         } else {
-            step->start[id] = step->uses[id] ? to : law.now[id];   /* the approach has arrived there */
+            step->start[id] = step->uses[id] ? (double)to : law.now[id];   /* the approach has arrived there */
         }
         step->distance[id] = step->uses[id] ? to - step->start[id] : 0;
         most = fmax(most, fabs(step->distance[id]));
@@ -284,7 +284,7 @@ static void judge(const step_t *step, const step_t *next)
                     continue;
                 }
                 const double must = place_in(step, id, next == NULL ? 0 : next->in[id], tick);
-                const unsigned is = goal_at(step->begin + moment + tick, id);
+                const int is = goal_at(step->begin + moment + tick, id);
                 const double off = NEAR + (step->is_first ? NO_APPROACH : 0);
                 if (fabs(must - is) > (tick < step->ticks ? off : 0)) {
                     fits = false;
@@ -292,7 +292,7 @@ static void judge(const step_t *step, const step_t *next)
                         continue;
                     }
                     farthest = tick;
-                    snprintf(why, sizeof why, "page %u step %u tick %u of %u, servo %u: %.2f is right, %u is sent",
+                    snprintf(why, sizeof why, "page %u step %u tick %u of %u, servo %u: %.2f is right, %d is sent",
                              step->place.page, step->place.number, tick, step->ticks, id, must, is);
                 }
             }
@@ -360,20 +360,21 @@ void law_frame(const uint8_t *ids_and_goals, unsigned count, unsigned bytes_each
 {
     uint32_t present = 0;
     for (unsigned at = 0; at + bytes_each < count; at += bytes_each + 1) {
-        const unsigned id = ids_and_goals[at], goal = ids_and_goals[at + 1] | (unsigned)ids_and_goals[at + 2] << 8;
+        const unsigned id = ids_and_goals[at];
         if (id >= JOINTS) {
             continue;
         }
+        const int goal = (ids_and_goals[at + 1] | ids_and_goals[at + 2] << 8) - trim_of(id);
         const double most = law.approach * DEGREES / SECOND + 1.01;
         const bool goes_on = law.approach_tick != NEVER_TICK && session.tick > law.approach_tick;
-        if (law.is_judged && goes_on && (law.present >> id & 1u) != 0 && fabs((double)goal - law.now[id]) > most) {
-            session_fail("an approach keeps to its speed", "servo %u from %u to %u in a tick", id, law.now[id], goal);
+        if (law.is_judged && goes_on && (law.present >> id & 1u) != 0 && abs(goal - law.now[id]) > most) {
+            session_fail("an approach keeps to its speed", "servo %u from %d to %d in a tick", id, law.now[id], goal);
         }
         if (law.now_tick[id] == session.tick) {
             law.twice[id] = law.now[id];
         }
         law.now_tick[id] = session.tick;
-        law.now[id] = (uint16_t)goal;
+        law.now[id] = (int16_t)goal;
         present |= 1u << id;
     }
     if (present != law.present && law.knows_place) {
@@ -403,7 +404,7 @@ static void take_answer(void)
     law.was_paused = law.was_paused || begins(law.asked, "pause");   /* "Paused" comes only when all joints rest */
     /* A stopped play also ends the aim. */
     if (is_aim && !law.is_mixed && id < JOINTS && speed > 0 && !law.is_stopped && !law.was_paused) {
-        const double is = session.joint[id].servo == NULL ? to : session.joint[id].servo->position;
+        const double is = session.joint[id].servo == NULL ? to : session.joint[id].servo->position - trim_of(id);
         const double way = fabs(is - to) + amplitude + SECOND;
         law.aim[id].due = session.tick + SECOND + (uint32_t)(way / (speed * DEGREES) * SECOND);
         law.aim[id].to = law.aim[id].lowest = law.aim[id].highest = to;
@@ -564,11 +565,11 @@ bool law_is_exact(void)
     return !law.is_classic;
 }
 
-bool law_was_goal(unsigned id, unsigned goal, unsigned ticks)
+bool law_was_goal(unsigned id, int goal, unsigned ticks)
 {
-    bool was = law.now[id] == goal || law.twice[id] == (int)goal;
+    bool was = limited(law.now[id]) == goal || (law.twice[id] != UNKNOWN && limited(law.twice[id]) == goal);
     for (uint32_t i = 0; i < ticks && !was; i++) {
-        was = goal_at(law.ticks - i, id) == goal;
+        was = limited(goal_at(law.ticks - i, id)) == goal;
     }
     return was;
 }
@@ -585,7 +586,7 @@ bool law_place(unsigned *page, unsigned *step, unsigned *repetition)
 /* The joint must have arrived, or swing about its target. */
 static void look_at_aim(unsigned id)
 {
-    const unsigned is = law.now[id], to = law.aim[id].to, amplitude = law.aim[id].amplitude;
+    const unsigned is = (unsigned)limited(law.now[id]), to = law.aim[id].to, amplitude = law.aim[id].amplitude;
     law.aim[id].lowest = is < law.aim[id].lowest ? is : law.aim[id].lowest;
     law.aim[id].highest = is > law.aim[id].highest ? is : law.aim[id].highest;
     if (session.tick - law.aim[id].due < law.aim[id].period) {

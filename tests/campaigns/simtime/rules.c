@@ -42,6 +42,7 @@ static struct {
     bool searches_again;           /* it was typed once more meanwhile */
     bool asked_in_search;          /* a request waits for the end of the search */
     bool pages_are_edited;
+    bool is_first_frame;           /* no frame of goals has come for a second */
     bool checks_pages;
 } rules;
 
@@ -245,6 +246,23 @@ static bool goes_on_behind_a_pause(const joint_t *joint)
     return joint->goal_tick > session.boot_tick && session.asked_tick < joint->goal_tick;
 }
 
+/* A motion begins where the joint is, or goes on from the goal that was written to it a moment ago (servo_link_engage; the
+ * pause of a page). */
+static void must_begin_there(uint8_t id, uint16_t goal)
+{
+    const joint_t *joint = &session.joint[id];
+    const int is = (int)joint->servo->position;
+    const bool has_goal = joint->goal_tick > session.boot_tick && session.tick - joint->goal_tick <= SECOND;
+    if (!long_ago(joint->pushed_tick, 2 * SECOND) || rules_has_fault(joint) || !long_ago(session.trouble_tick, TROUBLE) ||
+        (has_goal && session.has_deaf) || (rules.pages_are_edited && !session.is_edit && goes_on_behind_a_pause(joint))) {
+        return;
+    }
+    reached(to_page(id, is) == is - trim_of(id) ? "motion begins" : "motion begins outside the trimmed range");
+    if (abs(goal - is) > START_MAX && (!has_goal || abs(goal - joint->goal) > START_MAX)) {
+        session_fail("a motion begins where the joint is", "servo %u stands at %d, its first goal is %u", id, is, goal);
+    }
+}
+
 static void must_not_leap(uint8_t id, uint16_t goal)
 {
     const joint_t *joint = &session.joint[id];
@@ -253,18 +271,14 @@ static void must_not_leap(uint8_t id, uint16_t goal)
     /* A joint that could not follow begins where it is, just after its old goal was written back (servo_link_engage). */
     const bool could_follow = abs(joint->goal - is) <= FOLLOWS && long_ago(joint->pushed_tick, SECOND);
     const bool begins_anew = !could_follow && abs(goal - is) <= START_MAX;
-    const bool goes_on = joint->goal_tick > session.boot_tick && since <= 2 && !begins_anew;
-    if (goes_on && long_ago(session.late_tick, SECOND)) {
+    if (joint->goal_tick <= session.boot_tick || since > 2) {
+        must_begin_there(id, goal);
+    } else if (!begins_anew && long_ago(session.late_tick, SECOND)) {
         const int most = STEP_MAX * (int)(since == 0 ? 1 : since);
         /* A tick's REG WRITEs take several ticks. */
         const bool waits = session.has_deaf && (session.latency != 0 || rules_somebody_is_late());
         if (!rules.pages_are_edited && !waits && abs(goal - joint->goal) > most) {
             session_fail("no goal leaps", "servo %u from %u to %u within %u ticks", id, joint->goal, goal, since);
-        }
-    } else if (long_ago(joint->goal_tick, SECOND) && long_ago(joint->pushed_tick, 2 * SECOND) && !rules_has_fault(joint) &&
-               long_ago(session.trouble_tick, TROUBLE) && !(rules.pages_are_edited && goes_on_behind_a_pause(joint))) {
-        if (abs(goal - is) > START_MAX) {
-            session_fail("a motion begins where the joint is", "servo %u stands at %d, its first goal is %u", id, is, goal);
         }
     }
 }
@@ -281,8 +295,10 @@ static void take_goal(uint8_t id, uint16_t goal)
     must_not_be_out(id);
     rest_goal(id, goal);
     if (!session.is_edit) {
-        must_not_leap(id, goal);   /* Edit moves joints at its own speed and plays random pages */
+        must_not_leap(id, goal);
         joins_goal(id, goal);
+    } else if (rules.is_first_frame) {   /* Edit moves joints at its own speed and plays random pages */
+        must_begin_there(id, goal);
     }
     session.joint[id].goal = goal;
     session.joint[id].goal_tick = session.tick;
@@ -322,8 +338,10 @@ void rules_packet(const uint8_t *packet, uint16_t count)
     const uint8_t *params = packet + 5;
     const unsigned given = count - 6u;
     bool goals = false;
+    rules.is_first_frame = false;
     if (packet[4] == INST_SYNC_WRITE) {
         goals = params[0] <= GOAL_AT && params[0] + params[1] > GOAL_AT;
+        rules.is_first_frame = goals && long_ago(session.frame_tick, SECOND);
         session.frame_tick = goals ? session.tick : session.frame_tick;
         for (unsigned at = 2; at + params[1] < given; at += params[1] + 1u) {
             take_write(params[at], params[0], params + at + 1, params[1]);
@@ -403,7 +421,7 @@ static void pose_must_be_there(unsigned page)
             continue;
         }
         reached("play ended where its page says");
-        if (joint->goal != to) {
+        if (joint->goal != limited((int)to + trim_of(id))) {
             session_fail("a play ends in the pose of its page", "servo %u at %u, page %u says %u", id, joint->goal, page,
                          to);
         }

@@ -118,6 +118,9 @@ const uint8_t *page_at(unsigned page);   /* in flash, PAGE_BYTES; numbers wrap a
 uint8_t sum_of(const uint8_t *page);     /* 0xFF: the page is undamaged */
 uint16_t crc_of(const uint8_t *bytes, unsigned count);   /* CRC-16/CCITT-FALSE */
 uint32_t joints_named(const char *words);   /* a bit for each joint number, until a word that is none */
+int trim_of(unsigned id);                /* the trim in flash (PAGE_FORMAT.md); 0: none */
+int limited(int pos);                    /* to the positions of pages, 0..1023 */
+int to_page(unsigned id, double servo_pos);   /* a servo's position without its trim, limited */
 bool is_stop_of(unsigned buttons);       /* button 6, or the first eight together (REMOTE.md) */
 bool begins_with_one_of(const char *line, const char *const *texts);   /* texts: ends with NULL */
 
@@ -158,7 +161,7 @@ bool law_is_exact(void);   /* otherwise the classic law may be in force */
 /* Gets the step that plays now. false: not known. */
 bool law_place(unsigned *page, unsigned *step, unsigned *repetition);
 
-bool law_was_goal(unsigned id, unsigned goal, unsigned ticks);   /* within the last ticks */
+bool law_was_goal(unsigned id, int goal, unsigned ticks);   /* as it is shown, within the last ticks */
 
 /* rest.c */
 void rest_boot(void);

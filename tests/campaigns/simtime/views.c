@@ -123,7 +123,8 @@ static void look_at_servo(const char *line)
         return;
     }
     const servo_t *servo = id < JOINTS ? session.joint[id].servo : NULL;
-    if (servo == NULL || fabs(servo->position - position) > 3 || (servo->table[TORQUE_AT] != 0) != (on[1] == 'n')) {
+    if (servo == NULL || abs(to_page(id, servo->position) - (int)position) > 3 ||
+        (servo->table[TORQUE_AT] != 0) != (on[1] == 'n')) {
         wrong(line, servo == NULL ? "no such servo" : "another position or torque");
     }
     reached("list of servos");
@@ -163,7 +164,7 @@ static void look_at_now(const char *line)
         }
         if (position[0] != '-' && rules_is_well() && session.tick - session.goals_tick > 2 * STILL &&
             session.tick - session.pushed_tick > 2 * STILL &&
-            fabs((double)strtoul(position, NULL, 16) - joint->servo->position) > 3) {
+            abs((int)strtoul(position, NULL, 16) - to_page(id, joint->servo->position)) > 3) {
             wrong(line, "another position");
         }
     }
@@ -178,14 +179,14 @@ static void look_at_now(const char *line)
 static bool has_goal(unsigned id)
 {
     const uint8_t *goal = &session.joint[id].servo->table[GOAL_AT];
-    return abs((goal[0] | goal[1] << 8) - views.goal_now[id]) <= YIELDS;
+    return abs(to_page(id, goal[0] | goal[1] << 8) - views.goal_now[id]) <= YIELDS;
 }
 
 /* The shown goals have been sent, or are sent in the next ticks. */
 static void look_at_goals(void)
 {
     for (unsigned id = 0; id < JOINTS; id++) {
-        if (views.goal_now[id] != UNKNOWN && !law_was_goal(id, (unsigned)views.goal_now[id], NOW_AGE) && !has_goal(id)) {
+        if (views.goal_now[id] != UNKNOWN && !law_was_goal(id, views.goal_now[id], NOW_AGE) && !has_goal(id)) {
             session_fail("goals are shown as they are sent", "servo %u: %d", id, views.goal_now[id]);
         }
     }

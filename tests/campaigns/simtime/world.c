@@ -8,6 +8,7 @@
 
 #define CYCLES 8u                  /* of the servos' clock per half microsecond */
 #define UNASKED_WRITE 16u          /* one in so many bytes of EEPROM: the computer writes to its disk what was kept before */
+#define SUM_AT 31u                 /* a page's checksum */
 #define BYTE_TIME 347u             /* of the console's line at 57,600 8N1, half microseconds */
 
 static struct {
@@ -336,11 +337,22 @@ static bool load_motions(const char *path)
     return got > 0;
 }
 
+/* Puts a joint's offset into page 0. */
+static void set_trim(unsigned id, int offset)
+{
+    uint8_t *page = simtime_memory(MACHINE_PAGES), *word = page + 3 * STEP_BYTES + 2 * id;
+    word[0] = (uint8_t)offset;
+    word[1] = (uint8_t)((unsigned)offset >> 8);
+    page[SUM_AT] = 0;
+    page[SUM_AT] = (uint8_t)(0xFF - sum_of(page));
+}
+
 bool world_do(char *words)
 {
     char verb[16] = "", word[64] = "";
     int at = 0;
     unsigned a = 0, b = 0;
+    int offset = 0;
     if (sscanf(words, "%15s %n", verb, &at) != 1) {
         return false;
     }
@@ -384,6 +396,8 @@ bool world_do(char *words)
         world_add_servo(a);
     } else if (strcmp(verb, "deaf") == 0 && numbers == 1 && a < IDS && session.joint[a].servo != NULL) {
         session.joint[a].is_deaf = session.has_deaf = true;
+    } else if (strcmp(verb, "trim") == 0 && sscanf(rest, "%u %d", &a, &offset) == 2 && a < JOINTS) {
+        set_trim(a, offset);
     } else if (strcmp(verb, "pause") == 0 && numbers == 1) {
         simtime_type_pause(a);
     } else if (strcmp(verb, "memories") == 0) {
