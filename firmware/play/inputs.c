@@ -4,7 +4,6 @@
 #include <string.h>
 #include "console.h"
 #include "panel.h"
-#include "pgm.h"
 
 #define TYPED_XOFF 48u    /* typed bytes waiting that cause XOFF; 80 more still fit */
 #define TYPED_XON 16u
@@ -124,42 +123,6 @@ static void note_hole(inputs_t *inputs, uint8_t count)
     inputs->holes = (uint8_t)(inputs->holes > INPUTS_HOLE_MAX - count ? INPUTS_HOLE_MAX : inputs->holes + count);
 }
 
-/* Whether the letters before index `at` of the typed bytes are a word that ends a play. They may stand behind noise or '@', but
- * a digit before them makes them part of a CRC. */
-static bool is_end_word(const ring_t *typed, uint8_t at)
-{
-    char letters[6];
-    uint8_t first = sizeof letters - 1u;
-    letters[first] = '\0';
-    char letter = ' ';
-    while (first > 0) {
-        letter = (char)(typed->bytes[--at & typed->mask] | 0x20);
-        if (letter < 'a' || letter > 'z') {
-            break;
-        }
-        letters[--first] = letter;
-    }
-    if (letter >= '0' && letter <= '9') {
-        return false;
-    }
-    const char *word = &letters[first], *last_four = &letters[1];
-    return strcmp_P(word, PSTR("break")) == 0 || strcmp_P(word, PSTR("b")) == 0 || strcmp_P(word, PSTR("s")) == 0 ||
-           (first <= 1 && strcmp_P(last_four, PSTR("stop")) == 0);
-}
-
-/* Notes whether the line that ends at index `at` asks for a stop or a break. In a program's request a blank and a CRC of four
- * digits stand behind the word. */
-static void look_for_end(inputs_t *inputs, uint8_t at)
-{
-    const ring_t *typed = &inputs->typed;
-    const uint8_t blank_at = (uint8_t)(at - 5u);
-    const bool has_crc = typed->bytes[blank_at & typed->mask] == ' ';
-    if (is_end_word(typed, at) || (has_crc && is_end_word(typed, blank_at))) {
-        inputs->end_waits = true;
-        inputs->end_at = at;
-    }
-}
-
 /* Queues a typed byte, preceded by the number of bytes lost before it. */
 static void keep(inputs_t *inputs, uint8_t byte)
 {
@@ -167,12 +130,7 @@ static void keep(inputs_t *inputs, uint8_t byte)
         (void)ring_put(&inputs->typed, (uint8_t)(INPUTS_HOLE | inputs->holes));
         inputs->holes = 0;
     }
-    const uint8_t at = inputs->typed.head;
-    if (inputs->holes == 0 && ring_put(&inputs->typed, byte)) {
-        if (byte == '\r' || byte == '\n') {
-            look_for_end(inputs, at);
-        }
-    } else {
+    if (inputs->holes != 0 || !ring_put(&inputs->typed, byte)) {
         note_hole(inputs, 1);
         inputs->lost = (uint16_t)(inputs->lost + (inputs->lost < INPUTS_LOST_MAX ? 1 : 0));
     }
@@ -220,9 +178,6 @@ void inputs_take(inputs_t *inputs)
 
 bool inputs_get(inputs_t *inputs, uint8_t *byte)
 {
-    if (inputs->typed.tail == inputs->end_at) {
-        inputs->end_waits = false;
-    }
     return ring_get(&inputs->typed, byte);
 }
 

@@ -36,7 +36,6 @@ typedef struct {
 } inputs_held_t;
 
 typedef struct {
-    bool end_waits;         /* a stop or break waits among the typed bytes: text for a person is to be cut */
     uint16_t lost;          /* typed bytes dropped because the shell was too slow; stops at INPUTS_LOST_MAX */
     /* Private. */
     performer_t *performer;
@@ -55,7 +54,6 @@ typedef struct {
     bool refused;
     steer_t steer;
     inputs_refusal_t refusal;
-    uint8_t end_at;        /* index in `typed` of the end of the line that end_waits is about */
     ring_t typed;
     uint8_t typed_bytes[INPUTS_TYPED_BYTES];
 } inputs_t;

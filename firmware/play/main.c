@@ -20,7 +20,6 @@
 #include "play.h"
 #include "report.h"
 #include "text.h"
-#include "tick.h"
 #include "views.h"
 
 play_t the_play;
@@ -43,20 +42,10 @@ const requests_image_t requests_image = {
 /* Characters since the last line end; a status line must cover them. */
 static uint8_t column;
 
-/* A typed command runs. Its text is cut when a stop or break is typed behind it, or sent by a program. */
-static bool is_cuttable, was_cut;
-
 /* ---- text ---- */
 
 static void put(char character)
 {
-    if (is_cuttable && the_play.inputs.end_waits) {
-        was_cut = true;
-        if (tick_is_due()) {
-            play_service();
-        }
-        return;
-    }
     if (!channel_is_printing()) {   /* a terminal does not show answers in the channel */
         column = character == '\n' ? 0 : (uint8_t)(column + (character >= ' ' && column < UINT8_MAX ? 1 : 0));
     }
@@ -163,18 +152,6 @@ static void end_all_the_same(end_t end)
     }
 }
 
-static bool run_typed(void)
-{
-    is_cuttable = true;
-    const bool is_done = commands_run();
-    is_cuttable = false;
-    if (was_cut) {
-        was_cut = false;
-        text_line_end();
-    }
-    return is_done;
-}
-
 static void type(uint8_t byte)
 {
     const shell_event_t event = shell_byte(&the_play.shell, byte == SHELL_CTRL_C ? SHELL_CTRL_U : byte);
@@ -188,7 +165,7 @@ static void type(uint8_t byte)
         is_done = event == SHELL_LINE;
         requests_line(the_play.line, the_play.shell.fault);
     } else if (event == SHELL_LINE || is_obeyed_with_losses(the_play.line)) {
-        is_done = run_typed();
+        is_done = commands_run();
     } else {
         shell_print_refusal(the_play.shell.fault);
         text_line_end();

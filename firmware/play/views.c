@@ -44,8 +44,7 @@ static void print_page_line(uint8_t page, const uint8_t *header)
 uint8_t views_list(const shell_args_t *args)
 {
     uint8_t used = 0, damaged = 0;
-    /* When its text is cut, it need not look at the other pages either: that takes 0.2 s. */
-    for (uint16_t number = 0; number < PAGE_COUNT && !the_play.inputs.end_waits; number++) {
+    for (uint16_t number = 0; number < PAGE_COUNT; number++) {
         const uint8_t page = (uint8_t)number;
         play_service(); /* a page without a line takes up to 2 ms */
         if (page_store_is_good(&the_play.pages, page)) {

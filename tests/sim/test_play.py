@@ -6,7 +6,6 @@ import re
 import pytest
 
 from m512.files.image import Image, from_bytes
-from tests.sim.channel import request
 from tests.sim.play_robot import JOINTS, PAUSE, STOP, UP, ask, motions, page, paste, robot, tick_of, walk_steps
 
 TORQUE, GOAL, PUNCH = 24, 30, 48
@@ -407,41 +406,6 @@ def test_stop_on_the_remote_does_not_wait_for_a_long_answer():
     board.run(ms=5)
     board.rc(0)
     assert "Stopped" in board.expect("Stopped after", ms=4000)
-
-
-@pytest.mark.parametrize("end", ["break\r", "b\r", "BREAK\r\n", request("@break"), "@break\r", "stop\r", request("@stop")])
-@pytest.mark.parametrize("ahead", ["list\r" * 3, "help\r" * 6, "help\rrate 150\rsettings\r"])
-def test_a_stop_on_the_serial_line_waits_for_no_text(end, ahead):
-    """The text before it is cut; the lines before it take effect."""
-    board = walking()
-    board.send(ahead)
-    board.run(ms=30)
-    board.take()
-    board.send(end, wait=True)
-    board.expect("OK\r\n", ms=150)
-    if "stop" in str(end):
-        board.expect("Exit link to page 5", ms=2000)
-    else:
-        board.run(ms=300)  # slowing down
-        goals = [board.servos[servo].goal for servo in JOINTS]
-        board.run(ms=200)
-        assert goals == [board.servos[servo].goal for servo in JOINTS]
-    assert ("rate=150" in ask(board, "shape")) == ("rate" in ahead)
-
-
-def test_text_is_cut_by_no_other_line():
-    """Nor by a program's request. A cut leaves the next list whole."""
-    board = robot()
-    whole = ask(board, "list")
-    for typed, sent, is_whole in (("list\rstatus\r", request("@where"), True), ("list\r", "break\r", False), ("list\r", "", True)):
-        board.run(ms=100)
-        board.take()
-        board.send(typed)
-        board.run(ms=20)
-        board.send(sent)
-        board.run(ms=1500)
-        heard = board.take().replace(b"\r\n", b"\n").decode("latin-1")
-        assert (whole in heard) == is_whole and ("\n] " in heard), typed
 
 
 def test_flood_that_ignores_xoff_harms_nobody():

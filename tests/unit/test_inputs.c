@@ -544,42 +544,9 @@ static void test_inputs_unfinished_packet_does_not_swallow_text(void)
     TEST_ASSERT_EQUAL_STRING("help\r", text);
 }
 
-/* After each line, whether a stop or break waits. */
-static void test_inputs_knows_a_waiting_stop(void)
-{
-    static const char *const ends[] = {"stop\r", "break\n", "s\r", "B\r", "Stop\r", "@break\r", "xx;stop\r", " stop\r", "\x1e@stop 84B1\r",
-                                       "\x1e@break 1B01\r"};
-    static const char *const others[] = {"status\r", "list\r", "rate 150\r", "stops\r", "stop", "\x1e@where 394B\r", "\x1e@where ABCB\r", "servos\r",
-                                         "\r", "play s5\r", "\x1e@b"};
-    uint8_t byte;
-    for (unsigned i = 0; i < sizeof others / sizeof others[0]; i++) {
-        fake_console_type(others[i]);
-        inputs_take(&inputs);
-        TEST_ASSERT_FALSE_MESSAGE(inputs.end_waits, others[i]);
-        fake_console_type("\r");
-        inputs_take(&inputs);
-        while (inputs_get(&inputs, &byte)) {
-        }
-    }
-    for (unsigned i = 0; i < sizeof ends / sizeof ends[0]; i++) {
-        fake_console_type("list\r");
-        fake_console_type(ends[i]);
-        fake_console_type("ver");
-        inputs_take(&inputs);
-        for (size_t left = 5 + strlen(ends[i]); left > 0; left--) {
-            TEST_ASSERT_TRUE_MESSAGE(inputs.end_waits, ends[i]);
-            TEST_ASSERT_TRUE(inputs_get(&inputs, &byte));
-        }
-        TEST_ASSERT_FALSE_MESSAGE(inputs.end_waits, ends[i]);
-        while (inputs_get(&inputs, &byte)) {
-        }
-    }
-}
-
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_inputs_knows_a_waiting_stop);
     RUN_TEST(test_inputs_code_starts_its_page);
     RUN_TEST(test_inputs_code_goes_to_what_is_playing);
     RUN_TEST(test_inputs_release_starts_nothing);
