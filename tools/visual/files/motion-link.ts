@@ -54,10 +54,12 @@ export async function encodeMotion(pages: ReadonlyMap<number, Uint8Array>): Prom
         .replaceAll('=', '');
 }
 
-/** Null: the text is not a motion or was cut off. */
+/** What stands before or behind the motion (a full stop, a space, another parameter) is left out. Null: the text is not a motion or was cut
+ *  off. */
 export async function decodeMotion(text: string): Promise<Map<number, Uint8Array> | null> {
     try {
-        const packed = Uint8Array.from(atob(text.replaceAll('-', '+').replaceAll('_', '/')), letter => letter.charCodeAt(0));
+        const [letters = ''] = /[\w-]+/.exec(text.replace(/^(?:%\w\w|[^\w-])+/, '')) ?? [];
+        const packed = Uint8Array.from(atob(letters.replaceAll('-', '+').replaceAll('_', '/')), letter => letter.charCodeAt(0));
         return entries(await through(packed, new DecompressionStream('deflate-raw')));
     } catch {
         return null; // there is one message for every bad link

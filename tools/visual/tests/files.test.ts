@@ -137,6 +137,16 @@ test('motions in an address: there and back, and nothing of one that was cut or 
     for (const strange of ['', '!', 'AAAA', btoa('no motion')]) expect(await decodeMotion(strange), strange).toBeNull();
 });
 
+test('a whole link with something behind it or before it, as mail programs and people leave it', async () => {
+    const image = await library();
+    const pages = new Map([[20, image.slice(20 * 512, 21 * 512)]]);
+    const text = await encodeMotion(pages);
+    for (const behind of ['=', '==', '%20', ' ', '&motion=x', '&utm_source=mail', '.', ')', '%3D', '>', '%0A', '?x=1', '/'])
+        expect(await decodeMotion(text + behind), `behind it ${behind}`).toEqual(pages);
+    for (const before of ['%20', ' ', '<']) expect(await decodeMotion(before + text), `before it ${before}`).toEqual(pages);
+    expect(await decodeMotion(`${text.slice(0, 40)}%20${text.slice(40)}`), 'broken in the middle').toBeNull();
+});
+
 test('a link cannot fill the memory', async () => {
     let inflated = 0;
     const Real = DecompressionStream;
