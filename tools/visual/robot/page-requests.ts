@@ -14,6 +14,8 @@ const CRCS_MS = 4000;
 const SAVE_MS = 2000;
 /** ERR of `@open`: the page in the board's RAM has unsaved edits. */
 export const ERR_UNSAVED = 12;
+/** ERR of `@save`: no boot loader there can write, or flash did not take the page. */
+const ERR_SAVE = 11;
 
 function hex(bytes: Uint8Array): string {
     return Array.from(bytes, byte => byte.toString(16).padStart(2, '0')).join('');
@@ -47,9 +49,13 @@ export async function askRamCrc(requests: Ask): Promise<number> {
     return crcOf(await requests.ask('@crc'));
 }
 
-/** Saves the page in RAM under this number if its CRC matches. */
+/** Saves the page in RAM under this number if its CRC matches. Rejects with RobotError save-failed if the board cannot save. */
 export async function savePage(requests: Ask, page: number, crc: number): Promise<void> {
-    await requests.ask(`@save ${page} ${crc.toString(16).padStart(4, '0')}`, { timeoutMs: SAVE_MS });
+    try {
+        await requests.ask(`@save ${page} ${crc.toString(16).padStart(4, '0')}`, { timeoutMs: SAVE_MS });
+    } catch (error) {
+        throw error instanceof RobotError && error.number === ERR_SAVE ? new RobotError('save-failed', '', { cause: error }) : error;
+    }
 }
 
 /** Whether Edit's RAM has edits that are not in flash and would be lost by a restart. */

@@ -20,6 +20,7 @@ export type RobotErrorCode =
     | 'dropped' // the robot was switched off, reset or restarted before it could do it
     | 'page-changed' // a page of the robot has changed since it was read; its number is in `words`
     | 'page-unsaved' // the page in Edit's memory has somebody else's edits
+    | 'save-failed' // the board cannot save pages
     | 'page-not-saved' // after a save the robot still has another page; its number is in `words`
     | 'no-backup' // the robot's pages could not be stored here, so nothing was written
     | 'needs-edit' // Play runs, but only Edit saves pages

@@ -243,6 +243,8 @@ const DE: Texts = {
                 'Diese Bewegung hat sich im Roboter geändert, seit sie gelesen wurde; sie wurde nicht überschrieben. Vergleiche noch einmal. Bewegung:',
             'page-unsaved':
                 'Die Bewegung im Speicher von Edit hat Änderungen, die nicht gespeichert sind. Gib SAVE oder UNDO im Terminal ein und versuche es noch einmal.',
+            'save-failed':
+                'Der Roboter konnte eine Bewegung nicht speichern: Kein Bootloader auf ihm kann schreiben, oder sein Flash-Speicher ist verschlissen. Unser Bootloader kann schreiben; er kommt einmal mit einem USB-Programmer auf die Platine. Deine Bewegungen sind hier sicher.',
             'page-not-saved':
                 'Der Roboter hat diese Bewegung angenommen, aber jetzt hat er sie nicht. Vielleicht ist sein Flash-Speicher verschlissen; deine Bewegung ist hier sicher. Versuche es noch einmal. Bewegung:',
             'no-backup':

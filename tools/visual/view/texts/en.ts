@@ -60,6 +60,8 @@ const errors: Record<RobotErrorCode, string> = {
     dropped: 'Not done: the robot was switched off, reset or restarted first. Ask it once more.',
     'page-changed': 'This motion has changed in the robot since it was read; nothing was written over it. Compare once more. Motion:',
     'page-unsaved': "The motion in Edit's memory has edits that are not saved. Type SAVE or UNDO in the terminal, then try again.",
+    'save-failed':
+        'The robot could not save a motion: no boot loader on it can write, or its flash is worn out. Our boot loader can write; it goes onto the board once, with a USB programmer. Your motions are safe here.',
     'page-not-saved':
         'The robot took this motion but does not have it now. Its flash may be worn out; your motion is safe here. Try again. Motion:',
     'no-backup':

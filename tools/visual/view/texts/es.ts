@@ -238,6 +238,8 @@ const ES: Texts = {
                 'Este movimiento ha cambiado en el robot desde que se leyó; no se ha sobrescrito. Compara otra vez. Movimiento:',
             'page-unsaved':
                 'El movimiento en la memoria de Edit tiene cambios sin guardar. Escribe SAVE o UNDO en el terminal e inténtalo de nuevo.',
+            'save-failed':
+                'El robot no pudo guardar un movimiento: no tiene un cargador de arranque que escriba, o su memoria flash está gastada. El nuestro sí escribe; se graba una vez en la placa con un programador USB. Tus movimientos están a salvo aquí.',
             'page-not-saved':
                 'El robot aceptó este movimiento, pero ahora no lo tiene. Puede que su memoria flash esté gastada; tu movimiento está a salvo aquí. Inténtalo de nuevo. Movimiento:',
             'no-backup':

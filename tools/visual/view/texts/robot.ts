@@ -13,7 +13,9 @@ import { TEXTS } from './texts.ts';
 /** One sentence for an error, followed by the board's own words. */
 export function errorText(error: RobotError): string {
     const sentence = TEXTS.robot.errors[error.code];
-    return error.words === '' || error.code === 'no-answer' ? sentence : `${sentence} ${error.words}`;
+    if (error.words === '' || error.code === 'no-answer') return sentence;
+    const end = error.code === 'refused' && !/[.?!]$/.test(error.words) ? '.' : ''; // the board's sentences have none
+    return `${sentence} ${error.words}${end}`;
 }
 
 export function connectionText(state: ConnectionState): string {

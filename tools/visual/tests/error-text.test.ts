@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// What the page says when a board refuses: a whole sentence, and what to do where something can be done.
+import { expect, test } from 'vitest';
+import { savePage } from '../robot/page-requests.ts';
+import { RobotError } from '../robot/robot-error.ts';
+import { errorText } from '../view/texts/robot.ts';
+
+/** The error of a save that the board refuses so. */
+async function refusedSave(number: number, words: string): Promise<string> {
+    const ask = () => Promise.reject(new RobotError('refused', words, { number }));
+    const error: unknown = await savePage({ ask }, 5, 0x12ab).catch((cause: unknown) => cause);
+    return errorText(error as RobotError);
+}
+
+test("the board's words end with a full stop", async () => {
+    expect(await refusedSave(4, 'Something moves')).toBe('The robot refused: Something moves.');
+    expect(await refusedSave(4, 'Something moves.')).toBe('The robot refused: Something moves.');
+});
+
+test('a board that cannot save: what it lacks, and that nothing is lost', async () => {
+    const text = await refusedSave(11, 'The page could not be saved');
+    expect(text).toMatch(/^The robot could not save a motion: .*boot loader.*\. .*Your motions are safe here\.$/);
+});
