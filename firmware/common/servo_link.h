@@ -52,11 +52,12 @@ typedef struct {
 
 /* Public fields are read only for callers. Small fields come first: the AVR accesses 64 bytes from a pointer on cheaply. */
 typedef struct {
-    uint32_t present;         /* answered the last scan at 1 Mbps; includes silent servos */
+    uint32_t present;         /* answered the last scan at 1 Mbps and is a joint (`endless`); includes silent servos */
     uint32_t torque;          /* torque is on, as last commanded or read (performer.c sets it for a silent one) */
     uint32_t silent;          /* present, but silent now */
     uint32_t no_sync;         /* present, but deaf to SYNC WRITE: served by REG WRITE and ACTION */
     uint32_t no_reply;        /* present, but answers only READ (status return level 1) */
+    uint32_t endless;         /* both angle limits are 0, endless turn: reported, not used */
     uint32_t slow;            /* answered at 57,142 bps: reported, not used (the monitor image makes them fast) */
     uint8_t voltage_dv;       /* lowest voltage of the last full round, 0.1 V; 0: none yet */
     uint8_t hottest_degrees;  /* highest temperature of the last full round, and its servo */

@@ -97,13 +97,18 @@ static bool ping(servo_link_t *link, uint8_t id)
     return bus_call_ping(id, PING_TRIES, NULL) == BUS_OK;
 }
 
-/* Reads the status return level. At level 0 a servo answers no READ, at level 1 no WRITE. */
-static bool look_at_level(servo_link_t *link, uint8_t id)
+/* Reads angle limits and status return level. At level 0 a servo answers no READ, at level 1 no WRITE. One with both limits
+ * 0 would turn without end at the speed of a goal: it is not used. */
+static bool is_usable(servo_link_t *link, uint8_t id)
 {
-    uint8_t level = 0;
-    bool answers = read_byte(id, DXL_AT_RETURN_LEVEL, &level);
-    servo_link_put(&link->no_reply, id, answers && level < 2u);
-    return answers;
+    uint8_t table[DXL_AT_RETURN_LEVEL + 1u - DXL_AT_CW_LIMIT];
+    if (bus_call_read(id, DXL_AT_CW_LIMIT, table, sizeof table, NULL) != BUS_OK) {
+        return false;
+    }
+    servo_link_put(&link->no_reply, id, table[DXL_AT_RETURN_LEVEL - DXL_AT_CW_LIMIT] < 2u);
+    const bool is_joint = (table[0] | table[1] | table[2] | table[3]) != 0;
+    servo_link_put(&link->endless, id, !is_joint);
+    return is_joint;
 }
 
 static bool is_led_dark(servo_link_t *link, uint8_t id)
@@ -139,7 +144,7 @@ void servo_link_scan(servo_link_t *link)
     bus_set_rate(BUS_RATE_57142);
     link->slow = for_each(link, SERVO_LINK_ALL, ping);
     bus_set_rate(BUS_RATE_1M);
-    link->present = for_each(link, for_each(link, SERVO_LINK_ALL, ping), look_at_level);
+    link->present = for_each(link, for_each(link, SERVO_LINK_ALL, ping), is_usable);
     sync_write(link->present, DXL_AT_LED, 1);
     link->no_sync = for_each(link, link->present, is_led_dark);
     sync_write(link->present, DXL_AT_LED, 0);

@@ -24,6 +24,11 @@ void views_print_servos_found(void)
     text_P(found == 1 ? TEXT_P(" servo: ") : TEXT_P(" servos: "));
     report_joints(the_play.servos.present);
     text_line_end();
+    if (the_play.servos.endless != 0) {
+        TEXT("Not used, turns without end (both angle limits are 0): ");
+        report_joints(the_play.servos.endless);
+        text_line_end();
+    }
     if (the_play.servos.slow != 0) {
         TEXT("Not used, at 57142 bps (fast of the monitor image): ");
         report_joints(the_play.servos.slow);

@@ -61,6 +61,8 @@ fake_servo_t *fake_bus_add(uint8_t id, uint8_t servo_rate)
     servo->table[DXL_AT_MODEL] = 12;
     servo->table[DXL_AT_ID] = id;
     servo->table[DXL_AT_BAUD] = servo_rate;
+    servo->table[DXL_AT_CCW_LIMIT] = 0xFF;
+    servo->table[DXL_AT_CCW_LIMIT + 1] = 3;
     servo->table[DXL_AT_RETURN_DELAY] = 250;
     servo->table[DXL_AT_RETURN_LEVEL] = 2;
     servo->table[DXL_AT_CW_SLOPE] = 32;

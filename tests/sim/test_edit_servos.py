@@ -61,6 +61,19 @@ def test_servos_that_answer_read_only_are_driven_and_not_called_dead():
         assert len([packet for packet in writes_since(r, mark) if packet[2] == 1]) == 1  # not sent again
 
 
+def test_a_servo_in_endless_turn_is_not_used():
+    with start() as r:
+        r.board.servos[5].write(6, [0, 0, 0, 0])  # angle limits; Edit reads them at its start
+        r.board.reset()
+        r.terminal.screen.reset()
+        r.settle(ms=1500)
+        r.line("page 5")
+        for line in ("on", "go 0", "off 5", "on 5", "play"):
+            r.line(line, ms=2000)
+            assert not r.board.servos[5].torque and (line != "on 5" or "Not there: ID 5" in r.message)
+        assert r.board.servos[1].torque and r.board.servos[5].goal == 512
+
+
 def test_teaching_off_pose_on_write():
     with start() as r:
         r.line("off")

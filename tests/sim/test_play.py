@@ -435,6 +435,14 @@ def test_one_servo_is_one_servo():
     assert "1 servo: 5\n" in ask(robot(servos=[5]), "servos find")
 
 
+def test_a_servo_in_endless_turn_is_named_and_not_used():
+    board = robot(servos=[4, 5])
+    board.servos[5].write(6, [0, 0, 0, 0])  # angle limits
+    assert ask(board, "servos find").endswith("1 servo: 4\nNot used, turns without end (both angle limits are 0): 5\n OK")
+    ask(board, "on")
+    assert ask(board, "aim 5 600") != " OK" and not board.servos[5].torque and board.servos[4].torque
+
+
 def test_search_in_a_pasted_script_loses_nothing_of_it():
     board = robot(servos=[1, 2, 3])
     words = ["version"] * 20 + ["servos find"] + ["version"] * 60 + ["servos find", "servos find"] + ["version"] * 60

@@ -51,6 +51,18 @@ static void test_scan_finds_the_deaf_and_the_taciturn(void)
     TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(1) | SERVO_LINK_BIT(2) | SERVO_LINK_BIT(4), servos.present);
 }
 
+/* In endless turn a goal is a speed: the servo would turn on and on. */
+static void test_servo_in_endless_turn_is_named_and_left_alone(void)
+{
+    (void)fake_bus_add(4, BUS_RATE_1M);
+    memset(&fake_bus_add(5, BUS_RATE_1M)->table[DXL_AT_CW_LIMIT], 0, 4);
+    servo_link_scan(&servos);
+    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(4), servos.present);
+    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(5), servos.endless);
+    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(4), servo_link_torque_on(&servos, SERVO_LINK_ALL));
+    TEST_ASSERT_EQUAL(0, fake_bus_servo(5)->table[DXL_AT_TORQUE_ENABLE]);
+}
+
 static void test_slow_servos_are_named_and_left_alone(void)
 {
     (void)fake_bus_add(5, BUS_RATE_57142);
@@ -232,6 +244,7 @@ int main(void)
     RUN_TEST(test_scan_tells_fast_slow_and_absent_apart);
     RUN_TEST(test_scan_changes_nothing_in_a_servo);
     RUN_TEST(test_scan_finds_the_deaf_and_the_taciturn);
+    RUN_TEST(test_servo_in_endless_turn_is_named_and_left_alone);
     RUN_TEST(test_slow_servos_are_named_and_left_alone);
     RUN_TEST(test_torque_on_makes_the_present_pose_the_goal_first);
     RUN_TEST(test_torque_on_leaves_those_alone_that_hold_already);
