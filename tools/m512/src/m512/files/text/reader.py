@@ -135,7 +135,7 @@ class Reader(JointWords):
         if self.depth > MAX_INCLUDE_DEPTH:
             raise WordError(f"include goes deeper than {MAX_INCLUDE_DEPTH} files (in a circle?)")
         if storage.is_stream(path):
-            raise WordError(f"cannot include {path}: it is a pipe or a device and not a file")
+            raise WordError(f"cannot read {path}: it is a pipe or a device and not a file")
         try:
             data = storage.read(path)
             text = data.decode("utf-8")
