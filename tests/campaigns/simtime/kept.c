@@ -30,7 +30,6 @@ static const struct {
 
 static struct {
     uint8_t copy[2][COPY_BYTES];   /* as they were when last valid */
-    bool was_whole[2];
     int newest;                    /* of the valid copies; -1: none */
     uint8_t sure[COPY_BYTES];      /* the newest copy that a power cut cannot revert */
     bool is_sure;                  /* `sure` is valid */
@@ -82,7 +81,6 @@ static int value_of(unsigned item)
 static void note_copies(void)
 {
     for (unsigned copy = 0; copy < 2; copy++) {
-        kept.was_whole[copy] = is_whole(copy_at(copy));
         memcpy(kept.copy[copy], copy_at(copy), COPY_BYTES);
     }
     kept.newest = newest_copy();
@@ -103,13 +101,17 @@ static void look_at_save(unsigned copy)
     }
 }
 
+/* Two saves may be over within a tick, after a search. So the older copy comes first. */
 static void look_at_copies(void)
 {
-    for (unsigned copy = 0; copy < 2; copy++) {
+    const unsigned older = newest_copy() == 0 ? 1 : 0;
+    for (unsigned i = 0; i < 2; i++) {
+        const unsigned copy = older ^ i;
         const bool is_other = memcmp(copy_at(copy), kept.copy[copy], COPY_BYTES) != 0;
         if (is_whole(copy_at(copy)) && is_other) {
             look_at_save(copy);
-            note_copies();
+            memcpy(kept.copy[copy], copy_at(copy), COPY_BYTES);
+            kept.newest = (int)copy;
         }
     }
 }
