@@ -39,6 +39,16 @@ static bool is_plain(void)
     return rules_is_well() && session.tick - session.late_tick > SLOW && session.latency == 0;
 }
 
+static bool is_shown(const char *text)
+{
+    for (unsigned row = 0; row < ROWS; row++) {
+        if (strstr(screen_row(row), text) != NULL) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* The program has read a byte from the user. */
 void editor_play_key(uint8_t key)
 {
@@ -77,16 +87,11 @@ void editor_play_tick(void)
     }
     if (play.said != NULL && (!is_on() || !is_plain())) {
         play.said = NULL;   /* the play was over before the key, or something has happened */
-    } else if (play.said != NULL && session.tick - play.key_tick > SAID) {
-        bool is_said = false;
-        for (unsigned row = 0; row < ROWS; row++) {
-            is_said = is_said || strstr(screen_row(row), play.said) != NULL;
-        }
-        if (!is_said) {
-            session_fail("a key in a play of Edit does what its pages say", "%s is not said", play.said);
-        }
+    } else if (play.said != NULL && is_shown(play.said)) {
         reached("key in a play of Edit");
-        play.said = NULL;
+        play.said = NULL;   /* the end of the play may erase it */
+    } else if (play.said != NULL && session.tick - play.key_tick > SAID) {
+        session_fail("a key in a play of Edit does what its pages say", "%s is not said", play.said);
     }
     if (play.exit_tick != NEVER_TICK && !is_on()) {
         play.exit_tick = NEVER_TICK;

@@ -111,9 +111,12 @@ static int number_at(const char *text, unsigned digits, bool is_hex)
     return end != copy && *end == '\0' && copy[0] != ' ' ? (int)number : UNKNOWN;
 }
 
+/* Of larger numbers in decimal only the last four digits are shown (edit/ORIGINAL.md section 1). */
 static int word_at(const char *text, bool is_hex)
 {
-    return strncmp(text, "----", 4) == 0 ? NO_VALUE : strncmp(text, "????", 4) == 0 ? OFF : number_at(text, 4, is_hex);
+    const int number = number_at(text, 4, is_hex);
+    const bool may_be_cut = !is_hex && number != limited(number) && number != UNKNOWN;
+    return strncmp(text, "----", 4) == 0 ? NO_VALUE : strncmp(text, "????", 4) == 0 ? OFF : may_be_cut ? UNKNOWN : number;
 }
 
 static void read_row(table_t *table, const char *text, bool is_hex)
