@@ -24,6 +24,7 @@
 #define NEAR_TICKS 64u             /* a code this close to the start of a step may or may not count */
 #define ANY_CODE 0xFFFFu
 #define SILENT 60u                 /* ticks without a packet: the buttons may count as released */
+#define AT_ONCE 16u                /* ticks: lines that have waited are read together */
 #define SLOWEST 30u                /* degrees/s, in the random settings */
 
 enum { COUNT_AT = 15, SCHEDULE_AT = 16, STEPS_AT = 20, SPEED_AT = 22, ACCEL_AT = 24, NEXT_AT = 25,
@@ -426,6 +427,8 @@ void law_printed(const char *line)
     law.was_paused = law.was_paused || strncmp(line, "Paused", 6) == 0;
     if (strncmp(line, "Going to", 8) == 0 || strncmp(line, "Moving, ", 8) == 0) {
         law.is_under_way = true;
+        /* the buttons may have been let go before this line */
+        law.is_stopped = law.is_stopped || (law.has_modes && law.is_called && law.buttons == 0);
         law.step_tick = law.step_before_tick = session.tick;
         play_begins();
         law.approach_tick = law.is_aimed ? NEVER_TICK : UINT32_MAX;   /* the next frame; starts where the joints are */
@@ -471,7 +474,9 @@ void law_typed(const char *line)
                                        "faults", "watch", NULL};
     static const char *const shapes[] = {"rate", "amplitude", "blend", "drive", "layer", "aim", "swing", NULL};
     unsigned number, code;
-    law.is_mixed = law.asked[0] != '\0' && session.tick - law.asked_tick < SECOND;
+    /* Of three lines at once the first OK leaves two without an answer. */
+    const uint32_t since = session.tick - law.asked_tick;
+    law.is_mixed = (law.asked[0] != '\0' && since < SECOND) || (law.is_mixed && (since < AT_ONCE || rules_is_searching()));
     if (law.is_mixed) {
         forget_aims();   /* either line may send a joint elsewhere, and it is unclear whose OK comes */
     }

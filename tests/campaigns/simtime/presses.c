@@ -33,9 +33,10 @@ static struct {
 static bool must_be_answered(const hand_t *hand, uint32_t silence)
 {
     const bool was_free = hand->code == 0 && (hand->tick > session.boot_tick || silence > SURELY_SILENT);
-    return was_free && !presses.is_playing && rules_is_well() && session.tick - session.boot_tick > TROUBLE &&
-           long_ago(presses.over_tick, SECOND) && long_ago(presses.line_tick, ANSWERED) &&
-           long_ago(session.late_tick, TROUBLE) && session.latency <= QUICK && calls_are_said();
+    return was_free && !presses.is_playing && rules_is_well() && !rules_is_searching() &&
+           session.tick - session.boot_tick > TROUBLE && long_ago(presses.over_tick, SECOND) &&
+           long_ago(presses.line_tick, ANSWERED) && long_ago(session.late_tick, TROUBLE) &&
+           session.latency <= QUICK && calls_are_said();
 }
 
 /* Called when a play is over. A button pressed just before may have come after its end. */

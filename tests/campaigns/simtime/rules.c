@@ -86,22 +86,40 @@ static bool may_slow(const char *line)
     return strncmp(line, "rate", 4) == 0 || strncmp(line, "drive", 5) == 0;
 }
 
-/* Case does not matter (edit/ORIGINAL.md section 5): the models get the line in small letters. */
+/* Something that may move was asked for. During a search it waits for the end of it. */
+void rules_asked(void)
+{
+    session.asked_tick = session.tick;
+    rules.asked_in_search = rules.asked_in_search || rules.is_searching;
+}
+
+/* Case does not matter, and there are five separators, also several in a row (edit/ORIGINAL.md section 5). The models
+ * get small letters and single blanks. With an @ the blanks stay: a request is one only at the start of a line. */
 static void line_typed(void)
 {
     char line[LINE_BYTES];
+    unsigned count = 0;
+    bool has_capitals = false;
     session.typed[session.typed_count] = '\0';
-    for (unsigned i = 0; i <= session.typed_count; i++) {
-        line[i] = (char)tolower((unsigned char)session.typed[i]);
+    const bool keeps_blanks = strchr(session.typed, '@') != NULL;
+    for (const char *from = session.typed; *from != '\0'; from++) {
+        const char small = (char)tolower((unsigned char)*from);
+        has_capitals = has_capitals || small != *from;
+        if (keeps_blanks || strchr(" ,.:;", small) == NULL) {
+            line[count++] = small;
+        } else if (count > 0 && line[count - 1] != ' ') {
+            line[count++] = ' ';
+        }
     }
-    if (strcmp(line, session.typed) != 0) {
+    count -= count > 0 && !keeps_blanks && line[count - 1] == ' ' ? 1 : 0;
+    line[count] = '\0';
+    if (has_capitals) {
         reached("words in capitals");
     }
     rules.is_shaped = rules.is_shaped || !session.typed_is_known || may_shape(line);
     rules.is_slow = rules.is_slow || !session.typed_is_known || may_slow(line);
     if (session.is_edit || !session.typed_is_known || may_move(line)) {
-        session.asked_tick = session.tick;
-        rules.asked_in_search = rules.is_searching;
+        rules_asked();
     }
     if (session.is_edit && (!session.typed_is_known || strstr(line, "sav") != NULL)) {
         session.save_asked_tick = session.tick;
@@ -160,7 +178,7 @@ void rules_remote(unsigned buttons)
 {
     rules.is_shaped = rules.is_shaped || buttons != 0;   /* left and right may steer */
     if (buttons != 0) {
-        session.asked_tick = session.tick;
+        rules_asked();
     }
     law_remote(buttons);
     rest_remote(buttons);

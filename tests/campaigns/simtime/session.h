@@ -131,6 +131,7 @@ void rules_packet(const uint8_t *packet, uint16_t count);
 void rules_printed(const char *line);
 void rules_said(const char *sentence);
 void rules_started(void);
+void rules_asked(void);           /* for something that may move */
 void rules_typed(uint8_t byte);
 void rules_remote(unsigned buttons);
 void rules_kept(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uint32_t count);

@@ -259,12 +259,12 @@ static void press(unsigned buttons)
     stops_pressed();
     joins_pressed();
     if (buttons != 0) {
-        session.asked_tick = session.tick;
+        rules_asked();
         law_remote(0);
         law_remote(buttons >= 16 ? 512 : buttons);   /* Start stops */
-        law_remote(0);
         rest_remote(buttons >= 16 ? 512 : buttons);
     }
+    law_remote(0);
 }
 
 /* Types bytes given as hexadecimal digits. */
