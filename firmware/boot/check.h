@@ -7,7 +7,7 @@
 /* Prints a map of the motion pages, then one line that begins with "CHECK" (RECOVERY.md explains both). */
 void check_all(void);
 
-/* Prints one line: versions, board, features, application. */
+/* Prints one line: versions, board, application. */
 void check_id(void);
 
 #endif
