@@ -319,8 +319,9 @@ def restore(folder: Path, what: str | None, yes: bool, port: str, board: str, wa
     from m512.board.memory import Plan
     from m512.files.wording import counted
 
-    saved = backups.load(folder, None if what is None else _areas(what))
-    areas = list(saved.data) if what is None else _areas(what)
+    wanted = None if what is None else _areas(what)
+    saved = backups.load(folder, wanted)
+    areas = list(saved.data) if wanted is None else wanted
     missing = [area for area in areas if area not in saved.data]
     if not areas:
         raise FileError(f"{folder} holds nothing to restore")
