@@ -31,12 +31,9 @@ interface Request {
     readonly text: string;
     readonly timeoutMs: number;
     readonly moves: boolean;
+    readonly stops: boolean;
     readonly resolve: (answer: string) => void;
     readonly reject: (error: RobotError) => void;
-}
-
-function isStop(text: string): boolean {
-    return text === '@stop' || text === '@break';
 }
 
 export class Requests {
@@ -44,7 +41,7 @@ export class Requests {
     private readonly clock: Clock;
     private readonly queue: Request[] = [];
     private current: Request | null = null;
-    private abandoned: string | null = null;
+    private abandoned: Request | null = null;
     private cancelTimer: () => void = () => undefined;
     private isEnded = false;
     /** A request that moves was given up. now: `@stop` is sent next; later: it was sent, and is due again when another
@@ -61,12 +58,14 @@ export class Requests {
     ask(text: string, options: RequestOptions = {}): Promise<string> {
         return new Promise((resolve, reject) => {
             if (this.isEnded) return reject(new RobotError('not-connected'));
-            const request = { text, timeoutMs: options.timeoutMs ?? ANSWER_MS, moves: options.moves ?? false, resolve, reject };
+            const { timeoutMs = ANSWER_MS, moves = false, stops = false } = options;
+            const request = { text, timeoutMs, moves, stops, resolve, reject };
             options.signal?.addEventListener('abort', () => this.cancel(request), { once: true });
             if (options.signal?.aborted) return reject(new RobotError('cancelled'));
-            if (options.stops) this.dropQueued();
-            if (options.stops) this.queue.unshift(request);
-            else this.queue.push(request);
+            if (stops) {
+                this.dropQueued();
+                this.queue.unshift(request);
+            } else this.queue.push(request);
             this.next();
         });
     }
@@ -83,8 +82,8 @@ export class Requests {
 
     /** Handles a received answer line. */
     take(line: string): void {
-        if (this.abandoned !== null && isAnswer(this.abandoned, line)) {
-            if (isStop(this.abandoned)) this.stopDue = 'no';
+        if (this.abandoned !== null && isAnswer(this.abandoned.text, line)) {
+            if (this.abandoned.stops) this.stopDue = 'no';
             this.settle();
             return;
         }
@@ -93,7 +92,7 @@ export class Requests {
         this.finish();
         const word = request.text.split(' ', 1)[0] ?? '';
         const refusal = / ERR (\d+) (.*)$/.exec(line);
-        if (this.stopDue === 'later' && refusal?.[1] !== ERR_LINE) this.stopDue = request.moves || isStop(request.text) ? 'no' : 'now';
+        if (this.stopDue === 'later' && refusal?.[1] !== ERR_LINE) this.stopDue = request.moves || request.stops ? 'no' : 'now';
         if (refusal?.[1] === ERR_LINE)
             request.reject(new RobotError('no-answer', request.text)); // it was not executed
         else if (refusal) request.reject(new RobotError('refused', refusal[2] ?? '', { number: Number(refusal[1]) }));
@@ -128,7 +127,7 @@ export class Requests {
     private ownStop(): Request {
         this.stopDue = 'later';
         const ignore = (): void => undefined;
-        return { text: '@stop', timeoutMs: ANSWER_MS, moves: false, resolve: ignore, reject: ignore };
+        return { text: '@stop', timeoutMs: ANSWER_MS, moves: false, stops: true, resolve: ignore, reject: ignore };
     }
 
     private finish(): void {
@@ -152,7 +151,7 @@ export class Requests {
 
     private abandon(request: Request, error: RobotError): void {
         this.finish();
-        this.abandoned = request.text;
+        this.abandoned = request;
         if (request.moves) this.stopDue = 'now';
         this.cancelTimer = this.clock.after(SETTLE_MS, () => this.settle());
         request.reject(error);
