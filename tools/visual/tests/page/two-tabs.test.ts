@@ -36,6 +36,14 @@ async function saveLaw(page: Page, law = 'classic'): Promise<void> {
     await page.keyboard.press('Enter');
 }
 
+/** Opens the page in a second tab and waits until its robot stands. */
+async function openSecond(person: Visitor): Promise<Page> {
+    const second = await person.page.context().newPage();
+    await second.goto(suite.address);
+    await second.locator('status-bar .doing').filter({ hasText: 'The robot stands and waits.' }).waitFor();
+    return second;
+}
+
 /** Whether the browser asks a person who leaves the page. */
 function isAskedToStay(page: Page): Promise<boolean> {
     return page.evaluate(() => !window.dispatchEvent(new Event('beforeunload', { cancelable: true })));
@@ -44,9 +52,7 @@ function isAskedToStay(page: Page): Promise<boolean> {
 test('a second tab says that it has a copy, and what that means, and the board does not talk over it', async () => {
     const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false });
     await person.untilStanding();
-    const second = await person.page.context().newPage();
-    await second.goto(suite.address);
-    await second.locator('status-bar .doing').filter({ hasText: 'The robot stands and waits.' }).waitFor();
+    const second = await openSecond(person);
     const said = await second.getByRole('log', { name: 'Last message' }).textContent();
     expect(said).toMatch(
         /^Another tab has this document open, so this one has a copy: .* What you change here is kept in the copy alone\.$/,
@@ -57,9 +63,7 @@ test('a second tab says that it has a copy, and what that means, and the board d
 test('what the first tab has saved stays, whatever the second saves or forgets; the second says so all the time', async () => {
     const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
     await person.untilStanding();
-    const second = await person.page.context().newPage();
-    await second.goto(suite.address);
-    await second.locator('status-bar .doing').filter({ hasText: 'The robot stands and waits.' }).waitFor();
+    const second = await openSecond(person);
     const notice = second.getByRole('status', { name: "Robot's memory" }).filter({ hasText: /^Another tab keeps its robot/ });
     await notice.waitFor();
     expect(await isAskedToStay(second)).toBe(false); // nothing is saved yet
@@ -92,9 +96,7 @@ test('what the first tab has saved stays, whatever the second saves or forgets; 
 test('the first tab is closed: the second keeps its robot from then on, with what it has saved before', async () => {
     const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
     await person.untilStanding();
-    const second = await person.page.context().newPage();
-    await second.goto(suite.address);
-    await second.locator('status-bar .doing').filter({ hasText: 'The robot stands and waits.' }).waitFor();
+    const second = await openSecond(person);
     await saveLaw(second);
     await expect.poll(() => isAskedToStay(second)).toBe(true);
     const before = await keptEeprom(second);
