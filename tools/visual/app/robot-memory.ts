@@ -44,6 +44,8 @@ export class RobotMemory {
     private known: KeptRobot | null = null;
     /** Another tab had the memory until now: what is stored may be newer than what this robot began with. */
     private isBehind = false;
+    /** The robot was made factory fresh, and the memory of another one is still stored. */
+    private isFresh = false;
 
     constructor(events: MemoryEvents) {
         this.events = events;
@@ -72,8 +74,8 @@ export class RobotMemory {
 
     /** The memory for the robot that follows one with this memory; null: one that has crashed. */
     async passOn(memories: KeptRobot | null): Promise<KeptRobot | null> {
-        if (!memories) return this.unkept ?? this.load();
-        if (this.isBehind && !this.unkept) return this.load();
+        if (!memories) return this.unkept ?? (this.isFresh ? null : this.load());
+        if (this.isBehind && !this.unkept && !this.isFresh) return this.load();
         await this.keep(memories);
         return memories;
     }
@@ -81,11 +83,16 @@ export class RobotMemory {
     /** Never rejects. Errors are reported. */
     async forget(): Promise<void> {
         this.setUnkept(null);
-        if (!(await this.mayKeep)) return;
+        this.isFresh = true;
+        if (!(await this.mayKeep)) {
+            this.known = null; // what is stored is not the memory that the person has just given up
+            return;
+        }
         try {
             await this.backUpOther();
             await forgetRobot(KEY);
             this.mayStore = true;
+            this.isFresh = false;
         } catch {
             this.tellNotKept();
         }
@@ -105,6 +112,7 @@ export class RobotMemory {
         this.isBehind = true;
         this.events.change({ isSecond: false, message: { text: TEXTS.robot.tookOver, tone: 'good' } });
         if (this.unkept) await this.keep(this.unkept);
+        else if (this.isFresh) await this.forget();
     }
 
     private async keep(memories: KeptRobot): Promise<void> {
@@ -114,6 +122,7 @@ export class RobotMemory {
             if (!this.mayStore) throw new Error('what is stored could not be read');
             await this.backUpOther();
             await saveRobot(KEY, memories);
+            this.isFresh = false;
             if (unkept === this.unkept) this.setUnkept(null); // otherwise the robot has written again
         } catch {
             this.tellNotKept();

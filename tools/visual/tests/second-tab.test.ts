@@ -209,6 +209,38 @@ test('the other tab alone has saved: a restart here begins with its robot, and n
     expect([byteOf(robot().started), byteOf(browser.kept)]).toEqual([9, 9]);
 });
 
+test.each([
+    ['has saved nothing else', 1],
+    ['has saved meanwhile', 9],
+])('a robot made factory fresh here stays so; the motions of the other tab, which %s, become a backup', async (_, byte) => {
+    browser.kept = memories(1);
+    locks.hold(ROBOT);
+    const { source, seen, robot } = await tab();
+    browser.kept = memories(byte);
+    await source.forget('play');
+    expect(byteOf(browser.kept)).toBe(byte);
+    robot().tell({ kind: 'crashed', text: 'out of memory' });
+    await source.restart('play');
+    expect(byteOf(robot().started)).toBeUndefined();
+    await closeOther();
+    expect([seen.backups, byteOf(browser.kept)]).toEqual([[byte], undefined]); // also after the page is loaded again
+    robot().now = memories(3);
+    const restarted = source.restart('edit');
+    await vi.advanceTimersByTimeAsync(1000);
+    await restarted;
+    expect(byteOf(robot().started)).toBe(3);
+});
+
+test('a robot made factory fresh here that has saved since: that is what is kept', async () => {
+    browser.kept = memories(1);
+    locks.hold(ROBOT);
+    const { source, seen, robot } = await tab();
+    await source.forget('play');
+    robot().save(5);
+    await closeOther();
+    expect([seen.backups, byteOf(browser.kept)]).toEqual([[1], 5]);
+});
+
 test('a robot that crashes in a second tab starts again with what it had saved', async () => {
     browser.kept = memories(1);
     locks.hold(ROBOT);
