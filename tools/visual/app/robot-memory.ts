@@ -129,14 +129,21 @@ export class RobotMemory {
         }
     }
 
-    /** Before something is stored: if another tab has stored other motions since this one read them, they become a backup. */
+    /** Before something is stored: if another tab has stored other motions since this one read them, they become a backup. A backup has no
+     *  settings, so the page says that they go. */
     private async backUpOther(): Promise<void> {
         if (!this.isBehind) return;
+        const { known } = this;
         const stored = await loadRobot(KEY);
-        if (stored && (!this.known || !isSame(motionsIn(stored), motionsIn(this.known)))) {
+        const differs = (part: (robot: KeptRobot) => Uint8Array): boolean =>
+            stored !== null && (!known || !isSame(part(stored), part(known)));
+        const said: string[] = [];
+        if (stored && differs(motionsIn)) {
             await this.events.backUp(motionsIn(stored));
-            this.events.change({ message: { text: TEXTS.robot.otherBackedUp, tone: 'good' } });
+            said.push(TEXTS.robot.otherBackedUp);
         }
+        if (differs(({ eeprom }) => eeprom) || differs(({ servos }) => servos)) said.push(TEXTS.robot.otherSettings);
+        if (said.length > 0) this.events.change({ message: { text: said.join(' '), tone: 'calm' } });
         this.isBehind = false;
     }
 

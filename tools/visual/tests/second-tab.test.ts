@@ -10,6 +10,7 @@ import { MOTIONS_ADDRESS } from '../sim/board.ts';
 import type { FromSim, ToSim } from '../sim/messages.ts';
 import type { SessionState } from '../view/session/session.ts';
 import type { KeptRobot } from '../view/robot-store.ts';
+import { TEXTS } from '../view/texts/texts.ts';
 
 const browser = vi.hoisted(() => ({ kept: null as KeptRobot | null, isFull: false }));
 
@@ -72,9 +73,9 @@ afterEach(() => {
     vi.unstubAllGlobals();
 });
 
-/** A robot whose memory is full of one byte. */
-function memories(byte: number): KeptRobot {
-    return { flash: new Uint8Array(0x20000).fill(byte), eeprom: new Uint8Array(4096).fill(byte), servos: new Uint8Array() };
+/** A robot whose memory is full of one byte. settings: the byte of its EEPROM. */
+function memories(byte: number, settings = byte): KeptRobot {
+    return { flash: new Uint8Array(0x20000).fill(byte), eeprom: new Uint8Array(4096).fill(settings), servos: new Uint8Array() };
 }
 
 /** That byte. */
@@ -123,7 +124,7 @@ async function tab() {
         change: (change: Partial<SessionState>) => {
             if (change.isSecond !== undefined) seen.isSecond = change.isSecond;
             if (change.hasUnkept !== undefined) seen.hasUnkept = change.hasUnkept;
-            if (change.message?.tone === 'good') seen.said.push(change.message.text);
+            if (change.message && change.message.tone !== 'bad') seen.said.push(change.message.text);
         },
         motions: () => undefined,
         backUp: async image => void seen.backups.push(image[0] ?? -1),
@@ -180,6 +181,21 @@ test('the other tab has saved meanwhile, this one too: its motions become a back
     expect(seen.backups).toEqual([9]);
     expect(byteOf(browser.kept)).toBe(5);
     expect(seen.said.join(' ')).toContain('backup');
+});
+
+test.each([
+    ['motions alone', memories(9, 1), [TEXTS.robot.otherBackedUp]],
+    ['settings alone', memories(1, 9), [TEXTS.robot.otherSettings]],
+    ['both', memories(9), [TEXTS.robot.otherBackedUp, TEXTS.robot.otherSettings]],
+    ['neither', memories(1), []],
+])('the other tab has saved %s meanwhile, this one too: what is not in the backup is said', async (_, stored, sentences) => {
+    browser.kept = memories(1);
+    locks.hold(ROBOT);
+    const { seen, robot } = await tab();
+    browser.kept = stored;
+    robot().save(5);
+    await closeOther();
+    expect(seen.said).toEqual([TEXTS.robot.tookOver, ...(sentences.length > 0 ? [sentences.join(' ')] : [])]);
 });
 
 test('the other tab has saved meanwhile, this one later', async () => {

@@ -293,6 +293,8 @@ const DE: Texts = {
         tookOver: 'Der andere Tab ist geschlossen: Dieser Tab bewahrt seinen Roboter ab jetzt auf.',
         otherBackedUp:
             'Der andere Tab hatte in seinem Roboter andere Bewegungen gespeichert. Sie sind als Sicherung aufbewahrt: Unter „Zum Roboter …“ lassen sie sich vergleichen.',
+        otherSettings:
+            'Die Einstellungen, die der andere Tab in seinem Roboter gespeichert hatte, bleiben nicht erhalten; dieser Roboter hat seine eigenen.',
         isBackedUp: 'Alle Bewegungen deines Roboters wurden gelesen und in diesem Browser als Sicherung gespeichert.',
         violation: (kind, words) =>
             `Die Firmware hat getan, was kein Chip erlaubt. Starte den Roboter unter „Roboter“ neu. (${kind}: ${words})`,

@@ -475,6 +475,7 @@ export const EN = {
         tookOver: 'The other tab is closed: this tab keeps its robot from now on.',
         otherBackedUp:
             'The other tab had saved other motions in its robot. They are kept as a backup: under "To the robot …" they can be compared.',
+        otherSettings: 'The settings that the other tab had saved in its robot are not kept; this robot has its own.',
         isBackedUp: 'All motions of your robot are read, and saved in this browser as a backup.',
         /** kind and words come from the simulator. */
         violation: (kind: string, words: string) =>

@@ -285,6 +285,7 @@ const ES: Texts = {
         tookOver: 'La otra pestaña está cerrada: desde ahora esta conserva su robot.',
         otherBackedUp:
             'La otra pestaña había guardado otros movimientos en su robot. Quedan como copia de seguridad: se pueden comparar en «Al robot …».',
+        otherSettings: 'Los ajustes que la otra pestaña había guardado en su robot no se conservan; este robot tiene los suyos.',
         isBackedUp: 'Se han leído todos los movimientos de tu robot, y están guardados en este navegador como copia de seguridad.',
         violation: (kind, words) => `El firmware hizo algo que ningún chip permite. Reinicia el robot en «Robot». (${kind}: ${words})`,
         startsEdit: 'El robot de la página se reinicia con Edit, el firmware que guarda movimientos.',
