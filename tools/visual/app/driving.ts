@@ -15,6 +15,7 @@ import type { Stick } from './stick.ts';
 import type { StatusMessages } from './status-messages.ts';
 
 const STOP: RemoteButton = 'b6';
+const NONE: ReadonlySet<RemoteButton> = new Set();
 
 export interface DrivingParts {
     readonly state: Store<SessionState>;
@@ -28,7 +29,7 @@ export interface DrivingParts {
 
 export class Driving {
     private readonly parts: DrivingParts;
-    private readonly keys = new RemoteKeys(packet => this.send(packet));
+    private readonly keys = new RemoteKeys(held => this.send(held));
     private readonly stick: StickDrive;
     /** The keys pressed last while the robot could not receive them. */
     private wish: ReadonlySet<RemoteButton> | null = null;
@@ -60,7 +61,7 @@ export class Driving {
     /** As if the person had let go of all keys and of the stick. */
     letGo(): void {
         this.forget();
-        if (this.keys.isHeld) this.keys.hold(new Set());
+        if (this.keys.isHeld) this.keys.hold(NONE);
     }
 
     /** Another robot is used from now on. It does not wait for the one before. */
@@ -71,7 +72,7 @@ export class Driving {
 
     drive(stick: Stick | null): void {
         if (stick && !this.isPushed) {
-            this.prepare(new Set()); // a stick that is still pushed then drives by itself
+            this.prepare(NONE); // a stick that is still pushed then drives by itself
             if (this.hasNoWalk) this.parts.messages.complain(TEXTS.robot.noWalk, 'robot');
         }
         this.isPushed = stick !== null;
@@ -118,13 +119,13 @@ export class Driving {
      *  is still held is sent again anyway. */
     private carryOut(): void {
         if (!this.wish) return;
-        this.send(remotePacket([]));
+        this.send(NONE);
         setTimeout(() => {
             const { wish } = this;
             this.wish = null;
             if (!wish || this.keys.isHeld) return;
-            this.send(remotePacket(wish));
-            setTimeout(() => !this.keys.isHeld && this.send(remotePacket([])), REPEAT_MS);
+            this.send(wish);
+            setTimeout(() => !this.keys.isHeld && this.send(NONE), REPEAT_MS);
         }, REPEAT_MS);
     }
 
@@ -142,15 +143,15 @@ export class Driving {
     }
 
     /** Edit and a boot loader would take a packet for typed letters, and who knows what another board would do. */
-    private send(packet: Uint8Array): void {
+    private send(held: ReadonlySet<RemoteButton>): void {
         const { messages, simulated } = this.parts;
         if (this.state.source === 'yours' ? this.state.version?.image !== 'play' : !this.hears) return;
-        if (this.isSimulated) simulated.post({ kind: 'bytes', sender: 'remote', bytes: packet });
-        else void this.write(packet).catch(messages.fail);
+        if (this.isSimulated) simulated.post({ kind: 'bytes', sender: 'remote', bytes: remotePacket(held) });
+        else void this.write(held).catch(messages.fail);
     }
 
-    private async write(packet: Uint8Array): Promise<void> {
-        await this.parts.connection().write(packet);
+    private async write(held: ReadonlySet<RemoteButton>): Promise<void> {
+        await this.parts.connection().requests.packet(remotePacket(held), { moves: held.size > 0 && !held.has(STOP) });
     }
 
     private get isYoursWithEdit(): boolean {

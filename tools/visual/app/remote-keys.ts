@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Sends the keys of the remote while they are held: to the robot in the page over its own link, to yours over the serial line.
 
-import { remotePacket } from '../robot/remote.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 
 export const REPEAT_MS = 100;
 
 export class RemoteKeys {
-    private readonly send: (packet: Uint8Array) => void;
+    private readonly send: (held: ReadonlySet<RemoteButton>) => void;
     private held: ReadonlySet<RemoteButton> = new Set();
 
-    constructor(send: (packet: Uint8Array) => void) {
+    constructor(send: (held: ReadonlySet<RemoteButton>) => void) {
         this.send = send;
-        setInterval(() => this.held.size > 0 && this.send(remotePacket(this.held)), REPEAT_MS);
+        setInterval(() => this.held.size > 0 && this.send(this.held), REPEAT_MS);
     }
 
     get isHeld(): boolean {
@@ -21,6 +20,6 @@ export class RemoteKeys {
 
     hold(held: ReadonlySet<RemoteButton>): void {
         this.held = held;
-        this.send(remotePacket(held));
+        this.send(held);
     }
 }

@@ -89,7 +89,7 @@ export class Connection {
         await this.shut();
     }
 
-    /** Sends typed characters or the bytes of a remote. Rejects if there is no line. */
+    /** Sends typed characters. Rejects if there is no line. */
     async write(bytes: Uint8Array): Promise<void> {
         if (!this.line) throw new RobotError('not-connected');
         this.typedAtMs = bytes.at(-1) === CR ? -Infinity : this.clock.now();

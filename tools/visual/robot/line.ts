@@ -42,11 +42,14 @@ export class Line {
         this.loop = this.readAll();
     }
 
-    /** Queues bytes. Resolves when the port has taken them; rejects if it cannot. */
-    write(bytes: Uint8Array): Promise<void> {
+    /** Queues bytes. Resolves when the port has taken them; rejects if it cannot, and with no-answer if it could not within limitMs: they are
+     *  dropped then. */
+    write(bytes: Uint8Array, limitMs = Infinity): Promise<void> {
+        const endMs = this.clock.now() + limitMs;
         const done = this.writing.then(async () => {
             while (this.held) await this.held; // an XON and the next XOFF may come together
             if (!this.writer || this.isClosed) throw new RobotError('not-connected');
+            if (this.clock.now() > endMs) throw new RobotError('no-answer');
             await this.writer.write(bytes);
         });
         this.writing = done.catch(() => undefined); // the caller gets the error; later writes may still work

@@ -6,7 +6,8 @@
 //                                     +--time over--> rejected; late answers to it are dropped until the line is settled
 //
 // A request that moves the robot and is given up may still arrive, because a line that stalls keeps its bytes. So `@stop` goes right behind
-// it, and once more, if that is not answered either, as soon as anything is.
+// it, and once more, if that is not answered either, as soon as anything is. A packet of a remote is not answered at all: the request behind
+// it tells whether the line stalls.
 
 import type { Clock } from './clock.ts';
 import type { Line } from './line.ts';
@@ -18,6 +19,9 @@ const ANSWER_MS = 1000;
 const ERR_LINE = '15';
 /** After a time-out nothing is sent for this long or until the late answer arrives, so that it is not taken for the next one. */
 const SETTLE_MS = 500;
+/** A press that the line has not taken within this time is dropped. */
+const PRESS_MS = 500;
+
 export interface RequestOptions {
     readonly timeoutMs?: number;
     readonly signal?: AbortSignal;
@@ -47,6 +51,12 @@ export class Requests {
     /** A request that moves was given up. now: `@stop` is sent next; later: it was sent, and is due again when another
      *  request is answered first. A newer request that moves takes the place of the old one and is not stopped. */
     private stopDue: 'no' | 'now' | 'later' = 'no';
+    /** A press was sent that may not have arrived yet. asked: so was a request behind it, whose answer settles it. */
+    private pressed: 'no' | 'sent' | 'asked' = 'no';
+    /** Nothing that was asked has been answered for ANSWER_MS. */
+    private isSilent = false;
+    /** Set while nothing that was asked is answered. */
+    private cancelSilence: (() => void) | null = null;
 
     constructor(line: Pick<Line, 'write'>, clock: Clock) {
         this.line = line;
@@ -70,6 +80,15 @@ export class Requests {
         });
     }
 
+    /** Sends a packet of a remote. A press must not move the robot late: it is dropped, with no-answer, if the robot is silent or the line does
+     *  not take it soon. What was sent just before a silence may arrive after it, so the robot is stopped then. */
+    async packet(bytes: Uint8Array, { moves }: { readonly moves: boolean }): Promise<void> {
+        if (!moves) return this.line.write(bytes);
+        if (this.isSilent) throw new RobotError('no-answer');
+        this.pressed = 'sent';
+        await this.line.write(bytes, PRESS_MS);
+    }
+
     /** Cancels what would move the robot and is not answered yet: the robot is switched off or reset. */
     dropMoves(): void {
         this.dropQueued();
@@ -84,12 +103,15 @@ export class Requests {
     take(line: string): void {
         if (this.abandoned !== null && isAnswer(this.abandoned.text, line)) {
             if (this.abandoned.stops) this.stopDue = 'no';
+            this.endSilence();
             this.settle();
             return;
         }
         const request = this.current;
         if (!request || !isAnswer(request.text, line)) return; // not requested
         this.finish();
+        this.endSilence();
+        if (this.pressed === 'asked') this.pressed = 'no';
         const word = request.text.split(' ', 1)[0] ?? '';
         const refusal = / ERR (\d+) (.*)$/.exec(line);
         if (this.stopDue === 'later' && refusal?.[1] !== ERR_LINE) this.stopDue = request.moves || request.stops ? 'no' : 'now';
@@ -104,6 +126,7 @@ export class Requests {
     end(code: 'port-lost' | 'not-connected'): void {
         this.isEnded = true;
         this.cancelTimer();
+        this.endSilence();
         const all = this.current ? [this.current, ...this.queue] : [...this.queue];
         this.current = null;
         this.queue.length = 0;
@@ -115,6 +138,8 @@ export class Requests {
         const request = this.stopDue === 'now' ? this.ownStop() : this.queue.shift();
         if (!request) return;
         this.current = request;
+        if (this.pressed === 'sent') this.pressed = 'asked';
+        this.cancelSilence ??= this.clock.after(ANSWER_MS, () => this.beSilent());
         this.cancelTimer = this.clock.after(request.timeoutMs, () => this.timeOut(request));
         this.line.write(framed(request.text)).catch((cause: unknown) => {
             if (this.current !== request) return;
@@ -128,6 +153,20 @@ export class Requests {
         this.stopDue = 'later';
         const ignore = (): void => undefined;
         return { text: '@stop', timeoutMs: ANSWER_MS, moves: false, stops: true, resolve: ignore, reject: ignore };
+    }
+
+    private beSilent(): void {
+        this.isSilent = true;
+        if (this.pressed === 'no') return;
+        this.pressed = 'no';
+        this.stopDue = 'now';
+        this.next();
+    }
+
+    private endSilence(): void {
+        this.cancelSilence?.();
+        this.cancelSilence = null;
+        this.isSilent = false;
     }
 
     private finish(): void {

@@ -45,8 +45,10 @@ function driven(start: Partial<SessionState>, isHeld = false) {
         connection: () => {
             if (state.get().connection !== 'ready') throw new RobotError('not-connected');
             return {
-                write: async (packet: Uint8Array) => void written.push(packet),
-                requests: { ask: async (text: string) => void asks.push(text.split(' ', 1)[0] ?? '') },
+                requests: {
+                    packet: async (packet: Uint8Array) => void written.push(packet),
+                    ask: async (text: string) => void asks.push(text.split(' ', 1)[0] ?? ''),
+                },
             } as unknown as Connection;
         },
         becomeDriven,
