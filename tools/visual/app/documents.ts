@@ -9,7 +9,7 @@ import type { HistoryLog, StepsChange } from '../model/history-log.ts';
 import type { Edited, History } from '../model/history.ts';
 import { NO_HISTORY } from '../model/history.ts';
 import type { Backup, DocumentStorage, KeptDocument } from '../view/document-storage.ts';
-import type { Documents, DocumentsState } from '../view/session/documents.ts';
+import type { DocumentEntry, Documents, DocumentsState } from '../view/session/documents.ts';
 import { Store } from '../view/store.ts';
 import { TEXTS } from '../view/texts/texts.ts';
 import type { Release } from './hold-document.ts';
@@ -74,7 +74,7 @@ export class KeptDocuments implements Documents {
         const kept = await this.load();
         this.state.set({ backups: [...kept.backups].sort((a, b) => b.takenMs - a.takenMs), unreadable: kept.unreadable });
         const [newest] = [...kept.documents].sort(NEWEST_FIRST);
-        this.state.set({ documents: kept.documents.map(entryOf) });
+        this.state.set({ documents: numbered(kept.documents.map(entryOf)) });
         if (!newest) return this.create(first.name, first);
         await this.turns.run(() => this.take(newest.id));
         if (this.state.get().openId === '') await this.create(first.name, first); // another tab has just deleted it
@@ -212,10 +212,10 @@ export class KeptDocuments implements Documents {
         const isHeld = await this.lock(id);
         const kept = await this.find(id); // now that nobody else stores it
         if (!kept || mine !== this.chosen) return this.letGo(id);
-        const document = documentFrom(kept.image, kept.name);
+        const document = documentFrom(kept.image, this.free(kept.name, id));
         if (!isHeld) {
             const name = copyName(
-                kept.name,
+                document.name,
                 this.state.get().documents.map(one => one.name),
                 TEXTS.document.copyWord,
             );
@@ -291,6 +291,13 @@ export class KeptDocuments implements Documents {
     }
 }
 
-function entryOf({ id, name, savedMs }: KeptDocument): { id: string; name: string; savedMs: number } {
+/** Two tabs may have given the same name. */
+function numbered(entries: readonly DocumentEntry[]): DocumentEntry[] {
+    const names = entries.map(({ name }) => name);
+    for (const [i, name] of names.entries()) if (names.indexOf(name) < i) names[i] = freeName(name, names);
+    return entries.map((entry, i) => ({ ...entry, name: names[i] ?? entry.name }));
+}
+
+function entryOf({ id, name, savedMs }: KeptDocument): DocumentEntry {
     return { id, name, savedMs };
 }

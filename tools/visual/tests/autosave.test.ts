@@ -291,6 +291,27 @@ test('a copy for a second tab is kept from its first edit on: tabs that only loo
     expect(third.editor.page(3).name).toBe('mine');
 });
 
+test('documents of one name that two tabs have made: each is kept with its edits, and the next tab tells them apart', async () => {
+    const disk = new PassingStorage();
+    const first = await openTab(disk);
+    const taken = first.documents.state.get().openId;
+    const tabs = [await openTab(disk, { taken }), await openTab(disk, { taken }), first, await openTab(disk, { taken })];
+    for (const { documents } of tabs.slice(2)) await documents.create('Dances');
+    for (const [i, { editor }] of tabs.entries()) editor.dispatch(editor.edits.rename(now(editor), 2, `tab${i}`));
+    await settle();
+    const { documents, editor } = await openTab(disk);
+    const list = documents.state.get().documents;
+    expect(list.map(one => one.name).sort()).toEqual(['Dances', 'Dances (2)', 'My motions', 'My motions (copy)', 'My motions (copy) (2)']);
+    const opened: string[] = [];
+    for (const { id, name } of list) {
+        await documents.open(id);
+        expect(now(editor).name).toBe(name);
+        opened.push(editor.page(2).name);
+    }
+    expect(opened.sort()).toEqual(['bow', 'tab0', 'tab1', 'tab2', 'tab3']);
+    expect(documents.state.get().documents).toEqual(list); // nothing was stored by looking
+});
+
 test('a copy that was not edited is no document to go back to', async () => {
     const disk = new PassingStorage();
     const { documents } = await openTab(disk);
