@@ -883,6 +883,20 @@ def test_ctrl_c_during_the_imports_is_no_traceback(tmp_path):
     assert (done.returncode, done.stderr) == (130, b"m512: stopped\n")
 
 
+def test_ctrl_c_during_the_imports_is_not_lost(tmp_path):
+    """Python drops an exception in a callback of the import system or in a destructor, and shows where it was."""
+    (tmp_path / "click.py").write_text("""if True:
+        import os, signal
+        class Callback:
+            def __del__(self):
+                os.kill(os.getpid(), signal.SIGINT)
+                for _ in range(1000):  # Python raises KeyboardInterrupt between two steps
+                    pass
+        Callback()""")
+    done = run("--help", env={**os.environ, "PYTHONPATH": str(tmp_path)})
+    assert (done.returncode, done.stderr) == (-signal.SIGINT, b"")
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 @pytest.mark.parametrize(
     "words, ignored", [(["pages", "x.bin", "list"], False), (["pages", "none.bin", "list"], False), (["pages", "x.bin", "list"], True)]
