@@ -75,11 +75,13 @@ def test_convert_12_bit_there_and_back_is_within_rounding():
     assert down.to_bytes() == image.to_bytes() and up[1].word(0, 0) == 341  # 2048 - 512 / 0.3
 
 
-@pytest.mark.parametrize("steps", [0, 2])
+@pytest.mark.parametrize("steps", [0, 2, 3, 7])
 def test_a_trim_is_scaled_with_the_positions(m512, tmp_path, steps):
-    """100 and -5 units of 10 bits are 29.3 and -1.5 degrees, which 12 bits express by 333 and -17 units of 0.088 degrees."""
+    """100 and -5 units of 10 bits are 29.3 and -1.5 degrees, which 12 bits express by 333 and -17 units of 0.088 degrees. Page 0 is no
+    motion, however many steps it says."""
     image = Image.empty()
     image[0].steps = steps
+    image[0].set_word(6, 4, 800)
     for joint, words in {1: (0x4000, 0x4000, 100), 2: (0x4000, 0x4000, -5 & 0xFFFF), 3: (512, 501, -11 & 0xFFFF)}.items():
         for step, word in enumerate(words):
             image[0].set_word(step, joint, word)
@@ -90,6 +92,7 @@ def test_a_trim_is_scaled_with_the_positions(m512, tmp_path, steps):
     page = scaled[0]
     assert page.trims()[:4] == [0, 333, -17, -37] and "3 trims of page 0 scaled" in result.stderr, result.stderr
     assert [page.word(step, 3) for step in (0, 1)] == [2048, 2011] and not page.fault(scaled.kind), "501 is 11 units from 512, 36.7 of 12 bits"
+    assert page.word(6, 4) == (3008 if steps == 7 else 800)
     m512("convert", tmp_path / "y.bin", tmp_path / "z.bin", "--bits", "12", "--scale", "10")
     assert (tmp_path / "z.bin").read_bytes() == (tmp_path / "x.bin").read_bytes()
 

@@ -50,7 +50,7 @@ class Client:
         self.link = link
         self.heard = b""  # bytes received when no answer came
         self.version: dict[str, str] = {}
-        self._listed: dict[int, tuple[int | None, str]] | None = None  # cache for find(), which a command calls for each of its words
+        self._listed: dict[int, tuple[int | None, str]] | None = None  # the answer of listed()
         self.slack = 0.0
         for _ in range(TRIES):
             self.version = self._fields(self._ask_version(patience))
@@ -160,12 +160,13 @@ class Client:
 
     def used(self) -> list[int]:
         """Pages that hold something, including damaged ones."""
-        return sorted(self._list())
+        return sorted(self.listed())
 
     def _names(self) -> dict[int, str]:
-        return {number: name for number, (steps, name) in self._list().items() if steps is not None and name}
+        return {number: name for number, (steps, name) in self.listed().items() if steps is not None and name}
 
-    def _list(self) -> dict[int, tuple[int | None, str]]:
+    def listed(self) -> dict[int, tuple[int | None, str]]:
+        """list_pages(), asked once, and again after save_page()."""
         if self._listed is None:
             self._listed = self.list_pages()
         return self._listed

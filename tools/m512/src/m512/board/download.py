@@ -39,7 +39,8 @@ class Report:
         if not self.written:
             return f"all {self.pages} flash pages were there already" if self.pages != 1 else "the flash page was there already"
         again = f", {counted(self.retries, 'repetition')} on the line" if self.retries else ""
-        return f"{self.written} of {counted(self.pages, 'flash page')} written and read back ({self.written * FLASH_PAGE:,} bytes in {self.seconds:.1f} s{again})"
+        how = f"{self.written * FLASH_PAGE:,} bytes in {self.seconds:.1f} s{again}"
+        return f"{self.written} of {counted(self.pages, 'flash page')} written and read back ({how})"
 
 
 def check_board(plan: Plan, loader: Loader) -> None:

@@ -117,7 +117,7 @@ def save_pages(client: Client, image: Image, numbers: list[int], confirm: Callab
     lost = {number: title for number, title in image.beyond(client.pages).items() if number in numbers}
     if lost:
         raise RefusedError(f"{named_pages_text(lost)}: no room among the {client.pages} pages there; give them lower numbers (NAME:NUMBER)")
-    listed, changed, replaced = client.list_pages(), [], []
+    listed, changed, replaced = client.listed(), [], []
     for number in [number for number in numbers if number < client.pages]:
         here, new = number in listed or number == 0, image[number]
         if not here and new.is_empty:

@@ -368,11 +368,10 @@ def put(source: Path, pages: Sequence[str], yes: bool, **options: Any) -> None:
     if goal[0].trim_problem():
         raise RefusedError(f"page 0 of {source}: {goal[0].trim_problem()}")
     with robot(options, image="edit") as client:
-        if operations.loose_links(image, moves, {}, client.pages):
-            titles = {number: "" if steps is None else name for number, (steps, name) in client.list_pages().items()}
-            titles.update({target: goal[target].title for _, target in moves})
-            for remark in operations.loose_links(image, moves, titles, client.pages):
-                ui.say(f"note: {remark}")
+        titles = {number: "" if steps is None else name for number, (steps, name) in client.listed().items()}
+        titles.update({target: goal[target].title for _, target in moves})
+        for remark in operations.loose_links(image, moves, titles, client.pages):
+            ui.say(f"note: {remark}")
         changed = save_pages(client, goal, [target for _, target in moves], lambda question: ui.confirm(question, yes))
     what = "page" if len(changed) == 1 else "pages"
     ui.say(f"saved: {what} {' '.join(map(str, changed)) or 'none, they were there already'}")

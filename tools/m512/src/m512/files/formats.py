@@ -50,7 +50,8 @@ def recognise(data: bytes, path: Path) -> str:
     kind = BY_SUFFIX.get(path.suffix.lower())
     if kind in (None, BINARY):
         raise FileError(
-            f"{path}: {counted(len(data), 'byte')} that {'makes' if len(data) == 1 else 'make'} no motion file this program knows (image, Intel HEX, .mtn, CSV or text)"
+            f"{path}: {counted(len(data), 'byte')} that {'makes' if len(data) == 1 else 'make'} no motion file this program knows "
+            "(image, Intel HEX, .mtn, CSV or text)"
         )
     return kind
 
@@ -63,8 +64,8 @@ def _text_of(data: bytes, path: Path) -> str:
 
 
 def load(path: Path, bits: int | None = None, base: Image | None = None) -> Image:
-    """Reads any motion file. `bits`: 10 or 12; None guesses from the positions, with a note (a text or a table states it). `base`: supplies what
-    the file cannot hold (page 0 of a .mtn)."""
+    """Reads any motion file. `bits`: 10 or 12; None guesses from the positions, with a note (a text or a table states it). `base`: supplies
+    what the file cannot hold (page 0 of a .mtn)."""
     return decode(read_bytes(path), path, bits, base)
 
 
@@ -108,7 +109,8 @@ def _image(kind: str, data: bytes, path: Path, bits: int | None, base: Image | N
 
 
 def save(path: Path, image: Image, number: int | None = None, mtn_version: str = "1.01", kind: str | None = None) -> list[str]:
-    """Writes an image in the format of the path's suffix, or as `kind`. Returns the losses, also those of a file that was replaced. `number`: the page for a CSV."""
+    """Writes an image in the format of the path's suffix, or as `kind`. Returns the losses, also those of a file that was replaced.
+    `number`: the page for a CSV."""
     data, losses = encode(path, image, number, mtn_version, kind)
     return losses + write_bytes(path, data)
 
@@ -141,8 +143,8 @@ def keep_backup(path: Path) -> None:
         return  # no backup, or one that is unreadable already
     if real.name in names:
         raise RefusedError(
-            f"{path} belongs to the backup {real.parent if path.is_symlink() else path.parent}, which stays as it was read from the board. Name another file for the result "
-            "(of `m512 pages`: -o new.bin); `m512 flash new.bin` writes it to the board"
+            f"{path} belongs to the backup {real.parent if path.is_symlink() else path.parent}, which stays as it was read from the board. "
+            "Name another file for the result (of `m512 pages`: -o new.bin); `m512 flash new.bin` writes it to the board"
         )
 
 

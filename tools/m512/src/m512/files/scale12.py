@@ -73,10 +73,10 @@ def scaled(image: Image, bits: int) -> tuple[Image, list[str]]:
         if page.fault() is Fault.CHECKSUM:
             work.damaged.append(number)
             continue
-        if number == 0 and page.steps <= 2:
+        if number == 0:
             work.scale_trim(page)
         else:
-            work.scale_page(number, page, page.steps)
+            work.scale_steps(number, page, range(min(page.steps, STEPS)))
         page.seal()
     return out, work.report(image.bits)
 
@@ -94,9 +94,10 @@ class _Work:
         self.impossible: list[tuple[int, int]] = []  # page, joint
 
     def scale_trim(self, page: Page) -> None:
-        """Page 0 as the robot reads it: two poses, and the trim in the third step. Where the trim is the difference of the poses, it stays so."""
+        """Page 0 as the robot reads it, whatever number of steps it says: two poses, and the trim in the third step. Where the trim is the
+        difference of the poses, it stays so."""
         before, trims = page.copy(), page.trims()
-        self.scale_page(0, page, 2)
+        self.scale_steps(0, page, {0, 1, *range(min(page.steps, STEPS))} - {2})
         for joint, trim in enumerate(trims):
             if trim:
                 master, own = page.word(0, joint), page.word(1, joint)
@@ -104,8 +105,8 @@ class _Work:
                 page.set_word(2, joint, (own - master if is_difference else round_away(self.factor * trim)) & 0xFFFF)
                 self.trims += 1
 
-    def scale_page(self, number: int, page: Page, steps: int) -> None:
-        for step in range(min(steps, STEPS)):
+    def scale_steps(self, number: int, page: Page, steps: Iterable[int]) -> None:
+        for step in steps:
             for joint in range(JOINTS):
                 word = page.word(step, joint)
                 if is_used(word) and word > self.top_in:
