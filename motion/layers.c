@@ -40,9 +40,6 @@ static layers_status_t check_page(layers_t *layers, uint8_t page)
 {
     const page_source_t *source = layers->main->source;
     uint8_t header[PAGE_AT_STEPS + 1u];
-    if (page == 0 || !page_is_there(page)) {
-        return LAYERS_ERR_RANGE;
-    }
     const uint8_t fault = source->check(source->context, page);
     if (fault != PAGE_OK) {
         return refuse(layers, page, fault, LAYERS_ERR_PAGE);
@@ -106,9 +103,6 @@ void layers_end(layers_t *layers)
 static layers_status_t take_for_code(layers_t *layers, uint8_t id, code_slot_t **slot)
 {
     const player_t *main_play = layers->main;
-    if (id >= PAGE_JOINTS) {
-        return LAYERS_ERR_JOINTS;
-    }
     const uint32_t bit = (uint32_t)1 << id;
     if (main_play != NULL && player_is_moving(main_play) && (main_play->present & bit) == 0) {
         return LAYERS_ERR_JOINTS;
@@ -126,9 +120,6 @@ static layers_status_t take_for_code(layers_t *layers, uint8_t id, code_slot_t *
 layers_status_t layers_aim(layers_t *layers, uint8_t id, uint16_t pos, uint16_t deg_s)
 {
     code_slot_t *slot;
-    if (pos > PAGE_POS_MAX || deg_s > LAYERS_SPEED_MAX_DEG_S) {
-        return LAYERS_ERR_RANGE;
-    }
     const layers_status_t status = take_for_code(layers, id, &slot);
     if (status == LAYERS_OK) {
         slot->centre_pos = pos;
@@ -143,9 +134,6 @@ layers_status_t layers_swing(layers_t *layers, uint8_t id, uint16_t centre, uint
                              uint16_t phase_deg)
 {
     code_slot_t *slot;
-    if (phase_deg > 359u || !code_motion_can_swing(centre, amplitude, period_ticks)) {
-        return LAYERS_ERR_RANGE;
-    }
     const layers_status_t status = take_for_code(layers, id, &slot);
     if (status == LAYERS_OK) {
         code_motion_swing(slot, centre, amplitude, period_ticks, phase_deg);

@@ -21,11 +21,9 @@
 #include "player.h"
 
 #define LAYERS_SPEED_DEFAULT_DEG_S 60u
-#define LAYERS_SPEED_MAX_DEG_S 360u
 
 typedef enum {
     LAYERS_OK = 0,
-    LAYERS_ERR_RANGE,    /* a number out of its range, or page 0, or not below PAGE_COUNT */
     LAYERS_ERR_PAGE,     /* the page is damaged: layers.play.fault, .fault_page */
     LAYERS_ERR_EMPTY,    /* the page has no action */
     LAYERS_ERR_JOINTS,   /* none of these joints is there */
@@ -57,9 +55,9 @@ void layers_set_speed(layers_t *layers, uint16_t deg_s);
  * approach). Ends a page layer at once, without slowing down; code-made motion goes on. */
 void layers_bind(layers_t *layers, player_t *main_play);
 
-/* Plays a page on `joints` (0: those that its first step uses), as far as the main play has them and code does not. Plays as
- * stored, by the exact law; follows its pages' next links. A page layer that was on ends first. The page itself must
- * have an action. After an error only play.fault and .fault_page have changed. */
+/* Plays a page, 1..PAGE_COUNT - 1, on `joints` (0: those that its first step uses), as far as the main play has them and
+ * code does not. Plays as stored, by the exact law; follows its pages' next links. A page layer that was on ends first. The
+ * page itself must have an action. After an error only play.fault and .fault_page have changed. */
 MUST_CHECK layers_status_t layers_start(layers_t *layers, uint8_t page, uint32_t joints);
 
 /* Ends the page layer, if there is one; its joints go back to the main play. */
@@ -69,7 +67,7 @@ void layers_end(layers_t *layers);
  * what code did with the joint; a page layer loses it. Needs no main play, but goal_pos[id] must be where the joint is. */
 MUST_CHECK layers_status_t layers_aim(layers_t *layers, uint8_t id, uint16_t pos, uint16_t deg_s);
 
-/* Joint `id` swings: centre + amplitude * sin, which must be possible (code_motion_can_swing; else LAYERS_ERR_RANGE);
+/* Joint `id` swings: centre + amplitude * sin, which must be possible: ask code_motion_can_swing first;
  * period_ticks up to 65535 (1/128 s), phase_deg 0..359 at the beginning. Otherwise as layers_aim. */
 MUST_CHECK layers_status_t layers_swing(layers_t *layers, uint8_t id, uint16_t centre, uint16_t amplitude,
                                         uint16_t period_ticks, uint16_t phase_deg);

@@ -23,11 +23,6 @@ void player_init(player_t *player, const page_source_t *source, player_joint_t j
     *player = (player_t){.source = source, .joint = joint};
 }
 
-void player_set_shape(player_t *player, const shape_t *shape)
-{
-    player->shape = shape;
-}
-
 /* --- goals -------------------------------------------------------------------------------------------------------- */
 
 static bool moves_by_classic(const player_t *player)

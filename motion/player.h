@@ -23,9 +23,6 @@ typedef enum {
 /* Makes an idle player. The source and the array of PAGE_JOINTS joints stay the caller's. */
 void player_init(player_t *player, const page_source_t *source, player_joint_t joint[PAGE_JOINTS]);
 
-/* Sets the shape, which applies from the next step that the player reads; NULL: play as stored. Any time. */
-void player_set_shape(player_t *player, const shape_t *shape);
-
 /* Starts at step 1 of `page`.
  * link     : what codes and stops do to the play, after link_call; NULL: a play without codes, which follows the next links
  * pose_pos : where the joints are, page coordinates. A joint may start outside 0..1023 by as much as its trim (-300..1323,

@@ -66,7 +66,7 @@ typedef struct {
 typedef struct {
     /* Given by the caller. */
     const page_source_t *source;
-    const shape_t *shape;           /* NULL: plays as stored */
+    const shape_t *shape;           /* applies from the next step that the player reads; NULL: plays as stored. Any time */
     player_joint_t *joint;
     /* Read only for callers. */
     player_step_t now;              /* the step that plays */

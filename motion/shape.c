@@ -18,46 +18,15 @@ void shape_init(shape_t *shape)
     shape->top_speed_q4_4 = 0;
 }
 
-shape_status_t shape_set_rate(shape_t *shape, uint16_t percent)
+void shape_set_amplitude(shape_t *shape, uint8_t percent, uint32_t joints)
 {
-    if (percent < SHAPE_RATE_MIN || percent > SHAPE_RATE_MAX) {
-        return SHAPE_ERR_RANGE;
-    }
-    shape->rate_percent = percent;
-    return SHAPE_OK;
-}
-
-shape_status_t shape_set_amplitude(shape_t *shape, uint16_t percent, uint32_t joints)
-{
-    if (percent > SHAPE_AMPLITUDE_MAX || joints == 0) {
-        return SHAPE_ERR_RANGE;
-    }
     shape->scales = false;
     for (uint8_t i = 0; i < PAGE_JOINTS; i++, joints >>= 1) {
         if (((uint8_t)joints & 1u) != 0) {
-            shape->amplitude_percent[i] = (uint8_t)percent;
+            shape->amplitude_percent[i] = percent;
         }
         shape->scales |= shape->amplitude_percent[i] != SHAPE_NORMAL;
     }
-    return SHAPE_OK;
-}
-
-shape_status_t shape_set_blend(shape_t *shape, int16_t percent)
-{
-    if (percent < -SHAPE_BLEND_MAX || percent > SHAPE_BLEND_MAX) {
-        return SHAPE_ERR_RANGE;
-    }
-    shape->blend_percent = (int8_t)percent;
-    return SHAPE_OK;
-}
-
-shape_status_t shape_set_centre(shape_t *shape, uint8_t page)
-{
-    if (!page_is_there(page)) {
-        return SHAPE_ERR_RANGE;
-    }
-    shape->centre_page = page;
-    return SHAPE_OK;
 }
 
 void shape_set_voltage(shape_t *shape, uint8_t decivolts)

@@ -8,7 +8,6 @@
 
 #include <stdbool.h>
 #include <stdint.h>
-#include "compiler.h"
 #include "page.h"
 
 #define SHAPE_RATE_MIN 10u
@@ -18,16 +17,13 @@
 #define SHAPE_NORMAL 100u          /* percent: rate and amplitude as stored */
 #define SHAPE_CENTRE_DEFAULT 1u    /* page whose step 1 is the centre pose */
 
-typedef enum {
-    SHAPE_OK = 0,
-    SHAPE_ERR_RANGE /* the number is out of its range; nothing changed */
-} shape_status_t;
-
-/* Read freely; write through the functions. */
+/* Nothing here checks a range: the shell does, before it calls. */
 typedef struct {
+    /* Write at any time. */
     uint16_t rate_percent;                       /* 10..400 */
     int8_t blend_percent;                        /* -100..100 */
-    uint8_t centre_page;                         /* 1..PAGE_COUNT - 1; 0: no centre pose, no joint is scaled */
+    uint8_t centre_page;                         /* 0, or a page that is not there: no centre pose, no joint is scaled */
+    /* Read only for callers. */
     uint8_t top_speed_q4_4;                      /* servo units a tick; 0: no limit */
     bool scales;                                 /* some amplitude is not 100 */
     uint8_t amplitude_percent[PAGE_JOINTS];      /* 0..150 */
@@ -39,11 +35,8 @@ void shape_reset(shape_t *shape);
 /* Rate, amplitude and blend 100, 100, 0; centre page 1; no limit until the voltage is known. */
 void shape_init(shape_t *shape);
 
-/* The ranges are those of shape_t. joints: bit per joint; at least one. page: 0..PAGE_COUNT - 1. */
-MUST_CHECK shape_status_t shape_set_rate(shape_t *shape, uint16_t percent);
-MUST_CHECK shape_status_t shape_set_amplitude(shape_t *shape, uint16_t percent, uint32_t joints);
-MUST_CHECK shape_status_t shape_set_blend(shape_t *shape, int16_t percent);
-MUST_CHECK shape_status_t shape_set_centre(shape_t *shape, uint8_t page);
+/* percent: 0..150. joints: bit per joint. */
+void shape_set_amplitude(shape_t *shape, uint8_t percent, uint32_t joints);
 
 /* Sets the limit from the battery's present voltage, 0.1 V (a servo's register 42): 90 % of the top speed of an AX-12, which
  * is 8.7 units a tick at 11.1 V, in proportion to the voltage (SHAPING.md). 0: not known, no limit. */

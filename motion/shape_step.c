@@ -6,6 +6,7 @@
  * Halves are rounded away from c, so that a mirrored motion stays mirrored. A joint without a centre is not scaled: c is p.
  * Ranges: 100 p1, 100 c <= 102,300; d <= 150 * 102,300 = 15,345,000. */
 #include "shape_step.h"
+#include "compiler.h"
 #include "mul.h"
 
 #define WHOLE 10000u

@@ -18,7 +18,7 @@ static void fresh_player(performer_t *performer)
 {
     player_t *player = &performer->player;
     player_init(player, performer->source, performer->joint);
-    player_set_shape(player, &performer->shape);
+    player->shape = &performer->shape;
 }
 
 void performer_init(performer_t *performer, const page_source_t *source, servo_link_t *servos,

@@ -140,21 +140,14 @@ void performer_layers_pause(performer_t *performer, bool pause)
 
 /* ---- driving by a program: if it falls silent, the play stops ---- */
 
-bool performer_drive(performer_t *performer, int16_t blend, uint16_t rate, uint16_t amplitude)
+void performer_drive(performer_t *performer, int8_t blend, uint16_t rate, uint8_t amplitude)
 {
-    shape_t *shape = &performer->shape;
-    const int8_t blend_before = shape->blend_percent;
-    const uint16_t rate_before = shape->rate_percent;
-    if (shape_set_blend(shape, blend) != SHAPE_OK || shape_set_rate(shape, rate) != SHAPE_OK ||
-        shape_set_amplitude(shape, amplitude, SERVO_LINK_ALL) != SHAPE_OK) {
-        shape->blend_percent = blend_before;
-        shape->rate_percent = rate_before;
-        return false;
-    }
+    performer->shape.blend_percent = blend;
+    performer->shape.rate_percent = rate;
+    shape_set_amplitude(&performer->shape, amplitude, SERVO_LINK_ALL);
     /* 12.8 ticks per 0.1 s. */
     performer->drive_left_ticks = (uint16_t)(performer->settings->drive_ds * (PLAYER_TICKS_PER_SECOND / 2) / 5);
     performer->is_driven = true;
-    return true;
 }
 
 bool performer_drive_is_lost(performer_t *performer)
@@ -174,7 +167,7 @@ void performer_drive_end(performer_t *performer)
 void performer_shape_follow(performer_t *performer)
 {
     const uint8_t now_dv = performer->servos->voltage_dv;
-    (void)!shape_set_centre(&performer->shape, performer->settings->centre_page);
+    performer->shape.centre_page = performer->settings->centre_page;
     if (now_dv != performer->shape_voltage_dv) {
         performer->shape_voltage_dv = now_dv;
         shape_set_voltage(&performer->shape, now_dv);

@@ -26,9 +26,9 @@ uint8_t performer_layer_page(const performer_t *performer);     /* 0: none */
  * from the play. */
 MUST_CHECK layers_status_t performer_take_for_code(performer_t *performer, uint8_t id);
 
-/* Sets blend, rate and amplitude (of all joints) in percent, until the play ends. false: one is out of range; none is set.
- * The next call must come within the setting `drive`; otherwise the play ends through its exit page. */
-MUST_CHECK bool performer_drive(performer_t *performer, int16_t blend, uint16_t rate, uint16_t amplitude);
+/* Sets blend, rate and amplitude (of all joints) in percent, in the ranges of shape_t, until the play ends. The next call
+ * must come within the setting `drive`; otherwise the play ends through its exit page. */
+void performer_drive(performer_t *performer, int8_t blend, uint16_t rate, uint8_t amplitude);
 
 /* ---- for performer*.c ---- */
 

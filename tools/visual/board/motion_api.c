@@ -7,7 +7,7 @@
 #include "page_edit.h"
 #include "player.h"
 #include "remote.h"
-#include "shape.h"
+#include "shape_of.h"
 #include "step_ticks.h"
 
 static struct {
@@ -212,10 +212,7 @@ uint32_t motion_api_first_pose(int page)
 bool motion_api_shape(int rate_percent, int amplitude_percent, int blend_percent)
 {
     shape_t shape;
-    shape_init(&shape);
-    if (rate_percent < 0 || amplitude_percent < 0 || shape_set_rate(&shape, (uint16_t)rate_percent) != SHAPE_OK ||
-        shape_set_amplitude(&shape, (uint16_t)amplitude_percent, UINT32_MAX) != SHAPE_OK ||
-        shape_set_blend(&shape, (int16_t)blend_percent) != SHAPE_OK) {
+    if (!shape_of(&shape, rate_percent, amplitude_percent, blend_percent)) {
         return false;
     }
     api.shape = shape;
@@ -306,7 +303,7 @@ int motion_api_start(int page, int law, int mode, int code, uint32_t present)
     }
     player_init(&api.player, &source, api.joint);
     memcpy(api.goal_pos, api.pose, sizeof api.goal_pos);
-    player_set_shape(&api.player, shape_now());
+    api.player.shape = shape_now();
     link_init(&api.link, mode ? LINK_HOLD : LINK_LATCH);
     link_call(&api.link, (uint8_t)code);
     return (int)player_start(&api.player, &api.link, (uint8_t)page, law ? PLAYER_LAW_CLASSIC : PLAYER_LAW_EXACT,

@@ -3,6 +3,7 @@
 
 #include "imported_body.h"
 #include "quick.h"
+#include "shape_of.h"
 
 #define BITS_PER_SECOND 1000000u /* of an AX-12 */
 
@@ -43,10 +44,7 @@ void trial_api_stand(void)
 bool trial_api_shape(int rate, int amplitude, int blend)
 {
     shape_t shape;
-    shape_init(&shape);
-    if (!api.robot || rate < 0 || amplitude < 0 || shape_set_rate(&shape, (uint16_t)rate) != SHAPE_OK ||
-        shape_set_amplitude(&shape, (uint16_t)amplitude, UINT32_MAX) != SHAPE_OK ||
-        shape_set_blend(&shape, (int16_t)blend) != SHAPE_OK) {
+    if (!api.robot || !shape_of(&shape, rate, amplitude, blend)) {
         return false;
     }
     quick_shape(api.robot, &shape);
