@@ -20,7 +20,7 @@ async function start(): Promise<void> {
     if (typeof WebAssembly === 'undefined') return; // old-browser.js says so
     const [body, parts, storage] = await Promise.all([robotBody(), editorParts(), documentStorage()]);
     const session = new RobotSession(body, parts, fileFormats(), storage);
-    document.addEventListener('visibilitychange', takeTyped); // the last event that a page receives, also on reload
+    document.addEventListener('visibilitychange', () => leave(storage)); // the last event that a page receives, also on reload
     window.addEventListener('beforeunload', event => losesWork(session) && event.preventDefault());
     await Promise.all([session.start(), show(session, parts)]); // the robot starts in its worker while the page is built
     keepOffline(session);
@@ -32,10 +32,11 @@ function losesWork({ documents, state }: RobotSession): boolean {
 }
 
 /** Commits a half-typed field as if the person had left it. */
-function takeTyped(): void {
+function leave({ storage }: ChosenStorage): void {
+    if (document.visibilityState !== 'hidden') return;
     const field = document.activeElement;
-    if (document.visibilityState === 'hidden' && field?.matches('input[type=text], input[type=number]'))
-        field.dispatchEvent(new Event('change'));
+    if (field?.matches('input[type=text], input[type=number]')) field.dispatchEvent(new Event('change'));
+    storage.leave();
 }
 
 async function show(session: RobotSession, parts: EditorParts): Promise<void> {

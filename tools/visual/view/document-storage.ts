@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Documents and backups of robots in the browser's IndexedDB. A put is issued completely and its transaction committed before the call
-// returns, so it survives a tab that closes right afterwards.
+// returns, so it survives a tab that closes right afterwards, unless it waits for another one: leave() is for those.
 
 import type { StepsChange } from '../model/history-log.ts';
 import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
+import { LastPuts } from './last-puts.ts';
 import { TEXTS } from './texts/texts.ts';
 
 /** A stored document. */
@@ -43,6 +44,13 @@ export interface DocumentStorage {
     readSteps(id: string): Promise<readonly unknown[]>;
     putBackup(backup: Backup): Promise<void>;
     removeDocument(id: string): Promise<void>;
+    /** The page may be gone before all that was put is stored. */
+    leave(): void;
+}
+
+interface Put {
+    readonly document: KeptDocument;
+    readonly steps: StepsChange;
 }
 
 /** Name of the simulated robot in backups. */
@@ -98,9 +106,13 @@ export function sortKept(documents: readonly unknown[], backups: readonly unknow
 
 export class BrowserStorage implements DocumentStorage {
     private readonly database: IDBDatabase;
+    private readonly last: LastPuts<Put>;
+    /** Not stored yet, oldest first. */
+    private readonly waiting = new Set<Put>();
 
-    private constructor(database: IDBDatabase) {
+    private constructor(database: IDBDatabase, last: LastPuts<Put>) {
         this.database = database;
+        this.last = last;
     }
 
     /** Rejects when the browser stores nothing (private window, full disk). */
@@ -111,10 +123,12 @@ export class BrowserStorage implements DocumentStorage {
             for (const [store, keyPath] of Object.entries(KEYS))
                 if (!there.contains(store)) asked.result.createObjectStore(store, { keyPath });
         };
-        return new BrowserStorage(await opened(asked));
+        const database = await opened(asked);
+        return new BrowserStorage(database, await LastPuts.open());
     }
 
     async load(): Promise<Kept> {
+        await this.recover();
         const transaction = this.database.transaction([DOCUMENTS, BACKUPS]);
         const [documents, backups] = await Promise.all(
             [DOCUMENTS, BACKUPS].map(store => done(transaction.objectStore(store).getAll() as IDBRequest<unknown[]>)),
@@ -123,17 +137,44 @@ export class BrowserStorage implements DocumentStorage {
     }
 
     async readDocument(id: string): Promise<KeptDocument | undefined> {
+        await this.recover(); // another tab may have been closed meanwhile
         const asked = this.database.transaction(DOCUMENTS).objectStore(DOCUMENTS).get(id) as IDBRequest<unknown>;
         return sortKept([await done(asked)], []).documents[0];
     }
 
-    putDocument(document: KeptDocument, { dropBefore, dropFrom, add }: StepsChange): Promise<void> {
+    async putDocument(document: KeptDocument, steps: StepsChange): Promise<void> {
+        const put = { document, steps };
+        this.waiting.add(put);
+        try {
+            await this.write(store => issue(store, put));
+        } finally {
+            this.waiting.delete(put);
+        }
+        if (this.waiting.size === 0) this.last.clear();
+    }
+
+    leave(): void {
+        this.last.keep([...this.waiting]);
+    }
+
+    /** Stores what pages had not stored when they were left. What cannot be stored stays for the next time. */
+    private async recover(): Promise<void> {
+        try {
+            for (const { page, puts } of await this.last.all()) {
+                for (const put of puts) await this.putAgain(put);
+                this.last.forget(page);
+            }
+        } catch {
+            return; // a full disk must not keep the documents from being read
+        }
+    }
+
+    /** Unless it is stored, and something newer too. */
+    private putAgain(put: Put): Promise<void> {
         return this.write(store => {
-            store(DOCUMENTS).put(document);
-            store(STEPS).delete(stepsIn(document.id, dropFrom, Infinity));
-            if (dropBefore > 0) store(STEPS).delete(stepsIn(document.id, 0, dropBefore)); // an empty range is an error
-            for (const step of add) store(STEPS).put({ ...step, document: document.id });
-        });
+            const asked = store(DOCUMENTS).get(put.document.id) as IDBRequest<Partial<KeptDocument> | undefined>;
+            asked.onsuccess = () => (asked.result?.savedMs ?? 0) <= put.document.savedMs && issue(store, put);
+        }, false);
     }
 
     readSteps(id: string): Promise<readonly unknown[]> {
@@ -156,15 +197,25 @@ export class BrowserStorage implements DocumentStorage {
         });
     }
 
-    private write(action: (store: (name: string) => IDBObjectStore) => unknown): Promise<void> {
+    /** isAll: nothing is added when the first answers come. */
+    private write(action: (store: Stores) => unknown, isAll = true): Promise<void> {
         return new Promise((resolve, reject) => {
             const transaction = this.database.transaction(Object.keys(KEYS), 'readwrite');
             transaction.oncomplete = () => resolve();
             transaction.onabort = transaction.onerror = () => reject(transaction.error ?? new Error('nothing was kept'));
             action(name => transaction.objectStore(name));
-            transaction.commit();
+            if (isAll) transaction.commit();
         });
     }
+}
+
+type Stores = (name: string) => IDBObjectStore;
+
+function issue(store: Stores, { document, steps: { dropBefore, dropFrom, add } }: Put): void {
+    store(DOCUMENTS).put(document);
+    store(STEPS).delete(stepsIn(document.id, dropFrom, Infinity));
+    if (dropBefore > 0) store(STEPS).delete(stepsIn(document.id, 0, dropBefore)); // an empty range is an error
+    for (const step of add) store(STEPS).put({ ...step, document: document.id });
 }
 
 /** For browsers that store nothing: keeps everything while the page is open. */
@@ -203,4 +254,6 @@ export class PassingStorage implements DocumentStorage {
         this.steps.delete(id);
         return Promise.resolve();
     }
+
+    leave(): void {} // all is lost with the page, which asks
 }

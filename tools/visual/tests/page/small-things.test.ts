@@ -90,6 +90,52 @@ test('menus, Ctrl+A, F6, a joint spoken, double clicks on "Add step" and Play, a
     await person.leave();
 });
 
+/** In the browser: keeps the database of the documents busy until the page is left, as a slow disk does. */
+function keepDiskBusy(): Promise<void> {
+    return new Promise(resolve => {
+        const opened = indexedDB.open('motion512-editor');
+        opened.onsuccess = () => {
+            const store = opened.result.transaction(['documents', 'steps'], 'readwrite').objectStore('documents');
+            const goOn = (): void => store.count().addEventListener('success', goOn);
+            goOn();
+            resolve();
+        };
+    });
+}
+
+test('edits that still wait for the disk when the page is left are there the next time, and can be undone', async () => {
+    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
+    const { page } = person;
+    await person.open('Steps');
+    const name = page.getByRole('textbox', { name: 'Name of the motion' });
+    const rename = async (to: string): Promise<void> => {
+        await name.fill(to);
+        await name.press('Enter');
+    };
+    await rename('stored');
+    const saving = page.getByRole('status', { name: 'Autosave' });
+    await saving.filter({ hasText: /saved$/ }).waitFor();
+    await page.evaluate(keepDiskBusy);
+    await rename('waits');
+    await saving.filter({ hasText: /^saving/ }).waitFor();
+    await name.fill('unfinished'); // without Enter or leaving the field
+    for (let visit = 0; visit < 2; visit++) {
+        await page.reload();
+        await person.open('Steps');
+        expect(await name.inputValue()).toBe('unfinished');
+    }
+    for (const before of ['waits', 'stored', '']) {
+        await page.getByRole('button', { name: /^Undo: name/ }).click();
+        expect(await name.inputValue()).toBe(before);
+    }
+    await rename('later');
+    await saving.filter({ hasText: /saved$/ }).waitFor();
+    await page.reload();
+    await person.open('Steps');
+    expect(await name.inputValue()).toBe('later');
+    await person.leave();
+});
+
 test('whoever leaves is asked exactly when the browser keeps nothing', async () => {
     for (const isKept of [true, false]) {
         const person = await Visitor.come(suite.browser, suite.address, {

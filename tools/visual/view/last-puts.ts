@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// What was not stored yet when a page was left. The browser drops a transaction with the page if it still waits for another one, so this has
+// a database of its own, in which none waits.
+
+const DATABASE = 'motion512-last';
+const STORE = 'pages';
+
+/** What one page has left. */
+export interface Left<Put> {
+    readonly page: string;
+    /** Oldest first. */
+    readonly puts: readonly Put[];
+}
+
+export class LastPuts<Put> {
+    private readonly page = `${Date.now()} ${Math.random()}`;
+    private readonly database: IDBDatabase;
+    private hasKept = false;
+
+    private constructor(database: IDBDatabase) {
+        this.database = database;
+    }
+
+    /** Rejects when the browser stores nothing. */
+    static open<Put>(): Promise<LastPuts<Put>> {
+        return new Promise((resolve, reject) => {
+            const asked = indexedDB.open(DATABASE, 1);
+            asked.onupgradeneeded = () => asked.result.createObjectStore(STORE, { keyPath: 'page' });
+            asked.onsuccess = () => resolve(new LastPuts(asked.result));
+            asked.onerror = () => reject(asked.error);
+        });
+    }
+
+    /** Keeps what this page has not stored yet, instead of what it has kept before. */
+    keep(puts: readonly Put[]): void {
+        if (puts.length === 0) return;
+        this.hasKept = true;
+        const left: Left<Put> = { page: this.page, puts };
+        this.write(store => store.put(left));
+    }
+
+    /** This page has stored all. */
+    clear(): void {
+        if (!this.hasKept) return;
+        this.hasKept = false;
+        this.forget(this.page);
+    }
+
+    forget(page: string): void {
+        this.write(store => store.delete(page));
+    }
+
+    /** Of all pages, open ones too. */
+    all(): Promise<readonly Left<Put>[]> {
+        return new Promise((resolve, reject) => {
+            const asked = this.database.transaction(STORE).objectStore(STORE).getAll() as IDBRequest<Left<Put>[]>;
+            asked.onsuccess = () => resolve(asked.result);
+            asked.onerror = () => reject(asked.error);
+        });
+    }
+
+    private write(action: (store: IDBObjectStore) => unknown): void {
+        const transaction = this.database.transaction(STORE, 'readwrite');
+        action(transaction.objectStore(STORE));
+        transaction.commit();
+    }
+}
