@@ -21,6 +21,12 @@ static uint16_t word_at(const uint8_t *bytes)
     return bytes[0] | bytes[1] << 8;
 }
 
+/* The servo's own present position, in a table from READ_FROM on. */
+static uint16_t present_in(const uint8_t table[READ_BYTES])
+{
+    return word_at(table + (DXL_AT_PRESENT - READ_FROM)) & 1023u;
+}
+
 /* ---- one servo after the other ---- */
 
 /* Acts on one servo. true: success. */
@@ -162,9 +168,8 @@ static bool read_table(servo_link_t *link, uint8_t id, uint8_t table[READ_BYTES]
     if (!heard) {
         return false;
     }
-    uint16_t pos = word_at(table + (DXL_AT_PRESENT - READ_FROM)) & 1023u;
     bool on = table[0] != 0 && word_at(table + (DXL_AT_TORQUE_LIMIT - READ_FROM)) != 0;
-    link->present_pos[id] = servo_link_to_page(link, id, pos);
+    link->present_pos[id] = servo_link_to_page(link, id, present_in(table));
     servo_link_put(&link->torque, id, on);
     return true;
 }
@@ -183,7 +188,7 @@ uint32_t servo_link_read_pose(servo_link_t *link, uint32_t ids)
 /* Makes the present position the goal, so that the servo does not move, and reads it back. */
 static bool hold_still(servo_link_t *link, uint8_t id, uint8_t table[READ_BYTES])
 {
-    const uint16_t pos = word_at(table + (DXL_AT_PRESENT - READ_FROM)) & 1023u;
+    const uint16_t pos = present_in(table);
     return write_one(link, id, DXL_AT_GOAL, pos, 2) && read_table(link, id, table) &&
            word_at(table + (DXL_AT_GOAL - READ_FROM)) == pos;
 }
@@ -248,10 +253,9 @@ bool servo_link_engage(servo_link_t *link, uint8_t id, uint16_t *pos)
     if (!switch_on(link, id, table)) {
         return false;
     }
-    const uint8_t *present = table + (DXL_AT_PRESENT - READ_FROM);
-    *pos = (uint16_t)((word_at(present) & 1023u) - (uint16_t)link->trim_pos[id]);
+    *pos = (uint16_t)(present_in(table) - (uint16_t)link->trim_pos[id]);
     if (word_at(speed) != 0) {
-        memcpy(goal, present, 2);
+        memcpy(goal, table + (DXL_AT_PRESENT - READ_FROM), 2);
         memset(speed, 0, 2);
     }
     return servo_link_write(link, id, DXL_AT_GOAL, goal, 4);
