@@ -5,19 +5,16 @@
  * pays only for the length it needs.
  *
  * Keys: BS (0x08) and DEL (0x7F) delete. CR, LF and CR LF each end a line once. Ctrl-A (0x01) and arrow-up replace the line
- * by the one typed before (again: the one before that); arrow-down goes back. Ctrl-U (0x15) empties the line. Other escape
- * sequences and control characters have no effect. A lone ESC does not swallow the next key: the rest of a sequence follows
- * at once, a typed key later (shell_quiet). Words are separated by any number of space , . : ; (edit/ORIGINAL.md section 5).
- * Case does not matter. */
+ * by the one typed before (again: the one before that); arrow-down goes back. Ctrl-C (0x03) and Ctrl-U (0x15) empty the
+ * line; in Edit, Ctrl-C leaves it (editor_keys.c). Other escape sequences and control characters have no effect. A lone ESC
+ * does not swallow the next key: the rest of a sequence follows at once, a typed key later (shell_quiet). Words are
+ * separated by any number of space , . : ; (edit/ORIGINAL.md section 5). Case does not matter. */
 #ifndef SHELL_H
 #define SHELL_H
 
 #include <stdbool.h>
 #include <stdint.h>
 #include "compiler.h"
-
-/* Play and Monitor take the first as the second; Edit leaves the line. */
-enum { SHELL_CTRL_C = 0x03, SHELL_CTRL_U = 0x15 };
 
 /* The result of a byte. */
 typedef enum {

@@ -8,11 +8,12 @@
 
 enum {
     KEY_RECALL = 0x01, /* Ctrl-A */
+    KEY_CTRL_C = 0x03,
     KEY_BEL = 0x07,
     KEY_BS = 0x08,
     KEY_LF = 0x0A,
     KEY_CR = 0x0D,
-    KEY_EMPTY = SHELL_CTRL_U,
+    KEY_CTRL_U = 0x15,
     KEY_ESC = 0x1B,
     KEY_DEL = 0x7F
 };
@@ -167,7 +168,7 @@ static void control_key(shell_t *shell, uint8_t byte)
         rub_out(shell);
     } else if (byte == KEY_RECALL) {
         recall(shell, shell->recalled + 1);
-    } else if (byte == KEY_EMPTY) {
+    } else if (byte == KEY_CTRL_C || byte == KEY_CTRL_U) {
         empty_line(shell);
     }
 }

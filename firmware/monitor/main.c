@@ -17,7 +17,7 @@ static void put(char character)
 
 static void take(uint8_t byte)
 {
-    shell_event_t event = shell_byte(&shell, byte == SHELL_CTRL_C ? SHELL_CTRL_U : byte);
+    shell_event_t event = shell_byte(&shell, byte);
     if (event == SHELL_TYPING) {
         return;
     }

@@ -154,7 +154,7 @@ static void end_all_the_same(end_t end)
 
 static void type(uint8_t byte)
 {
-    const shell_event_t event = shell_byte(&the_play.shell, byte == SHELL_CTRL_C ? SHELL_CTRL_U : byte);
+    const shell_event_t event = shell_byte(&the_play.shell, byte);
     if (event == SHELL_TYPING) {
         return;
     }

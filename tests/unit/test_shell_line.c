@@ -55,9 +55,9 @@ static void test_shell_too_long_line_is_refused_not_cut(void)
     TEST_ASSERT_EQUAL_UINT8(SHELL_LINE, keys("ok\r"));
 }
 
-static void test_shell_ctrl_u_empties_the_line(void)
+static void test_shell_ctrl_c_and_ctrl_u_empty_the_line(void)
 {
-    keys("123456789012345678901\x15ok");
+    keys("123456789012345678901\x15no\x03ok");
     TEST_ASSERT_EQUAL_UINT8(SHELL_LINE, keys("\r"));
     TEST_ASSERT_EQUAL_STRING("ok", line);
 }
@@ -93,7 +93,7 @@ static void test_shell_line_end_breaks_off_an_escape_sequence(void)
 
 static void test_shell_other_controls_and_8_bit_are_ignored(void)
 {
-    keys("a\tb\x03\x80\xE4\xFE" "c");
+    keys("a\tb\x04\x80\xE4\xFE" "c");
     TEST_ASSERT_EQUAL_STRING("abc", out);
 }
 
@@ -177,7 +177,7 @@ int main(void)
     RUN_TEST(test_shell_delete_at_the_start_does_nothing);
     RUN_TEST(test_shell_line_of_full_length_is_taken);
     RUN_TEST(test_shell_too_long_line_is_refused_not_cut);
-    RUN_TEST(test_shell_ctrl_u_empties_the_line);
+    RUN_TEST(test_shell_ctrl_c_and_ctrl_u_empty_the_line);
     RUN_TEST(test_shell_escape_sequences_leave_no_trace);
     RUN_TEST(test_shell_a_lone_escape_takes_no_key_with_it);
     RUN_TEST(test_shell_a_bracket_typed_after_a_lone_escape_is_a_character);
