@@ -159,10 +159,11 @@ static void print_now(void)
     }
 }
 
-/* Shows the notice after the first screen, when the terminal's size is known; earlier, a redraw would erase it. */
+/* Shows the notice after the first screen, when the terminal's size is known; earlier, a redraw would erase it. It comes 4 s
+ * after the answer to a line that was typed before. */
 static void tell_notice(void)
 {
-    if (notice != NULL && the_dialog.mode == DIALOG_TABLE) {
+    if (notice != NULL && the_dialog.mode == DIALOG_TABLE && the_dialog.row_ticks == 0) {
         dialog_message_begin();
         report_failed_assert();
         text_P(notice);

@@ -176,11 +176,15 @@ static void mark_frame(void)
     }
 }
 
+/* Clears at once, because a later clear would erase what the command row shows by then. */
 void screen_redraw(void)
 {
     mark_frame();
     the_screen.items = ITEM_ALL;
     the_screen.at_row = 0;
+    ansi_clear();
+    screen_go(screen_command_row(), 1);
+    screen_send_text_P(TEXT_P("] _"));
 }
 
 void screen_init(void)

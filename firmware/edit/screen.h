@@ -47,7 +47,7 @@ extern screen_t the_screen;     /* the only instance: all functions here use it 
 
 void screen_init(void);
 
-/* Clears the screen and sends everything again. */
+/* Clears the screen, shows an empty command row and sends the rest again in turns. */
 void screen_redraw(void);
 
 /* Sets the number of rows of the terminal. Redraws if the layout changes. */
@@ -86,15 +86,13 @@ void screen_ask_size(void);
 
 /* Single items, in the order in which they are sent. */
 enum {
-    ITEM_CLEAR = 1 << 0,
-    ITEM_LABELS = 1 << 1,
-    ITEM_XYA_FRAME = 1 << 2,
-    ITEM_XYA = 1 << 3,
-    ITEM_GO = 1 << 4,
-    ITEM_UNSAVED = 1 << 5,
-    ITEM_FAULT = 1 << 6,
-    ITEM_PROMPT = 1 << 7,
-    ITEM_ALL = (1 << 8) - 1
+    ITEM_LABELS = 1 << 0,
+    ITEM_XYA_FRAME = 1 << 1,
+    ITEM_XYA = 1 << 2,
+    ITEM_GO = 1 << 3,
+    ITEM_UNSAVED = 1 << 4,
+    ITEM_FAULT = 1 << 5,
+    ITEM_ALL = (1 << 6) - 1
 };
 
 /* Rows of the screen count from 1. */

@@ -215,11 +215,6 @@ static void paint_fault(void)
 static void paint_item(uint8_t item)
 {
     switch (item) {
-    case ITEM_CLEAR:
-        ansi_clear();
-        the_screen.at_row = 1;
-        the_screen.at_column = 1;
-        break;
     case ITEM_LABELS:
         paint_labels();
         break;
@@ -236,20 +231,16 @@ static void paint_item(uint8_t item)
     case ITEM_UNSAVED:
         paint_unsaved();
         break;
-    case ITEM_FAULT:
-        paint_fault();
-        break;
     default:
-        screen_go(screen_command_row(), 1);
-        screen_send_text_P(the_screen.sink == SCREEN_QUIET ? TEXT_P("] _") : TEXT_P("] "));
+        paint_fault();
         break;
     }
 }
 
-static bool paint_next_item(uint8_t among)
+static bool paint_next_item(void)
 {
-    for (uint8_t item = ITEM_CLEAR; item != 0; item <<= 1) {
-        if ((the_screen.items & among & item) != 0) {
+    for (uint8_t item = ITEM_LABELS; item <= ITEM_FAULT; item <<= 1) {
+        if ((the_screen.items & item) != 0) {
             the_screen.items &= ~item;
             paint_item(item);
             return true;
@@ -273,15 +264,12 @@ bool screen_paint(void)
     if (the_screen.hidden) {
         return false;
     }
-    if (paint_next_item(ITEM_CLEAR | ITEM_PROMPT)) {
-        return true;
-    }
     for (uint8_t y = 0; y < CELLS_ROWS; y++) {
         if (paint_row(y)) {
             return true;
         }
     }
-    if (paint_next_item(ITEM_ALL)) {
+    if (paint_next_item()) {
         return true;
     }
     rest();

@@ -241,6 +241,35 @@ def test_redraw_asks_for_the_size_again_and_rows_sets_it():
         assert_frame(r, frame(READY.data, 1, {}, live={joint: 512 for joint in JOINTS}))
 
 
+def started_anew(r, ms):
+    """The board `ms` after a reset, before its screen is complete."""
+    r.board.reset()
+    r.terminal.screen.reset()
+    r.board.run(ms=ms)
+
+
+@pytest.mark.parametrize("ms", [200, 500])
+def test_what_is_typed_before_the_first_screen_is_answered_on_it(ms):
+    with robot(pages={1: READY}) as r:
+        started_anew(r, ms)
+        r.keys("bogus\r", ms=1200)
+        assert r.message == "bogus Bad Command"
+        r.settle(4000)
+        assert r.message == "Arrows move, HELP explains, EXIT leaves"
+        started_anew(r, ms)
+        r.keys("new\r", ms=1200)
+        assert r.message == "new The page would be emptied. Are you sure?[y/N]"
+        r.keys("n")
+        assert r.message == "new The page would be emptied. Are you sure?[y/N] no"
+        assert_frame(r, frame(READY.data, 1, {}, live={joint: 512 for joint in JOINTS}))
+
+
+def test_question_stays_while_a_redraw_goes_on():
+    with robot(pages={1: READY}) as r:
+        r.keys("re\rnew\r", ms=1200)
+        assert r.message == "new The page would be emptied. Are you sure?[y/N]"
+
+
 def test_page_changes_send_a_quarter_of_the_originals_bytes_at_most():
     """On real pages: every fourth one of our library."""
     image = (library.build_folder() / "motions" / "motions.bin").read_bytes()
