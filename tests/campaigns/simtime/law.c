@@ -476,7 +476,9 @@ void law_typed(const char *line)
     unsigned number, code;
     /* Of three lines at once the first OK leaves two without an answer. */
     const uint32_t since = session.tick - law.asked_tick;
-    law.is_mixed = (law.asked[0] != '\0' && since < SECOND) || (law.is_mixed && (since < AT_ONCE || rules_is_searching()));
+    const bool is_searching = rules_is_searching();
+    law.is_mixed = (law.asked[0] != '\0' && (since < SECOND || is_searching)) ||
+                   (law.is_mixed && (since < AT_ONCE || is_searching));
     if (law.is_mixed) {
         forget_aims();   /* either line may send a joint elsewhere, and it is unclear whose OK comes */
     }

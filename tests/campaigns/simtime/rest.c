@@ -13,6 +13,7 @@
 
 #define RESUMED 32u                /* ticks after `resume` */
 #define FROM_REST 12               /* units in a tick: twice the mean speed of the fastest page */
+enum { ACCEL_AT = 24 };            /* 0: a step has no ramps, so it begins at its mean speed */
 
 static struct {
     enum { NOTHING, BREAK, PAUSE } what;
@@ -23,6 +24,7 @@ static struct {
     uint32_t resumed_tick;         /* a pause at rest ended by `resume` */
     uint32_t changed_tick[JOINTS]; /* the last goal that was another one */
     bool is_shaped;                /* something may make steps faster */
+    unsigned page;                 /* the page that was reported last */
     bool may_hold;                 /* release of the remote may be a stop: the setting `remote` was changed */
 } rest;
 
@@ -91,6 +93,10 @@ void rest_printed(const char *line)
 {
     static const char *const ends[] = {"Servo ", "Ended", "Stopped", "Broken", "Nobody", "The computer", "The servo adapter",
                                        "Going to", "Playing", "Moving", NULL};
+    unsigned page;
+    if (sscanf(line, "Playing page %u", &page) == 1 || sscanf(line, "Page %u step", &page) == 1) {
+        rest.page = page;
+    }
     if (strncmp(line, "Paused", 6) == 0 && long_ago(rest.moved_tick, LINE_BEHIND)) {
         rest.what = PAUSE;
         rest.since = session.tick;
@@ -111,7 +117,7 @@ static void look_at_start(unsigned id, int way)
     const bool was_at_rest = rest.changed_tick[id] < rest.resumed_tick;
     rest.changed_tick[id] = session.tick;
     if (!was_at_rest || session.tick - rest.resumed_tick > RESUMED || rest.is_shaped || session.has_deaf ||
-        !rules_is_well()) {
+        page_at(rest.page)[ACCEL_AT] == 0 || !rules_is_well()) {
         return;
     }
     reached("joint starts after a pause");

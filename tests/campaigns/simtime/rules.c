@@ -10,6 +10,7 @@
 #include "linker/memory_map.h"
 
 #define POSITIONS 1024u
+#define RESET (4u * SECOND)        /* the steps that lead back after `shape reset`: from shaped positions in unshaped time */
 #define STEP_MAX 19                /* units per tick: the mean of a shaped step is 8.7 at 11.1 V, its peak twice that */
 #define START_MAX 24               /* units from a joint's position to its first goal: a holding servo yields so far */
 #define FOLLOWS 20                 /* units from its goal: it holds, or follows by three ticks */
@@ -34,6 +35,7 @@ static struct {
     uint32_t over_tick;            /* the last report that a play is over */
     uint32_t deaf_tick;            /* the last time that a servo was deaf and silent */
     bool is_slow;                  /* a rate may be in force since the last start: longer pauses (SHAPING.md) */
+    uint32_t reset_tick;           /* the last `shape reset` */
     bool is_shaped;                /* since the last start something other than the pages may decide where joints go */
     bool is_playing;               /* by the console's reports */
     bool is_starting;              /* the program has not printed yet */
@@ -117,6 +119,7 @@ static void line_typed(void)
         reached("words in capitals");
     }
     rules.is_shaped = rules.is_shaped || !session.typed_is_known || may_shape(line);
+    rules.reset_tick = strstr(line, "shape reset") != NULL ? session.tick : rules.reset_tick;
     rules.is_slow = rules.is_slow || !session.typed_is_known || may_slow(line);
     if (session.is_edit || !session.typed_is_known || may_move(line)) {
         rules_asked();
@@ -292,7 +295,8 @@ static void must_not_leap(uint8_t id, uint16_t goal)
     if (joint->goal_tick <= session.boot_tick || since > 2) {
         must_begin_there(id, goal);
     } else if (!begins_anew && long_ago(session.late_tick, SECOND)) {
-        const int most = STEP_MAX * (int)(since == 0 ? 1 : since);
+        const int fastest = long_ago(rules.reset_tick, RESET) ? STEP_MAX : STEP_MAX * 3 / 2;
+        const int most = fastest * (int)(since == 0 ? 1 : since);
         /* A tick's REG WRITEs take several ticks. */
         const bool waits = session.has_deaf && (session.latency != 0 || rules_somebody_is_late());
         if (!rules.pages_are_edited && !waits && abs(goal - joint->goal) > most) {

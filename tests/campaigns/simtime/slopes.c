@@ -126,7 +126,7 @@ static uint32_t joints_of_first_step(unsigned page)
 
 static void asks_for_layer(unsigned page, uint32_t joints)
 {
-    slopes.is_asked = true;
+    slopes.is_asked = !rules_is_searching();   /* typed ahead of the prompt: the next answer is another line's */
     slopes.asked_layer = page;
     slopes.asked_joints = joints;
     slopes.is_layer_sure = false;
