@@ -255,15 +255,6 @@ def test_mtn_decimal_commas_and_version_100():
     assert mtn.read(mtn_file([{"steps": ["0.080 0.400"]}], version="1.00")).to_bytes() == one.to_bytes()
 
 
-def test_mtn_page_0_comes_from_the_image_it_goes_onto(m512, sample, tmp_path):
-    trim, out = Image.empty(), tmp_path / "y.bin"
-    trim[0].set_word(2, 5, 9)
-    trim[0].seal()
-    (tmp_path / "trim.bin").write_bytes(trim.to_bytes())
-    m512("convert", sample("robot.mtn"), out, "--onto", tmp_path / "trim.bin")
-    assert out.read_bytes()[:512] == bytes(trim[0])
-
-
 @pytest.mark.parametrize(
     "change, says",
     [

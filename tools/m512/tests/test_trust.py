@@ -245,16 +245,9 @@ def test_in_place_does_not_make_numbers_of_a_hand_written_text(m512, files):
     assert "new" in (files / "own.m512").read_text()
 
 
-@pytest.mark.parametrize(
-    "words",
-    [
-        ["pages", "x.bin", "merge", "hand.m512", "all", "--replace", "-o", "hand.m512", "--force"],
-        ["convert", "x.mtn", "hand.m512", "--onto", "hand.m512", "--force"],
-    ],
-)
-def test_a_hand_written_text_that_gave_some_of_the_motions_stays(m512, files, monkeypatch, words):
+def test_a_hand_written_text_that_gave_some_of_the_motions_stays(m512, files, monkeypatch):
     monkeypatch.chdir(files)
-    (files / "x.mtn").write_bytes(formats.encode(files / "x.mtn", read_text(TEXT))[0])
+    words = ["pages", "x.bin", "merge", "hand.m512", "all", "--replace", "-o", "hand.m512", "--force"]
     result = m512(*words)
     assert result.exit_code == 5 and "hand.m512 is somebody's text" in result.stderr
     assert (files / "hand.m512").read_text() == BY_HAND
@@ -295,7 +288,6 @@ FROM_PIPES = [
     "{m512} pages - rename 3 foo -o {target} --force < {source}",
     "{m512} pages <(cat {source}) rename 3 foo -o {target} --force",
     "{m512} pages x.bin merge - 3 --replace -o {target} --force < {source}",
-    "{m512} convert x.mtn {target} --onto - --force < {source}",
 ]
 
 
@@ -778,7 +770,7 @@ def test_standard_input_and_output(files, source):
     assert run("convert", source, "/dev/stdout", input=data).stdout.startswith(b"motion512 1")
 
 
-@pytest.mark.parametrize("words", ["diff - -", "diff - /dev/stdin", "pages - merge - 3 -o y.bin", "convert - y.bin --onto -"])
+@pytest.mark.parametrize("words", ["diff - -", "diff - /dev/stdin", "pages - merge - 3 -o y.bin"])
 def test_standard_input_for_two_files_is_a_sentence(m512, files, monkeypatch, words):
     monkeypatch.chdir(files)
     result = m512(*words.split(), input=(files / "x.bin").read_bytes())
@@ -1063,8 +1055,6 @@ def test_a_reader_that_goes_away_ends_results_and_no_work(files):
     "words, says",
     [
         (["convert", "x.bin", "y.bin", "--page", "3"], "--page is for a .csv"),
-        (["convert", "x.bin", "y.bin", "--mtn-version", "1.00"], "--mtn-version is for a .mtn"),
-        (["convert", "x.bin", "y.bin", "--onto", "x.bin"], "--onto is for a .mtn"),
         (["convert", "x.bin", "--json"], "--json wants a file"),
         (["pages", "x.bin", "rename", "3", "new", "-o", "y.bin", "--in-place"], "say one of the two"),
     ],

@@ -18,7 +18,7 @@ from m512.board.loaders import Loader
 from m512.board.memory import APP, EEPROM_BYTES, FLASH_PAGE, MOTIONS, Record
 from m512.crc16 import crc16
 from m512.errors import BoardError, FileError, NoAnswerError
-from m512.files import formats
+from m512.files import formats, storage
 from m512.files.page import PAGE_BYTES, Fault, Page
 
 AREAS = {"motions": MOTIONS, "app": APP, "eeprom": (0, EEPROM_BYTES)}
@@ -84,8 +84,8 @@ def take(loader: Loader, folder: Path, areas: list[str], phase: PhaseMaker) -> B
         },
     }
     for area in areas:
-        formats.write_bytes(folder / f"{area}.bin", data[area])
-    formats.write_bytes(folder / MANIFEST, (json.dumps(manifest, indent=2) + "\n").encode())
+        storage.write(folder / f"{area}.bin", data[area])
+    storage.write(folder / MANIFEST, (json.dumps(manifest, indent=2) + "\n").encode())
     return Backup(folder, manifest, data)
 
 
@@ -133,7 +133,7 @@ def load(folder: Path, areas: list[str] | None = None) -> Backup:
     of other areas do not matter. FileError: missing or damaged."""
     if folder.exists() and not (folder / MANIFEST).exists():
         raise FileError(f"{folder} is no backup's folder: there is no {MANIFEST} in it")
-    text = formats.read_bytes(folder / MANIFEST)
+    text = storage.read(folder / MANIFEST)
     try:
         manifest = json.loads(text)
         if manifest["format"] != FORMAT or manifest["version"] != VERSION:
@@ -167,7 +167,7 @@ def _area(folder: Path, area: str, name: str, address: int, size: int, crc: int,
     low, high = AREAS[area]
     if address != low:
         raise FileError(f"{folder / MANIFEST}: the address of {area} is 0x{address:05X} and not 0x{low:05X}. Is this the backup of another board?")
-    found = formats.read_bytes(folder / name)
+    found = storage.read(folder / name)
     if (len(found), crc16(found), hashlib.sha256(found).hexdigest()) != (size, crc, sha):
         raise FileError(f"{folder / name} is not what the manifest says: damaged or changed")
     if size != high - low:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from m512.crc16 import crc16
 from m512.errors import FileError, RefusedError
-from m512.files import formats, scale12
+from m512.files import formats, scale12, storage
 from m512.files.image import Image, hex_segments, is_erased
 from m512.files.page import PAGE_BYTES, Page
 
@@ -111,7 +111,7 @@ def _area(area: tuple[int, int]) -> str:
 def plan(path: Path, address: int | None = None, board: str | None = None, with_trim: bool = False, damaged: str = "ask") -> Plan:
     """The Plan for flashing a file. `board`: cm5 or cm2 if known; code for the other one is refused. `address`: start of a raw binary;
     its part in the motion area is checked like a motion file. `with_trim`: writes page 0 even if it holds no trim."""
-    data = formats.read_bytes(path)
+    data = storage.read(path)
     out = Plan()
     for start, piece in _segments(path, data, address, out, with_trim, damaged):
         _refuse_outside(start, start + len(piece), path.name)

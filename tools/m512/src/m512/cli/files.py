@@ -89,7 +89,6 @@ Examples:
 @click.option("--pages", "count", type=click.Choice(["128", "256"]), help="Pages of the result (default: as SOURCE; 128 for a .mtn).")
 @click.option("--only", multiple=True, metavar="NAME|RANGE", help="Take this page, or these, and all that they lead to; again for more.")
 @click.option("--page", "number", help="The page (number or name) of a CSV.")
-@click.option("--onto", type=FilePath(), help="Motion file whose page 0 (trim) a .mtn takes over.")
 @click.option(
     "--damaged",
     type=click.Choice(["ask", "keep", "drop"]),
@@ -97,7 +96,6 @@ Examples:
     help="Damaged pages: keep byte for byte, replace by empty ones, or refuse to go on.",
     show_default=True,
 )
-@click.option("--mtn-version", type=click.Choice(["1.00", "1.01"]), help="Version of a .mtn to write (default: 1.01).")
 @click.option("--force", is_flag=True, help="Overwrite TARGET.")
 @click.option("--json", "as_json", is_flag=True, help="Report on stdout as JSON.")
 def convert(
@@ -109,9 +107,7 @@ def convert(
     count: int | None,
     only: Any,
     number: Any,
-    onto: Any,
     damaged: str,
-    mtn_version: Any,
     force: bool,
     as_json: bool,
 ) -> None:
@@ -128,17 +124,10 @@ def convert(
     to = formats.BY_SUFFIX.get(target.suffix.lower())
     if number and to != formats.CSV:
         raise click.UsageError("--page is for a .csv as TARGET; --only takes some pages of many")
-    if mtn_version and to != formats.MTN:
-        raise click.UsageError("--mtn-version is for a .mtn as TARGET")
     if as_json and str(target) in ("-", "/dev/stdout"):
         raise click.UsageError("--json wants a file as TARGET: standard output has the motions")
-    base = formats.load(onto) if onto else None
-    image = formats.load(source, int(bits) if bits else None, base)
-    if onto and image.form != formats.MTN:
-        raise click.UsageError(f"--onto is for a .mtn as SOURCE; {source} has a page 0 of its own")
+    image = formats.load(source, int(bits) if bits else None)
     formats.keep_text(image, source, target)
-    if base:
-        formats.keep_text(base, onto, target)
     notes, losses = list(image.notes), []
     moved, left = {}, []
     if only:
@@ -166,7 +155,7 @@ def convert(
     bad = conversion.treat_damaged(image, source, damaged, notes)
     image, lost = conversion.fitted(image, count and int(count), target)
     losses += lost
-    losses += formats.save(target, image, selection.holding(number, image) if number else None, mtn_version or "1.01")
+    losses += formats.save(target, image, selection.holding(number, image) if number else None)
     if as_json:
         ui.show(
             json.dumps(

@@ -21,14 +21,6 @@ BY_SUFFIX = {".m512": TEXT, ".bin": BINARY, ".img": BINARY, ".hex": HEX, ".ihex"
 BACKUP_MANIFEST, BACKUP_FORMAT = "manifest.json", "m512-backup"  # in the folder of a backup (board/backup.py)
 
 
-def read_bytes(path: Path) -> bytes:
-    return storage.read(path)
-
-
-def write_bytes(path: Path, data: bytes) -> list[str]:
-    return storage.write(path, data)
-
-
 def recognise(data: bytes, path: Path) -> str:
     """The kind of a file, from its contents. The suffix decides only if the contents do not. FileError: no known kind."""
     if not data:
@@ -63,31 +55,26 @@ def _text_of(data: bytes, path: Path) -> str:
         raise FileError(f"{path}: not UTF-8 text (byte 0x{data[error.start]:02X} at {error.start}): in an editor, save it as UTF-8") from None
 
 
-def load(path: Path, bits: int | None = None, base: Image | None = None) -> Image:
-    """Reads any motion file. `bits`: 10 or 12; None guesses from the positions, with a note (a text or a table states it). `base`: supplies
-    what the file cannot hold (page 0 of a .mtn)."""
-    return decode(read_bytes(path), path, bits, base)
+def load(path: Path, bits: int | None = None) -> Image:
+    """Reads any motion file. `bits`: 10 or 12; None guesses from the positions, with a note (a text or a table states it)."""
+    return decode(storage.read(path), path, bits)
 
 
-def decode(data: bytes, path: Path, bits: int | None = None, base: Image | None = None) -> Image:
+def decode(data: bytes, path: Path, bits: int | None = None) -> Image:
     """The image in a file's bytes. Every FileError names the file."""
     storage.must_fit(len(data), path)
     try:
-        return _decoded(data, path, bits, base)
+        kind = recognise(data, path)
+        image = _image(kind, data, path, bits)
     except FileError as error:
         if str(path) in str(error):
             raise
         raise FileError(f"{path}: {error}") from None
-
-
-def _decoded(data: bytes, path: Path, bits: int | None, base: Image | None) -> Image:
-    kind = recognise(data, path)
-    image = _image(kind, data, path, bits, base)
     image.form = kind
     return image
 
 
-def _image(kind: str, data: bytes, path: Path, bits: int | None, base: Image | None) -> Image:
+def _image(kind: str, data: bytes, path: Path, bits: int | None) -> Image:
     if kind == BINARY:
         return scale12.judged(raw.from_bytes(data, bits or 10), bits)
     if kind == HEX:
@@ -102,17 +89,17 @@ def _image(kind: str, data: bytes, path: Path, bits: int | None, base: Image | N
     if kind == MTN:
         from m512.files import mtn
 
-        return mtn.read(data, str(path), base, bits)
+        return mtn.read(data, str(path), bits)
     from m512.files import csvpage
 
     return scale12.as_said(csvpage.read(_text_of(data, path), str(path)), bits)
 
 
-def save(path: Path, image: Image, number: int | None = None, mtn_version: str = "1.01", kind: str | None = None) -> list[str]:
+def save(path: Path, image: Image, number: int | None = None, kind: str | None = None) -> list[str]:
     """Writes an image in the format of the path's suffix, or as `kind`. Returns the losses, also those of a file that was replaced.
     `number`: the page for a CSV."""
-    data, losses = encode(path, image, number, mtn_version, kind)
-    return losses + write_bytes(path, data)
+    data, losses = encode(path, image, number, kind)
+    return losses + storage.write(path, data)
 
 
 def kind_of(path: Path) -> str:
@@ -166,7 +153,7 @@ def keep_text(image: Image, source: Path, target: Path) -> None:
 
 def _is_by_hand(path: Path) -> bool:
     """Whether a file is a text with more in it than the motions that it describes."""
-    data = read_bytes(path)
+    data = storage.read(path)
     try:
         if recognise(data, path) != TEXT:
             return False
@@ -181,7 +168,7 @@ def _is_by_hand(path: Path) -> bool:
         return True
 
 
-def encode(path: Path, image: Image, number: int | None = None, mtn_version: str = "1.01", kind: str | None = None) -> tuple[bytes, list[str]]:
+def encode(path: Path, image: Image, number: int | None = None, kind: str | None = None) -> tuple[bytes, list[str]]:
     kind = kind or kind_of(path)
     if kind == BINARY:
         return image.to_bytes(), []
@@ -194,7 +181,7 @@ def encode(path: Path, image: Image, number: int | None = None, mtn_version: str
     if kind == MTN:
         from m512.files import mtn
 
-        return mtn.write(image, mtn_version)
+        return mtn.write(image)
     from m512.files import csvpage
 
     return csvpage.write(image, number)

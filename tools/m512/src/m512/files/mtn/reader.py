@@ -106,9 +106,9 @@ class _File:
     notes: list[str]
 
 
-def read(data: bytes, where: str = "mtn", base: Image | None = None, bits: int | None = None) -> Image:
-    """A .mtn as a 256-page image. Page 0 comes from `base` or is the empty page. `bits`: 10 or 12; None guesses from the positions.
-    FileError: incomplete, or a value that a page cannot hold."""
+def read(data: bytes, where: str = "mtn", bits: int | None = None) -> Image:
+    """A .mtn as a 256-page image with an empty page 0. `bits`: 10 or 12; None guesses from the positions. FileError: incomplete, or a
+    value that a page cannot hold."""
     text, notes = unwrap(data, where)
     lines = Lines(text, where)
     file = _read_file(lines, notes)
@@ -120,8 +120,6 @@ def read(data: bytes, where: str = "mtn", base: Image | None = None, bits: int |
         image[number] = block.page
         fill(image[number], block.steps[:STEPS], file.enabled)
     place_long_pages(image, file.blocks, lambda page, steps: fill(page, steps, file.enabled), where)
-    if base is not None and base.first == 0:
-        image[0] = base[0]
     return image
 
 

@@ -26,14 +26,12 @@ def rate_of(speed: int) -> Fraction | None:
     return min(fits, key=lambda rate: abs(rate - exact), default=None)
 
 
-def write(image: Image, version: str = "1.01") -> tuple[bytes, list[str]]:
+def write(image: Image) -> tuple[bytes, list[str]]:
     """The file's bytes and the losses. RefusedError: pages that the text cannot hold at all (damaged, 12-bit positions)."""
     _must_fit(image)
     losses = Findings()
     enabled = _enabled(image)
-    lines = ["type=motion", f"version={version}", "enable=" + " ".join(str(int(e)) for e in enabled)]
-    if version == "1.01":
-        lines.append("motor_type=" + " ".join(["0"] * IDS))
+    lines = ["type=motion", "version=1.01", "enable=" + " ".join(str(int(e)) for e in enabled), "motor_type=" + " ".join(["0"] * IDS)]
     if image.first == 0 and not is_erased(image[0]) and any(image[0].word(2, j) not in (POS_UNUSED, 0) for j in range(JOINTS)):
         losses.add(0, "", "the robot's trim is not in a .mtn")
     used = set(image.used())
