@@ -156,8 +156,8 @@ def world(tmp_path, monkeypatch, started, shared, folder):
     def at_every_port(words):
         robot = shared(words[0]) if only_reads(words) else powered(started, words[0])
 
-        def open_any(url, trace=None, image="play"):
-            return open_port(url if url.startswith(("peer://", "/dev/pts")) else robot.path, trace, image)
+        def open_any(url, image="play"):
+            return open_port(url if url.startswith(("peer://", "/dev/pts")) else robot.path, image)
 
         for module in (link, motions, terminal):
             monkeypatch.setattr(module, "Link", open_any)

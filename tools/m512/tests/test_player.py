@@ -54,24 +54,13 @@ def test_player_unused_joint_keeps_its_target():
     assert out[7:16] == [700] * 9 and out[-1] == 512
 
 
-def test_player_repeat_link_and_stop():
+def test_player_repeat_and_link():
     image = one_page([600, 512], time=4, repeat=3, next_=1)
     assert len(goals(image, limit=100)) == 100
-    image[1].exit = 2
-    image[1].seal()
+    image = one_page([600, 512], time=4, repeat=3, next_=2)
     image[2] = one_page([550], time=5)[1]
-    out = goals(image, stop_at=10, limit=100)
-    assert len(out) == 16 + 5 and out[-1] == 550
-
-
-def test_player_exit_links_in_a_circle_end():
-    image = one_page([600], time=4, next_=1)
-    image[1].exit = 2
-    image[1].seal()
-    image[2] = one_page([550], time=5)[1]
-    image[2].exit = 2
-    image[2].seal()
-    assert len(goals(image, stop_at=0, limit=1000)) == 4 + 5
+    out = goals(image, limit=100)
+    assert len(out) == 3 * 8 + 5 and out[-1] == 550
 
 
 def test_player_damaged_page_ends_the_play():

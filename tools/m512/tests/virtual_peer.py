@@ -165,8 +165,8 @@ class SimulatedBoard(End):
 class VirtualLink(real.Link):
     """m512's Link to an End."""
 
-    def __init__(self, url, trace=None):
-        self.url, self.trace, self.held = url, trace, b""
+    def __init__(self, url):
+        self.url, self.held = url, b""
         self.end = _there.get(url)
         if self.end is None:
             raise PortError(real.explain(url, OSError("No such file")))
@@ -185,8 +185,6 @@ class VirtualLink(real.Link):
         self.end.set_rate(rate)
 
     def write(self, data, wait=True):
-        if self.trace:
-            self.trace("->", data)
         try:
             self.end.put(data)
         except OSError as error:
@@ -197,17 +195,14 @@ class VirtualLink(real.Link):
             out, self.held = self.held[:limit], self.held[limit:]
             return out
         try:
-            out = self.end.get(limit, max(seconds, 0))
+            return self.end.get(limit, max(seconds, 0))
         except OSError as error:
             raise self._lost(error) from None
-        if self.trace and out:
-            self.trace("<-", out)
-        return out
 
 
 _RealLink = real.Link
 
 
-def open_port(url, trace=None, image="play"):
+def open_port(url, image="play"):
     """Replaces Link(url): a line in virtual time to a board of this process, or a real port."""
-    return (VirtualLink if url.startswith("peer://") else _RealLink)(url, trace)
+    return (VirtualLink if url.startswith("peer://") else _RealLink)(url)

@@ -32,13 +32,13 @@ APP_STATES = {0: "none", 1: "unknown kind", 2: "good", 3: "damaged"}
 WINDOW = 2  # outstanding writes
 TRIES = 4
 ANSWER_SECONDS = 1.5
-FAST_RATE, FAST_UBRR, SLOW_UBRR = 117647, 16, 34
+FAST_RATE, FAST_UBRR = 117647, 16
 SUMS_MAX = 64
 EEPROM_PAGE, EE_WRITE_MAX = 0x8100, 32  # EEPROM is read as flash pages from this number on
 BACK_SECONDS = 4.2  # the loader ends a session, and its rate, after 4 s without a byte
 # The first HELLO then contains no byte that is a key of an editor, in case an editor listens instead of the loader.
 FIRST_NUMBER = 159
-TO_PROMPT, TO_APPLICATION, TO_RESET = range(3)
+STAY, START, RESET = range(3)  # leave(), of the factory loader too: at the prompt, start the application, reset the board
 IDENTITY = re.compile(r"ID Motion512 boot (\S+) (\S+) ")
 
 Progress = Callable[[int, int], None]
@@ -245,8 +245,8 @@ class BlockLoader:
 
     # The end
 
-    def leave(self, to: int = TO_PROMPT) -> None:
-        """Ends the session: to the prompt, to the application, or by a reset."""
+    def leave(self, to: int = STAY) -> None:
+        """Ends the session."""
         self._ask(LEAVE, to.to_bytes(2, "little"))
         if self.rate != BAUD:
             self.link.set_rate(BAUD)

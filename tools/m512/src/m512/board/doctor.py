@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Callable
 
 from m512.board.client import Client
 from m512.errors import M512Error, NoAnswerError, RefusedError
-from m512.files.wording import counted
+from m512.files.wording import counted, ranges
 
 if TYPE_CHECKING:
     from m512.board.link import Link
@@ -201,6 +201,4 @@ def _motions(client: Client, add: Add) -> None:
 
 
 def _ranges(numbers: Iterable[int]) -> str:
-    from m512.files.text.writer import ranges
-
-    return ranges(sorted(numbers)) or "none"
+    return " ".join(ranges(numbers)) or "none"

@@ -10,7 +10,7 @@ from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import Callable
 
-from m512.board.block import BlockLoader
+from m512.board.block import START, STAY, BlockLoader
 from m512.board.factory import FactoryLoader
 from m512.board.factory_line import BOOT_MODE, Unsure
 from m512.board.loaders import Loader
@@ -111,10 +111,10 @@ def start(loader: Loader) -> None:
     if not isinstance(loader, FactoryLoader) and loader.read_eeprom(BOOT_MODE, BOOT_MODE + 1) == b"\xff":
         loader.write_eeprom({BOOT_MODE: BOOT_APPLICATION})
     try:
-        loader.leave(1)
+        loader.leave(START)
     except BoardError:
         state = loader.app_state() if isinstance(loader, BlockLoader) else ""
         if state not in UNFIT:
             raise
-        loader.leave(0)
+        loader.leave(STAY)
         raise BoardError(f"application: {state}, which cannot start: {FLASH_ONE}") from None

@@ -9,9 +9,11 @@ from __future__ import annotations
 from typing import Callable
 
 from m512.board import factory_flash, mailbox
-from m512.board.factory_line import TRIES, FactoryLine, Progress
-from m512.board.memory import APP, FLASH_PAGE, MOTIONS, Plan, motion_page_of
+from m512.board.block import Progress
+from m512.board.factory_line import TRIES, FactoryLine
+from m512.board.memory import APP, FLASH_PAGE, MOTIONS, motion_page_of
 from m512.errors import BoardError, RefusedError
+from m512.files.wording import spans
 
 
 class FactoryLoader(FactoryLine):
@@ -22,12 +24,13 @@ class FactoryLoader(FactoryLine):
     def different(self, pages: dict[int, bytes], progress: Progress | None = None) -> list[int]:
         """Returns those of these pages that differ on the board."""
         out, done = [], 0
-        for address, data in Plan(pages).runs(list(pages)):
-            found = self.read(address, address + len(data), progress and _behind(progress, done, len(pages)))
-            for at in range(0, len(data), FLASH_PAGE):
-                if found[at : at + FLASH_PAGE] != data[at : at + FLASH_PAGE]:
-                    out.append((address + at) // FLASH_PAGE)
-            done += len(data) // FLASH_PAGE
+        for first, last in spans(pages):
+            found = self.read(first * FLASH_PAGE, (last + 1) * FLASH_PAGE, progress and _behind(progress, done, len(pages)))
+            for page in range(first, last + 1):
+                at = (page - first) * FLASH_PAGE
+                if found[at : at + FLASH_PAGE] != pages[page]:
+                    out.append(page)
+            done += last - first + 1
         return out
 
     # Writing flash

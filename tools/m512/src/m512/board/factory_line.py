@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import Callable
 
+from m512.board.block import RESET, START, STAY, Progress
 from m512.board.link import Link
 from m512.errors import BoardError, NoAnswerError
 
@@ -30,7 +30,6 @@ PATIENCE = 4.0  # longest silence before giving up, on a line that answers at on
 BOOT_MODE = 0xFFF  # EEPROM cell: 0xFF when the controller stays in the loader
 _DUMP_LINE = re.compile(rb"\r\n ([0-9A-F]{8}) : ((?:[0-9A-F]{2} ){16})([\x20-\x7f]{16})")
 
-Progress = Callable[[int, int], None]
 WRONG_ADDRESS = (
     "the boot loader took another address than it was given. It has written nothing and waits for data: "
     "press MODE before anything else, then repeat the command"
@@ -203,16 +202,16 @@ class FactoryLine:
         self.link.look_for(PROMPT, START_SECONDS + self.patience(100))
         self.clean()
 
-    def leave(self, to: int = 0) -> None:
-        """to: 0 stays at the prompt, 1 starts the application now and at every later start, 2 resets."""
-        if to == 1 or (self.stays and self.mode_before != 0xFF):
+    def leave(self, to: int = STAY) -> None:
+        """START: now and at every later start."""
+        if to == START or (self.stays and self.mode_before != 0xFF):
             self._mode("app")
         self.stays = False
-        if to == 1:
+        if to == START:
             self.type_line("go")
             self.link.write(b"\r")
             self.link.read_until(b"Jump Address", self.patience(60), "`go` to the boot loader")
-        elif to == 2:
+        elif to == RESET:
             self.type_line("reset")
             self.link.write(b"\r")
 

@@ -7,7 +7,7 @@ Every fault of the line becomes a PortError that says what to check. Nothing her
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING, Any, Callable
+from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit
 
 from m512.board.ports import IN_USE
@@ -17,19 +17,18 @@ if TYPE_CHECKING:
     from m512.board.bus import Program
 
 BAUD = 57600
-Trace = Callable[[str, bytes], None]
 
 
 class Link:
     program: Program | None = None  # of a bus: word
 
-    def __init__(self, url: str, trace: Trace | None = None, image: str = "play"):
+    def __init__(self, url: str, image: str = "play"):
         """image: the program to run for a bus: word (bus.py)."""
         import serial
 
         from m512.board import bus
 
-        self.url, self.trace = url, trace
+        self.url = url
         self.program, device = bus.start(url, image)
         try:
             self.port = serial.serial_for_url(device, baudrate=BAUD, timeout=0, write_timeout=20, exclusive=True)
@@ -89,8 +88,6 @@ class Link:
 
     def write(self, data: bytes, wait: bool = True) -> None:
         """Sends bytes. With `wait` it returns after all of them have left this computer."""
-        if self.trace:
-            self.trace("->", data)
         try:
             self.port.write(data)
             if wait:
@@ -114,23 +111,11 @@ class Link:
                 first += self.port.read(more)
         except Exception as error:  # a lost port raises SerialException, OSError, termios.error, ...
             raise self._lost(error) from None
-        if self.trace:
-            self.trace("<-", first)
         return first
 
     def read_some(self, seconds: float, limit: int = 4096) -> bytes:
         """Returns bytes as they arrive; empty if none arrives in time."""
         return self._receive(limit, seconds)
-
-    def read_exactly(self, count: int, seconds: float, what: str) -> bytes:
-        """Reads `count` bytes. `seconds` is the longest gap between two bytes. NoAnswerError: a longer gap."""
-        out = bytearray()
-        while len(out) < count:
-            some = self._receive(count - len(out), seconds)
-            if not some:
-                raise NoAnswerError(f"no answer: {what} ({len(out)} of {count} bytes came)")
-            out += some
-        return bytes(out)
 
     def read_until(self, end: bytes, seconds: float, what: str, limit: int = 1 << 20) -> bytes:
         """Reads up to and including `end`, for at most `seconds`. Keeps later bytes for the next read. NoAnswerError: no `end`."""

@@ -19,7 +19,7 @@ from typing import Callable, Union
 from click import Abort
 
 from m512.board import banner
-from m512.board.block import IDENTITY, BlockLoader
+from m512.board.block import IDENTITY, RESET, STAY, BlockLoader
 from m512.board.factory import FactoryLoader
 from m512.board.factory_line import BOOT_MODE, KNOCK, PROMPT
 from m512.board.link import Link
@@ -28,7 +28,6 @@ from m512.errors import M512Error, NoAnswerError, PortError, RefusedError
 May = Callable[[str], None]
 Loader = Union[BlockLoader, FactoryLoader]
 BANNER = b"SYSTEM O.K."
-STAY, START, RESET = range(3)  # leave()
 WAITS = "The board waits in its boot loader; `m512 run` starts the application."
 HASH_SECONDS = 0.025  # the loader's window after a start is 60 ms
 HASHES_MOST = 2100  # together with everything else sent blindly, less than factory_flash.BLIND_MOST

@@ -3,17 +3,16 @@
 
 from __future__ import annotations
 
+from m512.board.block import STAY
 from m512.board.client import Client
 from m512.board.download import PhaseMaker, check_board
 from m512.board.loaders import Loader
 from m512.board.memory import FLASH_PAGE, MOTIONS, Plan, motion_area, motion_page_of
 from m512.errors import BoardError, RefusedError
 from m512.files.image import is_erased
-from m512.files.page import PAGE_BYTES, Page
+from m512.files.page import Page
 from m512.files.wording import counted
 from m512.pages import difference
-
-NO_PAGES = b"\xff" * PAGE_BYTES
 
 
 def through_loader(loader: Loader, plan: Plan, phase: PhaseMaker) -> list[str]:
@@ -23,7 +22,7 @@ def through_loader(loader: Loader, plan: Plan, phase: PhaseMaker) -> list[str]:
         with phase("Comparing") as progress:
             todo = loader.different(plan.pages, progress)
     finally:
-        loader.leave(0)
+        loader.leave(STAY)
     here = f"{loader.name}" + (f" on a {loader.board}" if loader.board else "")
     return [f"{here}: {len(todo)} of {counted(len(plan.pages), 'flash page')} would be written" if todo else f"{here}: the board holds this already"]
 
@@ -74,7 +73,7 @@ def _motions(client: Client, plan: Plan, phase: PhaseMaker) -> list[str]:
                 except BoardError:
                     out.append(f"page {number} is damaged on the board and would be replaced")
                     continue
-            elif wanted.is_empty or bytes(wanted) == NO_PAGES:
+            elif _holds_nothing(wanted):
                 continue
             else:
                 found = Page()

@@ -11,9 +11,10 @@ from __future__ import annotations
 
 from m512.board.factory_line import FactoryLine
 from m512.errors import BoardError, NoAnswerError, RefusedError
+from m512.files.wording import spans
 
 MAILBOX, STATE, NUMBER = 0x800, 0xFF4, 0xFF5
-PLEASE, DONE, NOTHING = 0xAA, 0x55, 0xFF
+PLEASE, NOTHING = 0xAA, 0xFF
 PAGE_BYTES, PAGES = 512, 128
 TRIES = 3
 
@@ -42,20 +43,10 @@ def write_motion_page(loader: FactoryLine, number: int, data: bytes) -> None:
 
 def different(loader: FactoryLine, wanted: dict[int, int]) -> dict[int, int]:
     """Returns those of the cells that differ on the board."""
-    out, cells = {}, sorted(wanted)
-    for run in _runs(cells):
-        found = loader.read_eeprom(run[0], run[-1] + 1)
-        out.update({at: wanted[at] for at in run if found[at - run[0]] != wanted[at]})
-    return out
-
-
-def _runs(cells: list[int]) -> list[list[int]]:
-    out: list[list[int]] = []
-    for at in cells:
-        if out and at == out[-1][-1] + 1:
-            out[-1].append(at)
-        else:
-            out.append([at])
+    out = {}
+    for first, last in spans(wanted):
+        found = loader.read_eeprom(first, last + 1)
+        out.update({at: wanted[at] for at in range(first, last + 1) if found[at - first] != wanted[at]})
     return out
 
 

@@ -82,16 +82,6 @@ class Plan:
     has_motions: bool = False
     remarks: list[str] = field(default_factory=list)
 
-    def runs(self, numbers: list[int], gap: int = 0) -> list[tuple[int, bytes]]:
-        """The pages `numbers` as (address, bytes) runs. Gaps of up to `gap` pages of the plan are filled with these pages."""
-        out: list[list[int]] = []
-        for number in sorted(numbers):
-            if out and number - out[-1][-1] <= gap + 1 and all(n in self.pages for n in range(out[-1][-1], number)):
-                out[-1] += range(out[-1][-1] + 1, number + 1)
-            else:
-                out.append([number])
-        return [(run[0] * FLASH_PAGE, b"".join(self.pages[n] for n in run)) for run in out]
-
 
 def _refuse_outside(start: int, end: int, what: str) -> None:
     if start < 0:
@@ -175,7 +165,7 @@ def _motions(path: Path, image: Image, out: Plan, with_trim: bool, damaged: str)
     image, losses = image.resized(128) if (image.first, image.end) != (0, 128) else (image, [])
     if losses:
         raise RefusedError("this board has 128 pages:\n  " + "\n  ".join(losses) + "\nmove or delete them first (m512 pages)")
-    bad = [(n, page.fault_text()) for n, page in image.items() if page.fault() and bytes(page) != b"\xff" * PAGE_BYTES]
+    bad = [(n, page.fault_text()) for n, page in image.items() if page.fault() and not is_erased(page)]
     if bad and damaged == "ask":
         raise RefusedError("damaged pages (--damaged keep flashes them all the same):\n" + "\n".join(f"  page {n}: {why}" for n, why in bad))
     data = image.to_bytes()

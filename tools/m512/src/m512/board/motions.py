@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from m512 import ui
+from m512.board.block import STAY
 from m512.board.client import Client
 from m512.board.link import Link
 from m512.board.memory import FLASH_PAGE, MOTIONS, Plan, motion_area, motion_page_of
@@ -13,8 +14,6 @@ from m512.errors import BoardError, NoAnswerError, PortError, RefusedError
 from m512.files.image import Image, from_bytes, is_erased
 from m512.files.page import EMPTY, PAGE_BYTES, Page
 from m512.files.wording import named_pages_text, pages_text
-
-ERASED = b"\xff" * PAGE_BYTES
 
 
 def read_motions(url: str, board: str = "") -> Image:
@@ -30,7 +29,7 @@ def read_motions(url: str, board: str = "") -> Image:
                 with ui.phase("Reading") as progress:
                     data = loader.read(*MOTIONS, progress)
             finally:
-                loader.leave(loaders.STAY)  # the next command finds the loader at its prompt
+                loader.leave(STAY)  # the next command finds the loader at its prompt
             return from_bytes(data)
         return _read_pages(client)
 
@@ -42,7 +41,7 @@ def _read_pages(client: Client) -> Image:
         for done, number in enumerate(numbers):
             image[number] = client.page(number)
             progress(done + 1, len(numbers))
-    if bytes(image[0]) == ERASED:
+    if is_erased(image[0]):
         image[0] = Page()
     return image
 
@@ -125,7 +124,7 @@ def save_pages(client: Client, image: Image, numbers: list[int], confirm: Callab
         there = client.page(number) if here else Page()
         if here and there == new:
             continue
-        if not number and bytes(there) not in (EMPTY, ERASED):
+        if not number and not _is_nothing(0, there):
             replaced.append("the trim (page 0)")
         if number and not there.is_empty and (there.title != new.title or not there.title or not new.steps):
             replaced.append(named_pages_text({number: there.title}))

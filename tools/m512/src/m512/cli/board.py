@@ -145,7 +145,7 @@ def _flash(
     start: bool,
 ) -> None:
     from m512.board import download, loaders, memory
-    from m512.board.block import BlockLoader
+    from m512.board.block import STAY, BlockLoader
     from m512.files.wording import counted
 
     plan = memory.plan(image, address, board, with_trim, damaged)
@@ -172,7 +172,7 @@ def _flash(
             download.start(loader)
             ui.say("started")
         else:
-            loader.leave(0)
+            loader.leave(STAY)
             ui.say(loaders.WAITS)
         if as_json:
             ui.show(json.dumps(dict(report.as_dict(), loader=loader.name, board=loader.board, started=start)))

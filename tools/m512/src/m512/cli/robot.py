@@ -58,6 +58,23 @@ def robot_options(function: Any) -> Any:
     return function
 
 
+def shape_options(function: Any) -> Any:
+    for option in (
+        click.option("--blend", type=click.IntRange(-100, 100), help="Percent towards the partner page: right 1.., left -1.."),
+        click.option("--amplitude", type=click.IntRange(0, 150), help="Size in percent, about the centre page's pose."),
+        click.option("--rate", type=click.IntRange(10, 400), help="Speed in percent, until changed."),
+    ):
+        function = option(function)
+    return function
+
+
+def apply(client: Client, rate: int | None, amplitude: int | None, blend: int | None) -> None:
+    """Sends the values of shape_options that were given."""
+    for word, value in (("rate", rate), ("amplitude", amplitude), ("blend", blend)):
+        if value is not None:
+            client.ask(f"{word} {value}")
+
+
 @contextmanager
 def robot(options: dict[str, Any], image: Any = "play") -> Iterator[Client]:
     """The Client for these options. Whatever was started for it ends with the block. image: the program to start for -p bus:..."""
@@ -81,10 +98,11 @@ def robot(options: dict[str, Any], image: Any = "play") -> Iterator[Client]:
             client = Client(link)
         except NoAnswerError as error:
             from m512.board import loaders
+            from m512.board.block import STAY
 
             if not loaders.at_prompt(link):
                 raise NoAnswerError(f"{error} on {link.url} (m512 doctor looks why)") from None
-            loaders.identify(link).leave(loaders.STAY)  # refuses an unsupported board
+            loaders.identify(link).leave(STAY)  # refuses an unsupported board
             raise NoAnswerError("the board waits in its boot loader: `m512 run` starts the application") from None
         yield client
 
@@ -114,9 +132,7 @@ Examples:
   m512 play wave --sim --motions library.m512 --wait"""
 )
 @click.argument("page")
-@click.option("--rate", type=click.IntRange(10, 400), help="Speed in percent, for this play and until changed (m512 shape).")
-@click.option("--amplitude", type=click.IntRange(0, 150), help="Size in percent, about the centre page's pose.")
-@click.option("--blend", type=click.IntRange(-100, 100), help="Percent towards the partner page: right 1.., left -1..")
+@shape_options
 @click.option("--code", "key", default="", help="Code of the call: a number, or keys such as U or L+B1.")
 @click.option("--wait", is_flag=True, help="Follow the play until it ends.")
 @robot_options
@@ -131,9 +147,7 @@ def play(page: str, rate: int | None, amplitude: int | None, blend: int | None, 
         raise click.UsageError(str(error)) from None
     with robot(options) as client:
         number = client.motion(page)
-        for word, value in (("rate", rate), ("amplitude", amplitude), ("blend", blend)):
-            if value is not None:
-                client.ask(f"{word} {value}")
+        apply(client, rate, amplitude, blend)
         is_ours = _is_ours(options)
 
         def start() -> None:

@@ -11,31 +11,11 @@ import click
 
 from m512 import ui
 from m512.cli.layers import must_last, show_shape
-from m512.cli.robot import robot, robot_options
+from m512.cli.robot import apply, robot, robot_options, shape_options
 from m512.errors import MissingError, NoAnswerError, PortError, how_to_install
 
 if TYPE_CHECKING:
-    from m512.board.client import Client
     from m512.board.driving import Keys, Pad, Stick
-
-FIELDS = ("rate", "amplitude", "blend")
-
-
-def shape_options(function: Any) -> Any:
-    for option in (
-        click.option("--blend", type=click.IntRange(-100, 100), help="Percent towards the partner page: right 1.., left -1.."),
-        click.option("--amplitude", type=click.IntRange(0, 150), help="Size in percent, about the centre page's pose."),
-        click.option("--rate", type=click.IntRange(10, 400), help="Speed in percent."),
-    ):
-        function = option(function)
-    return function
-
-
-def apply(client: Client, rate: int | None, amplitude: int | None, blend: int | None) -> None:
-    """Sends the given values."""
-    for word, value in zip(FIELDS, (rate, amplitude, blend)):
-        if value is not None:
-            client.ask(f"{word} {value}")
 
 
 @click.command(

@@ -23,7 +23,6 @@ SCHEDULE_TIME = 0x0A
 POS_UNUSED = 0x4000  # joint not used in this step: it keeps its last target
 POS_TORQUE_OFF = 0x2000  # Edit's work pose only
 TRIM_MAX = 300  # the robot treats a larger trim as damaged and as 0
-CODE_STOP = 255
 
 
 class Fault(IntEnum):

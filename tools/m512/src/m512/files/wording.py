@@ -8,16 +8,21 @@ from collections.abc import Iterable, Sequence
 SHOWN_NAMES = 6  # up to this many pages are listed with their names; more get numbers only
 
 
-def ranges(numbers: Iterable[int]) -> list[str]:
-    """[1, 2, 3, 7] -> ["1..3", "7"]; two neighbours stay separate."""
+def spans(numbers: Iterable[int]) -> list[tuple[int, int]]:
+    """[1, 2, 3, 7] -> [(1, 3), (7, 7)]."""
     out: list[tuple[int, int]] = []
     for number in sorted(set(numbers)):
         if out and out[-1][1] == number - 1:
             out[-1] = (out[-1][0], number)
         else:
             out.append((number, number))
+    return out
+
+
+def ranges(numbers: Iterable[int]) -> list[str]:
+    """[1, 2, 3, 7] -> ["1..3", "7"]; two neighbours stay separate."""
     texts: list[str] = []
-    for low, high in out:
+    for low, high in spans(numbers):
         texts += [str(n) for n in range(low, high + 1)] if high - low < 2 else [f"{low}..{high}"]
     return texts
 

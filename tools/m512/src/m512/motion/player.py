@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Plays pages by the exact law, to compute play times and speeds.
 
-This is a model of the law; the firmware's player is in C. A play is a generator of Ticks, one per 1/128 s. It follows only next and exit
-links, because there is no remote control.
+This is a model of the law; the firmware's player is in C. A play is a generator of Ticks, one per 1/128 s. It follows only next links:
+nobody presses a key or stops it.
 """
 
 from __future__ import annotations
@@ -29,13 +29,10 @@ class Tick:
     goals: list[int] | None
 
 
-def play(image: Image, page: int, pose: Sequence[int] | None = None, limit: int = 128 * 60, stop_at: int | None = None) -> Iterator[Tick]:
-    """The ticks of a play that starts with `page`, at most `limit` of them. `pose`: the initial pose. stop_at: the tick of a soft stop."""
-    walk = Walk(image, page)
-    law = Exact(walk, list(pose or [NEUTRAL] * JOINTS))
+def play(image: Image, page: int, pose: Sequence[int] | None = None, limit: int = 128 * 60) -> Iterator[Tick]:
+    """The ticks of a play that starts with `page`, at most `limit` of them. `pose`: the initial pose."""
+    law = Exact(Walk(image, page), list(pose or [NEUTRAL] * JOINTS))
     for number in range(limit):
-        if number == stop_at:
-            walk.stopping = True
         goals = law.tick()
         if law.ended:
             return

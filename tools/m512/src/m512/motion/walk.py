@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The order of steps in a play: pages, repetitions, next and exit links. Independent of the law of motion."""
+"""The order of steps in a play: pages, repetitions, next links. Independent of the law of motion."""
 
 from __future__ import annotations
 
@@ -18,7 +18,6 @@ class Step:
     page: int
     number: int  # 1..7
     data: Page
-    first_of_page: bool = False
 
     def target(self, joint: int, before: int) -> int:
         word = self.data.word(self.number - 1, joint)
@@ -26,42 +25,31 @@ class Step:
 
 
 class Walk:
-    """The order of steps: pages, repetitions, links. `why` tells why the walk ended, if not by its last link."""
+    """The order of steps: pages, repetitions, next links."""
 
     def __init__(self, image: Image, page: int):
         self.image, self.page = image, page
         self.step, self.left = 0, 0
         self.follow: int | None = None  # the page after this one; set at the beginning of the last step
-        self.stopping, self.ended, self.why = False, False, ""
-        self.exits: dict[int, None] = {}
+        self.ended = False
         self._enter(page)
 
     def _enter(self, number: int) -> None:
         """Begins a page. Pages with PLAY_COUNT 0 are skipped along their link."""
         seen = set()
-        while True:
-            if number == 0 or number in seen:
-                self.ended = True
-                return
+        while number and number not in seen:
             page = self.image[number]
-            fault = page.fault_text(self.image.kind)
-            if fault or page.steps == 0:
-                self.ended, self.why = True, f"page {number} " + (f"is damaged: {fault}" if fault else "has no steps")
-                return
+            if page.fault(self.image.kind) or page.steps == 0:
+                break
             if page.repeat:
                 self.page, self.step, self.left = number, 0, page.repeat
                 return
             seen.add(number)
             number = self._link(page)
+        self.ended = True
 
     def _link(self, page: Page) -> int:
-        target = page.exit if self.stopping else page.next
-        if self.stopping and target in self.exits:
-            self.why = f"the exit links come back to page {target}"
-            return 0
-        if self.stopping and target:
-            self.exits[target] = None
-        return target if self.image.first <= target < self.image.end else 0
+        return page.next if self.image.first <= page.next < self.image.end else 0
 
     def advance(self) -> tuple[Step, Step | None] | None:
         """(the next step, the step to look ahead to), or None at the end."""
@@ -76,14 +64,14 @@ class Walk:
             self.step = 0
             page = self.image[self.page]
         self.step += 1
-        here = Step(self.page, self.step, page, self.step == 1)
+        here = Step(self.page, self.step, page)
         if self.step < page.steps:
             return here, Step(self.page, self.step + 1, page)
-        self.left = 0 if self.stopping else (self.left - 1) & 0xFF
+        self.left -= 1
         self.follow = self.page if self.left else self._link(page)
         if not self.follow:
             return here, None
-        return here, Step(self.follow, 1, self.image[self.follow], True)
+        return here, Step(self.follow, 1, self.image[self.follow])
 
 
 def degrees_per_unit(bits: int) -> Fraction:

@@ -4,6 +4,4 @@
 from m512.files.text.reader import read_text
 from m512.files.text.writer import write_text
 
-SUFFIX = ".m512"
-
-__all__ = ["SUFFIX", "read_text", "write_text"]
+__all__ = ["read_text", "write_text"]

@@ -12,7 +12,6 @@ from m512.files.page import JOINTS, POS_TORQUE_OFF, POS_UNUSED, TICKS_PER_SECOND
 from m512.files.selection import number_range
 
 KEYS = {"U": 1, "D": 2, "L": 4, "R": 8, "B1": 16, "B2": 32, "B3": 64, "B4": 128}
-CENTRE = 512
 UNITS_PER_DEGREE = 1024 / 300
 SPEED_UNITS_PER_DPS = 256 / 720  # of a step in speed base
 

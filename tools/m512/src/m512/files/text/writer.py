@@ -18,6 +18,7 @@ from m512.files.page import EMPTY, JOINTS, POS_TORQUE_OFF, POS_UNUSED, SCHEDULE_
 from m512.files.text.reader import VERSION, read_text
 from m512.files.text.steps import block_words
 from m512.files.text.words import code_text, position_text, quote_name
+from m512.files.wording import spans
 
 STANDARD_FILL = Page().step_bytes(0)
 MAX_ODD_WORDS = 8  # with more impossible positions than this, the page is not a motion and is shown as bytes
@@ -83,13 +84,7 @@ def is_motion(page: Page, image: Image) -> bool:
 
 def ranges(numbers: Iterable[int]) -> str:
     """`1..6 9 11..18`."""
-    out: list[list[int]] = []
-    for n in numbers:
-        if out and out[-1][1] == n - 1:
-            out[-1][1] = n
-        else:
-            out.append([n, n])
-    return " ".join(str(a) if a == b else f"{a}..{b}" for a, b in out)
+    return " ".join(str(a) if a == b else f"{a}..{b}" for a, b in spans(numbers))
 
 
 def grouped(values: dict[int, str]) -> list[str]:
