@@ -238,7 +238,7 @@ def test_a_play_whose_cable_is_pulled_goes_on_and_m512_says_so(m512, robot):
     start(m512, robot)
     robot.cut_after = robot.moved + 2000
     lost = m512("play", "walk", "--wait", "-p", robot.path)
-    assert lost.exit_code == 6 and "what plays on the robot goes on" in lost.stderr, lost.stderr
+    assert lost.exit_code == 6 and "hat plays on the robot goes on" in lost.stderr, lost.stderr
 
 
 @pytest.mark.parametrize("presses", [1, 2])

@@ -137,6 +137,28 @@ def test_hex_of_motions_with_a_damaged_page_is_refused(tmp_path):
     assert plan(tmp_path / "x.hex", damaged="keep").pages
 
 
+def test_whatever_is_wrong_with_a_file_to_flash_its_name_is_said(m512, tmp_path):
+    """Somebody who flashes a folder of files in a loop saw which sentence, and not which file."""
+    damaged, large, twelve = Image.empty(), Image.empty(256), Image.empty()
+    damaged[3].data[100] ^= 1
+    large[200].steps = 1
+    large[200].seal()
+    twelve[3].steps = 1
+    for joint in range(31):
+        twelve[3].set_word(0, joint, 2048)
+    twelve[3].seal()
+    text = to_hex(damaged)
+    contents = {"cut.hex": text[:5000], "two.hex": 2 * text, "bad.hex": text.replace(":10E01", "?10E01", 1), "damaged.hex": text}
+    contents.update({"damaged.bin": damaged.to_bytes(), "large.bin": large.to_bytes(), "twelve.bin": twelve.to_bytes()})
+    for name, content in contents.items():
+        (tmp_path / name).write_bytes(content if isinstance(content, bytes) else content.encode())
+        with pytest.raises((FileError, RefusedError)) as refused:
+            plan(tmp_path / name)
+        assert str(refused.value).count(name) == 1, refused.value
+    asked = m512("convert", tmp_path / "damaged.bin", tmp_path / "y.bin", "--damaged", "ask")
+    assert asked.exit_code == 5 and "damaged.bin: damaged pages" in asked.stderr
+
+
 def test_hex_without_its_end_is_refused(tmp_path):
     text = to_hex(read_text(TEXT))
     (tmp_path / "x.hex").write_text("\n".join(text.splitlines()[:-1]) + "\n")

@@ -28,6 +28,7 @@ WHERE = {
 }
 LISTED = r' (\d+):(\d+|!):"([^"]*)"'  # an entry of @list
 DAMAGED = "{} came damaged, " + f"{TRIES} times. Is the cable good?"
+CHECK = "Check the cable, then repeat the command"
 BEGIN, FLOW = b"\x1e", b"\x11\x13"
 NOBODY = "neither Play nor Edit answers"
 OLDER = (
@@ -90,7 +91,7 @@ class Client:
                 if int(match.group(1)) == ERR_LINE:  # the board did not execute it
                     continue
                 raise self._error(request, int(match.group(1)), match.group(2))
-        raise NoAnswerError(f"no answer to {word}")
+        raise NoAnswerError(f"no answer to {word}. {CHECK}")
 
     def _error(self, request: str, number: int, text: str) -> BoardError:
         word, *rest = f"@{request}".split()
@@ -258,7 +259,7 @@ class Client:
             except NoAnswerError:
                 if stood and self.where()["state"] != "idle":
                     return
-        raise NoAnswerError(f"no answer to @{request.split()[0]}")
+        raise NoAnswerError(f"no answer to @{request.split()[0]}. {CHECK}")
 
 
 def shape_in_words(found: dict[str, str]) -> dict[str, str]:

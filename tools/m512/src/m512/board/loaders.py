@@ -81,8 +81,8 @@ def identify(link: Link, started: bytes = b"", board: str = "") -> Loader:
         if not ended:
             break
     if not text:
-        raise NoAnswerError("the boot loader stopped answering")
-    raise NoAnswerError(f"a boot loader that this program does not know answered {text[-60:]!r}")
+        raise NoAnswerError("the boot loader stopped answering. Press MODE, then repeat the command")
+    raise NoAnswerError(f"a boot loader that this program does not know answered {text[-60:]!r}. Is this the right port?")
 
 
 def _factory(link: Link, started: bytes, board: str) -> FactoryLoader:

@@ -103,7 +103,9 @@ def plan(path: Path, address: int | None = None, board: str | None = None, with_
     its part in the motion area is checked like a motion file. `with_trim`: writes page 0 even if it holds no trim."""
     data = storage.read(path)
     out = Plan()
-    for start, piece in _segments(path, data, address, out, with_trim, damaged):
+    with formats.naming(path):
+        segments = _segments(path, data, address, out, with_trim, damaged)
+    for start, piece in segments:
         _refuse_outside(start, start + len(piece), path.name)
         out.has_app |= start < APP[1]
         out.has_motions |= start + len(piece) > MOTIONS[0]

@@ -326,7 +326,7 @@ def restore(folder: Path, what: str | None, yes: bool, port: str, board: str, wa
     if not areas:
         raise FileError(f"{folder} holds nothing to restore")
     if missing:
-        raise RefusedError(f"the backup has no {', '.join(missing)}")
+        raise RefusedError(f"the backup {folder} has no {', '.join(missing)}")
     link, loader = connect(port, wait, yes, board)
     with link:
         pages = backups.flash_pages(saved, areas)

@@ -176,7 +176,7 @@ def _follow(client: Client, start: Callable[[], None], wait: bool, is_ours: bool
     except (PortError, NoAnswerError) as error:
         if is_ours:
             raise
-        raise type(error)(f"{error}. Without it what plays on the robot goes on (m512 stop ends it)") from None
+        raise type(error)(f"{error}. What plays on the robot goes on (m512 stop ends it)") from None
 
 
 def _followed(client: Client, start: Callable[[], None], wait: bool) -> bool:

@@ -32,7 +32,7 @@ def treat_damaged(image: Image, source: Path, how: str, notes: list[str]) -> lis
             "so it is no motion file, or ruined. Is it the right one?"
         )
     if bad and how == "ask":
-        raise RefusedError("damaged pages (--damaged keep or drop):\n" + "\n".join(f"  page {n}: {why}" for n, why in bad))
+        raise RefusedError(f"{source}: damaged pages (--damaged keep or drop):\n" + "\n".join(f"  page {n}: {why}" for n, why in bad))
     found, few = Findings(), len(bad) <= FEW
     for page, why in bad:
         done = "replaced by an empty page" if how == "drop" else "kept byte for byte"

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from m512.errors import FileError, RefusedError
@@ -63,15 +65,22 @@ def load(path: Path, bits: int | None = None) -> Image:
 def decode(data: bytes, path: Path, bits: int | None = None) -> Image:
     """The image in a file's bytes. Every FileError names the file."""
     storage.must_fit(len(data), path)
-    try:
+    with naming(path):
         kind = recognise(data, path)
         image = _image(kind, data, path, bits)
-    except FileError as error:
-        if str(path) in str(error):
-            raise
-        raise FileError(f"{path}: {error}") from None
     image.form = kind
     return image
+
+
+@contextmanager
+def naming(path: Path) -> Iterator[None]:
+    """Every error about what is in a file names the file."""
+    try:
+        yield
+    except (FileError, RefusedError) as error:
+        if path.name in str(error):
+            raise
+        raise type(error)(f"{path}: {error}") from None
 
 
 def _image(kind: str, data: bytes, path: Path, bits: int | None) -> Image:
