@@ -21,7 +21,7 @@ COMMANDS = 600
 SAMPLE = 100  # the sample is smaller by this factor
 TASK = 250
 LIMIT_S = 10.0  # of CPU time per file
-KINDS = (".m512", ".mtn", ".hex", ".csv", ".bin")
+KINDS = (".m512", ".mtn", ".hex", ".bin")
 NUMBERS = (
     b"0",
     b"-1",
@@ -127,7 +127,7 @@ def seeds():
         image[number] = page.seal()
     out = {".mtn": [formats.encode(pathlib.Path("x.mtn"), image)[0]]}  # the .mtn format cannot hold a damaged page
     image[7].data[33] ^= 1
-    out |= {suffix: [formats.encode(pathlib.Path("x" + suffix), image, 1)[0]] for suffix in KINDS if suffix != ".mtn"}
+    out |= {suffix: [formats.encode(pathlib.Path("x" + suffix), image)[0]] for suffix in KINDS if suffix != ".mtn"}
     out[".m512"] += [path.read_bytes() for path in sorted((proof.TOP / "tools" / "motions").glob("*.m512"))]
     return out
 
@@ -213,7 +213,7 @@ def files(task):
     others = [data for group in originals.values() for data in group]
     with tempfile.TemporaryDirectory() as folder:
         for _ in range(count):
-            suffix = rng.choice((".m512", ".m512", ".m512", ".mtn", ".mtn", ".hex", ".csv", ".csv", ".bin"))
+            suffix = rng.choice((".m512", ".m512", ".m512", ".mtn", ".mtn", ".hex", ".bin"))
             data = mutate(rng, rng.choice(originals[suffix]), others)
             data = data[:65536].ljust(65536, b"\xff") if suffix == ".bin" and rng.random() < 0.8 else data
             data = mend(suffix, data) if rng.random() < 0.7 else data
@@ -294,7 +294,7 @@ def figures(options):
                 files,
                 FILES,
                 "m512 reads a file or refuses it in a sentence of its own, and gives back what it has read",
-                "damaged .m512, .mtn, Intel HEX, CSV and image files, with right checksums in most, through all formats that keep everything",
+                "damaged .m512, .mtn, Intel HEX and image files, with right checksums in most, through all formats that keep everything",
                 "files",
             ),
             (

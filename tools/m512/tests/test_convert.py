@@ -4,7 +4,6 @@
 import json
 import random
 from fractions import Fraction
-from pathlib import Path
 
 import pytest
 
@@ -171,16 +170,12 @@ def test_a_scale_that_changes_nothing_says_so(m512, tmp_path, bits):
 
 
 @pytest.mark.parametrize("says, bits", [("12", "10"), ("10", "12"), ("", "12"), ("12", "12"), ("10", "10"), ("", "10")])
-@pytest.mark.parametrize("suffix", ["m512", "csv"])
-def test_bits_that_a_file_states_itself_are_not_overruled_without_a_word(m512, tmp_path, says, bits, suffix):
+def test_bits_that_a_file_states_itself_are_not_overruled_without_a_word(m512, tmp_path, says, bits):
     path, other = tmp_path / "x.m512", says != bits and (says or "10") != bits
     path.write_text("motion512 1\n" + (f"bits {says}\n" if says else "") + f"page 1 a\n  step 9 | 1:{'2000' if says == '12' else '600'}\n")
-    if suffix == "csv":
-        assert m512("convert", path, tmp_path / "x.csv").exit_code == 0
-        path = tmp_path / "x.csv"
     for words in (("convert", path, tmp_path / "y.bin"), ("pages", "--bits", bits, path, "check"), ("diff", path, path)):
         done = m512(*words, *([] if "pages" in words else ["--bits", bits]))
-        assert done.exit_code == 0 and (f"--bits {bits} has no effect on a text or a table" in done.stderr) == other, (words, done.stderr)
+        assert done.exit_code == 0 and (f"--bits {bits} has no effect on a text" in done.stderr) == other, (words, done.stderr)
 
 
 @pytest.mark.parametrize("bits, says", [(12, "12-bit positions mean nothing to this board"), (10, "pages 128..150: no room among")])
@@ -377,22 +372,7 @@ def test_mtn_every_page_speed_reads_back_or_is_a_loss():
     assert [float(mtn.rate_of(s)) for s in (32, 21, 15, 64, 26)] == [1.0, 1.5, 2.1, 0.5, 1.2]
 
 
-# CSV and Intel HEX
-
-
-def test_csv_of_a_page_and_back(m512, tmp_path):
-    image = Image.empty()
-    image[9].data[:4] = b"nod\0"
-    image[9].steps, image[9].code, image[9].next = 2, 5, 9
-    for step in range(2):
-        image[9].set_word(step, 1, 600 + step)
-        image[9].set_word(step, 2, 0x4000 + 77)
-        image[9].set_time(step, 50)
-    image[9].seal()
-    (tmp_path / "x.bin").write_bytes(image.to_bytes())
-    assert m512("convert", tmp_path / "x.bin", tmp_path / "p.csv", "--page", "nod").stderr == ""
-    assert m512("convert", tmp_path / "p.csv", tmp_path / "y.bin").exit_code == 0
-    assert (tmp_path / "y.bin").read_bytes() == image.to_bytes()
+# Intel HEX
 
 
 def test_hex_addresses_of_both_kinds():
@@ -424,7 +404,7 @@ def test_hex_of_a_few_pages_and_of_other_things():
 # Bad input: always one sentence and exit code 4, never a traceback (the fixture fails on other exceptions)
 
 
-def files_of_every_kind(data_of):
+def files_of_every_kind():
     image = Image.empty()
     image[1].steps = 1
     image[1].set_word(0, 1, 5)
@@ -434,76 +414,12 @@ def files_of_every_kind(data_of):
         ".hex": to_hex(image).encode(),
         ".mtn": mtn_file([{"steps": ["0 1"]}] * 3),
         ".m512": b"motion512 1\npage 1 a\nstep 5 | 1:5\n",
-        ".csv": formats.encode(data_of / "x.csv", image)[0],
     }
 
 
-@pytest.mark.parametrize("name", [b'say "hi"', b'"', b'""', b'"a', b'a"', b'\\"', b"", b"self", b"a,b", b'14 characters"'], ids=ascii)
-def test_csv_keeps_a_name_whatever_is_in_it(name):
-    image = Image.empty()
-    image[3].data[:14] = name.ljust(14, b"\0")
-    image[3].steps = 1
-    image[3].seal()
-    data, losses = formats.encode(Path("p.csv"), image)
-    assert losses == [] and formats.decode(data, Path("p.csv"))[3] == image[3]
-
-
-def test_csv_of_a_trim_says_that_the_trim_is_lost(m512, tmp_path):
-    (tmp_path / "x.m512").write_text("motion512 1\npage 0\n  offset 1:-5\n")
-    assert "loss: page 0: the robot's trim is not in a .csv" in m512("convert", tmp_path / "x.m512", tmp_path / "p.csv", "--page", "0").stderr
-
-
-def test_csv_of_one_page_tells_a_trim_that_nobody_left_out(m512, tmp_path):
-    (tmp_path / "x.m512").write_text("motion512 1\npage 0\n  offset 1:-5\npage 3 a\n  step 5 | 1:1\n")
-    assert "loss: page 0: the robot's trim" in m512("convert", tmp_path / "x.m512", tmp_path / "p.csv").stderr
-    assert m512("convert", tmp_path / "x.m512", tmp_path / "q.csv", "--page", "3").stderr == ""
-
-
-def test_csv_of_several_pages_names_them_and_the_command_that_takes_one(m512, tmp_path):
-    (tmp_path / "x.m512").write_text("motion512 1\npage 2..5 a\n  step 5 | 1:1\n")
-    for words in (("convert", tmp_path / "x.m512", tmp_path / "p.csv"), ("pages", tmp_path / "x.m512", "rename", "2", "b", "-o", tmp_path / "p.csv")):
-        result = m512(*words)
-        assert result.exit_code == 4 and "pages 2..5; `m512 convert SOURCE TARGET.csv --page NUMBER|NAME` takes one" in result.stderr
-    (tmp_path / "none.m512").write_text("motion512 1\n")
-    assert "here is none" in m512("convert", tmp_path / "none.m512", tmp_path / "p.csv").stderr
-
-
-def test_csv_says_each_field_once():
-    with pytest.raises(FileError, match="x.csv:3: page 7: next is here a second time"):
-        formats.decode(b"page,7\nnext,3\nnext,4\n", Path("x.csv"))
-
-
-def test_csv_without_its_number_or_with_values_that_are_none_is_refused(m512, sample, tmp_path):
-    path = tmp_path / "p.csv"
-    m512("convert", sample("robot_128p.bin"), path, "--page", "1")
-    lines = path.read_text().splitlines()
-    fields = lines[: next(at for at, line in enumerate(lines) if line.startswith("step"))]
-    assert len(fields) == 18
-    with pytest.raises(FileError, match="no line page,NUMBER"):
-        formats.decode("\n".join(lines[1:]).encode(), path)
-    for at, line in enumerate(fields):
-        more = [*lines[:at], line + ",,", *lines[at + 1 :]]  # as a spreadsheet fills its lines
-        assert formats.decode("\n".join(more).encode(), path)[1] == formats.load(path)[1]
-        more[at] = line + ",33"
-        with pytest.raises(FileError, match=f"p.csv:{at + 1}: page [01]: {line.split(',')[0]} has too many values"):
-            formats.decode("\n".join(more).encode(), path)
-
-
-def test_csv_with_any_line_ends(tmp_path):
-    """A lone CR raised an exception in the csv module (found by tools/prove fuzz)."""
-    image = Image.empty()
-    image[3].steps = 1
-    image[3].seal()
-    data = formats.encode(tmp_path / "p.csv", image, 3)[0]
-    for end in (b"\r", b"\r\n", b"\n"):
-        assert formats.decode(data.replace(b"\n", end), tmp_path / "p.csv")[3] == image[3]
-    with pytest.raises(FileError):
-        formats.decode(b'page,1\n"' + b"x" * 200_000, tmp_path / "p.csv")
-
-
-@pytest.mark.parametrize("suffix", [".bin", ".hex", ".mtn", ".m512", ".csv"])
+@pytest.mark.parametrize("suffix", [".bin", ".hex", ".mtn", ".m512"])
 def test_bad_input_truncated_anywhere(tmp_path, suffix):
-    whole = files_of_every_kind(tmp_path)[suffix]
+    whole = files_of_every_kind()[suffix]
     cuts = sorted({0, 1, 2, 3, len(whole) - 1} | set(range(0, len(whole), max(1, len(whole) // 20))))
     for cut in cuts:
         try:

@@ -52,7 +52,6 @@ FILES = {  # name -> (function that makes the input of a given size, initial siz
     "raw bytes.m512": (lambda n: TEXT + b"raw 0 00\n" * n + b"page 1\n", 4_000),
     "links.m512": (lambda n: TEXT + b"next 1\n" * n + b"page 1\n", 6_000),
     "quotes.m512": (lambda n: TEXT + b"page 1 " + b'"a" ' * n, 10_000),
-    "rows.csv": (lambda n: b"page,1\n" + b",\n" * n, 10_000),
     "records.hex": (hex_lines, 1_500),
 }
 

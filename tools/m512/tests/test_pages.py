@@ -97,16 +97,6 @@ def test_pages_check_names_what_is_wrong(m512, lib):
     assert "page 7" in result.stdout and "damaged: checksum is" in result.stdout
 
 
-def test_pages_extract_into_a_csv_wants_one_page_the_trim_too(m512, lib, tmp_path):
-    for words in (("0", "3"), ("1..5",)):
-        result = m512("pages", lib, "extract", *words, "-o", tmp_path / "x.csv")
-        said = "pages 0 and 3" if words[0] == "0" else "pages 1, 3 and 5"
-        assert result.exit_code == 2 and f"a .csv holds one page, and not {said}" in result.stderr and "--page" not in result.stderr
-    for word, number in (("0", 0), ("walk", 3)):
-        assert m512("pages", lib, "extract", word, "-o", tmp_path / f"{number}.csv").exit_code == 0
-        assert (tmp_path / f"{number}.csv").read_text().startswith(f"page,{number}\n")
-
-
 def test_pages_rename(m512, lib):
     assert m512("pages", lib, "rename", "walk", "march", "--in-place").exit_code == 0
     assert image(lib)[3].name == b"march" and not image(lib)[3].fault()
@@ -217,11 +207,7 @@ def test_pairs_stand_as_in_a_text_too(m512, lib, tmp_path):
 
 @pytest.mark.parametrize("word", ["1..5", "5..3", "all"])
 def test_several_pages_for_one_are_refused_as_what_they_are(m512, lib, word):
-    for action in (
-        ("pages", lib, "time", word),
-        ("pages", lib, "copy", word, "20", "-o", lib.parent / "new.bin"),
-        ("convert", lib, lib.parent / "new.csv", "--page", word),
-    ):
+    for action in (("pages", lib, "time", word), ("pages", lib, "copy", word, "20", "-o", lib.parent / "new.bin")):
         result = m512(*action)
         assert result.exit_code == 4 and f"{word} means several pages, and one is asked for" in result.stderr
 

@@ -113,8 +113,6 @@ def test_ranges_of_a_board_and_of_a_file(m512, started, lib):
     assert m512("get", "2..6", "bow", "-o", got, "-p", edit.path).exit_code == 0
     assert read_text(TEXT)[3] == selection_image(got)[3] and selection_image(got).used() == [3, 4, 5, 20]
     assert m512("get", "all", "--force", "-o", got, "-p", edit.path).exit_code == 0
-    result = m512("get", "0", "3", "-o", got.with_suffix(".csv"), "-p", edit.path)
-    assert result.exit_code == 2 and "a .csv holds one page, and not pages 0 and 3" in result.stderr
     assert selection_image(got)[21] == IMAGE[21] and selection_image(got).used() == [3, 4, 5, 7, 20, 21]  # a damaged page is kept byte for byte
     put = m512("put", lib, "3..5:60", "-p", edit.path)
     assert put.exit_code == 0, put.stderr
@@ -148,15 +146,14 @@ def selection_image(path):
         ("pages", "LIB", "retime", "50", "2", "-o", "NEW"),
         ("pages", "LIB", "time", "50"),
         ("pages", "LIB", "show", "50..60"),
-        ("convert", "LIB", "CSV", "--page", "50"),
     ],
 )
 def test_an_empty_page_is_refused_by_its_number_as_in_a_range(m512, lib, words):
-    files = {"LIB": lib, "OTHER": lib.with_name("other.m512"), "NEW": lib.with_name("new.bin"), "CSV": lib.with_name("new.csv")}
+    files = {"LIB": lib, "OTHER": lib.with_name("other.m512"), "NEW": lib.with_name("new.bin")}
     result = m512(*(files.get(word, word) for word in words))
     number = "99" if "99" in words else "50"
     assert result.exit_code == 4 and re.search(rf"\b{number}\b.* holds (nothing|anything)", result.stderr), result.stderr
-    assert not lib.with_name("new.bin").exists() and not lib.with_name("new.csv").exists()
+    assert not lib.with_name("new.bin").exists()
 
 
 @pytest.mark.parametrize("words", [("show", "50"), ("time", "50"), ("copy", "50", "60", "--in-place"), ("rename", "50", "new", "--in-place")])

@@ -227,11 +227,11 @@ def test_motions_at_an_address_are_judged_as_a_motion_file(tmp_path):
         plan(tmp_path / "half.bin", 0xE200)
 
 
-@pytest.mark.parametrize("name", ["x.m512", "x.mtn", "x.csv", "x.hex", "text.bin"])
+@pytest.mark.parametrize("name", ["x.m512", "x.mtn", "x.hex", "text.bin"])
 def test_an_address_is_for_raw_binaries(m512, tmp_path, name):
     """Other files would be written to the robot as raw text, over its program."""
     source = tmp_path / name
-    source.write_bytes(formats.encode(source.with_suffix(".m512" if name == "text.bin" else source.suffix), read_text(TEXT), 3)[0])
+    source.write_bytes(formats.encode(source.with_suffix(".m512" if name == "text.bin" else source.suffix), read_text(TEXT))[0])
     result = m512("flash", source, "--address", "0", "--dry-run", "-p", "none")
     assert result.exit_code == 5 and "--address is for raw binaries" in result.stderr and name in result.stderr
     assert m512("flash", source, "--address", "0xE000", "--dry-run", "-p", "none").exit_code == 5
@@ -355,17 +355,17 @@ def test_a_text_with_a_mistake_is_somebodys_too(files, damage):
 
 
 @pytest.mark.parametrize("size", [65_024, 65_536, 131_072])
-@pytest.mark.parametrize("suffix", ["m512", "hex", "mtn", "csv"])
+@pytest.mark.parametrize("suffix", ["m512", "hex", "mtn"])
 def test_a_text_of_the_size_of_an_image_is_a_text(m512, files, size, suffix):
     """An image is known by its size, and a text can have any size."""
     path = files / f"size.{suffix}"
-    data = formats.encode(path, read_text(TEXT), 3)[0][: size - 10]
+    data = formats.encode(path, read_text(TEXT))[0][: size - 10]
     path.write_bytes(data[:-2] + b" " * (size - len(data)) + data[-2:])
-    wanted = {"m512": formats.TEXT, "hex": formats.HEX, "mtn": formats.MTN, "csv": formats.CSV}[suffix]
+    wanted = {"m512": formats.TEXT, "hex": formats.HEX, "mtn": formats.MTN}[suffix]
     assert formats.recognise(path.read_bytes(), path) == wanted
 
 
-@pytest.mark.parametrize("name", [b":hand", b"type=motion", b"page,", b"motion512 1", b" \n:"])
+@pytest.mark.parametrize("name", [b":hand", b"type=motion", b"motion512 1", b" \n:"])
 def test_an_image_is_an_image_whatever_its_first_page_is_called(files, name):
     image = read_text(TEXT)
     image[1].name = name
@@ -745,19 +745,6 @@ def test_include_of_a_pipe_does_not_wait(m512, tmp_path, monkeypatch, name):
     assert done.returncode == 4 and "x.m512:2: cannot read" in done.stderr, done.stderr
 
 
-def test_csv_of_12_bits_stays_12_bits(m512, tmp_path):
-    text = "motion512 1\nbits 12\npage 3 high\n  step 50 | 1:4000 2:700\n"
-    (tmp_path / "x.m512").write_text(text)
-    assert m512("convert", tmp_path / "x.m512", tmp_path / "x.csv").exit_code == 0
-    back = formats.load(tmp_path / "x.csv")
-    assert back.bits == 12 and back[3] == read_text(text)[3] and not back[3].fault(back.kind)
-    (tmp_path / "y.csv").write_text((tmp_path / "x.csv").read_text().replace("bits,12\n", ""))
-    assert formats.load(tmp_path / "y.csv").bits == 12
-    (tmp_path / "z.csv").write_text((tmp_path / "x.csv").read_text().replace("bits,12\n", "bits,10\n"))
-    with pytest.raises(FileError, match="bits are 10"):
-        formats.load(tmp_path / "z.csv")
-
-
 # Pipes
 
 
@@ -1076,7 +1063,6 @@ def test_a_reader_that_goes_away_ends_results_and_no_work(files):
 @pytest.mark.parametrize(
     "words, says",
     [
-        (["convert", "x.bin", "y.bin", "--page", "3"], "--page is for a .csv"),
         (["convert", "x.bin", "--json"], "--json wants a file"),
         (["pages", "x.bin", "rename", "3", "new", "-o", "y.bin", "--in-place"], "say one of the two"),
     ],

@@ -20,7 +20,7 @@ def use_everything():
         file = bridge.saved(name, empty)["file"]
         bridge.opened(name, file)
         bridge.opened(name, file[:-2] + "\ufffd".encode())  # a checksum damaged by an editor: needs other encodings
-    assert "error" in bridge.opened("a.csv", b"page,") and "error" in bridge.opened("a.txt", b"?")
+    assert "error" in bridge.opened("a.txt", b"?")
     bridge.checked(empty)
     bridge.differences(empty, empty)
     import traceback  # noqa: F401

@@ -96,5 +96,5 @@ test("every file of m512's tests: the same image, or one sentence that names fil
     );
     expect(counts.tests).toBeGreaterThan(150);
     expect(counts.refused).toBeGreaterThan(70);
-    expect(cases.map(({ name }) => name)).toEqual(expect.arrayContaining(['case.bin', 'case.hex', 'case.mtn', 'case.m512', 'case.csv']));
+    expect(cases.map(({ name }) => name)).toEqual(expect.arrayContaining(['case.bin', 'case.hex', 'case.mtn', 'case.m512']));
 }, 1_800_000);

@@ -22,7 +22,7 @@ import types
 
 import pytest
 
-from m512.files import csvpage, formats, mtn
+from m512.files import formats, mtn
 from m512.files import image as raw
 from m512.files import text as text_files
 
@@ -111,7 +111,6 @@ def main(how):
     recorder.watch(mtn, "read", lambda *_: ".mtn")
     recorder.watch(raw, "from_hex", lambda *_: ".hex")
     recorder.watch(raw, "from_bytes", lambda *_: ".bin")
-    recorder.watch(csvpage, "read", lambda *_: ".csv")
     recorder.watch(text_files, "read_text", lambda *_: ".m512")
     real, sys.stdout = sys.stdout, sys.stderr
     codes = [run(recorder, None)] if how == "all" else [run(recorder, f"not ({SLOW})"), run(recorder, FIRST_OF_SLOW)]

@@ -31,7 +31,7 @@ COMMANDS = {
     "torque": ("robot", "Switch torque on or off."),
     "get": ("robot", "Read pages from a running board into a file."),
     "put": ("robot", "Save pages of a file to the board, through Edit."),
-    "convert": ("files", "Convert motions between image, Intel HEX, .mtn, CSV and text."),
+    "convert": ("files", "Convert motions between image, Intel HEX, .mtn and text."),
     "pages": ("pages", "List, check, edit, merge and retime pages of a file or a board."),
     "diff": ("files", "Say in words how two motion files (or boards) differ."),
 }

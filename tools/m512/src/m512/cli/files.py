@@ -14,7 +14,6 @@ from m512 import ui
 from m512.cli.board import FilePath, board_option
 from m512.errors import EXIT_DIFFERENT, FileError, WordError
 from m512.files import conversion, formats, selection
-from m512.files.wording import pages_text
 
 if TYPE_CHECKING:
     from m512.files.image import Image
@@ -38,13 +37,6 @@ PAGE_NUMBER = PageNumber()
 def page_numbers(words: Sequence[str], pages: Any) -> Any:
     """The page numbers that arguments mean, in a file or on a board (files/selection.py)."""
     return _meant(selection.numbers, words, pages)
-
-
-def one_of_csv(target: str | Path | None, numbers: Sequence[int]) -> int | None:
-    """The page for a .csv target, or None if there are several. UsageError: several pages for a .csv."""
-    if target and formats.BY_SUFFIX.get(Path(target).suffix.lower()) == formats.CSV and len(numbers) > 1:
-        raise click.UsageError(f"{target}: a .csv holds one page, and not {pages_text(numbers)}")
-    return numbers[0] if len(numbers) == 1 else None
 
 
 def page_moves(words: Sequence[str], pages: Any) -> Any:
@@ -77,7 +69,6 @@ Examples:
   m512 convert op3.bin op3.m512 --bits 12   12-bit image to text, as it is
   m512 convert op3.bin cm5.bin --bits 12 --scale 10 --joints 1..20
                                             scaled from 12 to 10 bits, with a report
-  m512 convert lib.bin wave.csv --page 15   one page as a table
   m512 convert large.mtn small.bin --only walk --only 20..25
                                             these pages and all that they lead to, renumbered to fit"""
 )
@@ -88,7 +79,6 @@ Examples:
 @click.option("--joints", help="Keep these IDs (1..20 or 1,3,5) and set all others unused.")
 @click.option("--pages", "count", type=click.Choice(["128", "256"]), help="Pages of the result (default: as SOURCE; 128 for a .mtn).")
 @click.option("--only", multiple=True, metavar="NAME|RANGE", help="Take this page, or these, and all that they lead to; again for more.")
-@click.option("--page", "number", help="The page (number or name) of a CSV.")
 @click.option(
     "--damaged",
     type=click.Choice(["ask", "keep", "drop"]),
@@ -99,31 +89,18 @@ Examples:
 @click.option("--force", is_flag=True, help="Overwrite TARGET.")
 @click.option("--json", "as_json", is_flag=True, help="Report on stdout as JSON.")
 def convert(
-    source: Path,
-    target: Path,
-    bits: str | None,
-    scale: Any,
-    joints: Any,
-    count: int | None,
-    only: Any,
-    number: Any,
-    damaged: str,
-    force: bool,
-    as_json: bool,
+    source: Path, target: Path, bits: str | None, scale: Any, joints: Any, count: int | None, only: Any, damaged: str, force: bool, as_json: bool
 ) -> None:
     """Convert the motions in SOURCE to TARGET.
 
     Without a TARGET, or with -, the text goes to standard output; a SOURCE of - is standard input. For git:
     git config diff.motions.textconv "m512 convert", and *.bin diff=motions in .gitattributes.
 
-    The suffix of TARGET decides: .bin (raw image), .hex (Intel HEX), .mtn (RoboPlus), .csv (one page), .m512 (text).
+    The suffix of TARGET decides: .bin (raw image), .hex (Intel HEX), .mtn (RoboPlus), .m512 (text).
     SOURCE is recognised by its contents. All losses are listed; a conversion that loses nothing says nothing. Pages of yours
     are left out only when an option says so; --only says which were.
     """
     formats.must_be_writable(target, force)
-    to = formats.BY_SUFFIX.get(target.suffix.lower())
-    if number and to != formats.CSV:
-        raise click.UsageError("--page is for a .csv as TARGET; --only takes some pages of many")
     if as_json and str(target) in ("-", "/dev/stdout"):
         raise click.UsageError("--json wants a file as TARGET: standard output has the motions")
     image = formats.load(source, int(bits) if bits else None)
@@ -155,7 +132,7 @@ def convert(
     bad = conversion.treat_damaged(image, source, damaged, notes)
     image, lost = conversion.fitted(image, count and int(count), target)
     losses += lost
-    losses += formats.save(target, image, selection.holding(number, image) if number else None)
+    losses += formats.save(target, image)
     if as_json:
         ui.show(
             json.dumps(

@@ -13,7 +13,7 @@ import click
 
 from m512 import ui
 from m512.cli.board import FilePath, Finite, board_option
-from m512.cli.files import PAGE_NUMBER, one_of_csv, page_moves, page_numbers
+from m512.cli.files import PAGE_NUMBER, page_moves, page_numbers
 from m512.errors import EXIT_DIFFERENT, EmptyPageError, FileError, WordError
 from m512.files import conversion, formats, selection
 from m512.files.page import Page
@@ -50,11 +50,9 @@ class Source:
             ui.say(f"note: {note}")
         return image
 
-    def store(
-        self, remarks: Iterable[str], output: Any, in_place: bool, yes: bool, number: int | None = None, other: tuple[Image, Path] | None = None
-    ) -> None:
-        """Writes the changed image to `output`, or else back to its file or board. `number`: the page of a .csv. `other`: a second file
-        that the motions come from, read and by name."""
+    def store(self, remarks: Iterable[str], output: Any, in_place: bool, yes: bool, other: tuple[Image, Path] | None = None) -> None:
+        """Writes the changed image to `output`, or else back to its file or board. `other`: a second file that the motions come from, read
+        and by name."""
         for remark in remarks:
             ui.say(f"note: {remark}")
         target = output or ("" if self.board else self.word)
@@ -63,7 +61,7 @@ class Source:
                 formats.keep_text(image, source, Path(target))
         if output:
             fitted, lost = conversion.fitted(self.image, None, Path(output))
-            for loss in lost + formats.save(Path(output), fitted, number):
+            for loss in lost + formats.save(Path(output), fitted):
                 ui.say(f"loss: {loss}")
         elif self.board:
             self._to_board(yes)
@@ -252,9 +250,7 @@ def renumber(source: Source, page: str, target: Any, swap: bool, **where: Any) -
 @changes
 def extract(source: Source, page: Sequence[str], **where: Any) -> None:
     """Keep these pages only, at their numbers."""
-    asked = page_numbers(page, source.image)
-    numbers, only = set(asked), one_of_csv(where["output"], asked)
-    remarks = []
+    numbers, remarks = set(page_numbers(page, source.image)), []
     if 0 not in numbers and source.image.first == 0 and any(source.image[0].trims()):
         remarks.append("page 0, the robot's trim, is left behind: extract 0 as well keeps it")
     if source.image.given is not None:
@@ -268,7 +264,7 @@ def extract(source: Source, page: Sequence[str], **where: Any) -> None:
                 for link in Page.LINKS + Page.PARTNERS
                 if getattr(here, link) not in numbers | {0}
             ]
-    source.store(remarks, **where, number=only)
+    source.store(remarks, **where)
 
 
 @pages.command(

@@ -14,7 +14,7 @@ import click
 
 from m512 import ui
 from m512.cli.board import FilePath, json_option, only_the_simulator, port_option, refuse_words
-from m512.cli.files import one_of_csv, page_moves, page_numbers
+from m512.cli.files import page_moves, page_numbers
 from m512.errors import BoardError, CancelledError, NoAnswerError, PortError, RefusedError, WordError
 
 if TYPE_CHECKING:
@@ -337,13 +337,12 @@ def get(pages: Sequence[str], output: Any, force: bool, **options: Any) -> None:
     formats.must_be_writable(output, force)  # before a robot is contacted
     with robot(options) as client:
         numbers = page_numbers(pages, client)
-        only = one_of_csv(output, numbers)
         image = Image.empty(client.pages)
         with ui.phase("Reading") as progress:
             for done, number in enumerate(numbers):
                 image[number] = client.page(number)
                 progress(done + 1, len(numbers))
-    for loss in formats.save(output, image, only):
+    for loss in formats.save(output, image):
         ui.say(f"loss: {loss}")
     ui.say(f"{output}: pages {' '.join(map(str, numbers))}")
     if options["as_json"]:

@@ -60,7 +60,5 @@ def fitted(image: Image, count: int | None, target: Path) -> tuple[Image, list[s
 
 
 def fitting(image: Image, target: Path) -> int:
-    """The number of pages of the source. A .mtn always has 255: it is written from the existing pages, and read for a board of 128. A table
-    has one page of any number."""
-    any_number = formats.BY_SUFFIX.get(target.suffix.lower()) in (formats.MTN, formats.CSV)
-    return 128 if image.form == formats.MTN and not any_number else image.end
+    """The number of pages of the source. A .mtn always has 255: it is written from the existing pages, and read for a board of 128."""
+    return 128 if image.form == formats.MTN and formats.BY_SUFFIX.get(target.suffix.lower()) != formats.MTN else image.end

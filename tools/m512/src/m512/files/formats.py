@@ -18,8 +18,8 @@ from m512.files import scale12, storage
 from m512.files.image import Image
 from m512.files.wording import counted
 
-TEXT, BINARY, HEX, MTN, CSV = "text", "image", "Intel HEX", "RoboPlus .mtn", "CSV"
-BY_SUFFIX = {".m512": TEXT, ".bin": BINARY, ".img": BINARY, ".hex": HEX, ".ihex": HEX, ".mtn": MTN, ".csv": CSV}
+TEXT, BINARY, HEX, MTN = "text", "image", "Intel HEX", "RoboPlus .mtn"
+BY_SUFFIX = {".m512": TEXT, ".bin": BINARY, ".img": BINARY, ".hex": HEX, ".ihex": HEX, ".mtn": MTN}
 BACKUP_MANIFEST, BACKUP_FORMAT = "manifest.json", "m512-backup"  # in the folder of a backup (board/backup.py)
 
 
@@ -34,8 +34,6 @@ def recognise(data: bytes, path: Path) -> str:
         return HEX
     if start.startswith(b"type="):
         return MTN
-    if start.startswith(b"page,"):
-        return CSV
     lines = [line.strip() for line in start.split(b"\n")]
     if any(line.startswith(b"motion512") for line in lines):
         return TEXT
@@ -45,7 +43,7 @@ def recognise(data: bytes, path: Path) -> str:
     if kind in (None, BINARY):
         raise FileError(
             f"{path}: {counted(len(data), 'byte')} that {'makes' if len(data) == 1 else 'make'} no motion file this program knows "
-            "(image, Intel HEX, .mtn, CSV or text)"
+            "(image, Intel HEX, .mtn or text)"
         )
     return kind
 
@@ -58,7 +56,7 @@ def _text_of(data: bytes, path: Path) -> str:
 
 
 def load(path: Path, bits: int | None = None) -> Image:
-    """Reads any motion file. `bits`: 10 or 12; None guesses from the positions, with a note (a text or a table states it)."""
+    """Reads any motion file. `bits`: 10 or 12; None guesses from the positions, with a note (a text states it)."""
     return decode(storage.read(path), path, bits)
 
 
@@ -95,19 +93,14 @@ def _image(kind: str, data: bytes, path: Path, bits: int | None) -> Image:
         image = read_text(text, str(path), storage.folder(path))
         image.text = text
         return scale12.as_said(image, bits)
-    if kind == MTN:
-        from m512.files import mtn
+    from m512.files import mtn
 
-        return mtn.read(data, str(path), bits)
-    from m512.files import csvpage
-
-    return scale12.as_said(csvpage.read(_text_of(data, path), str(path)), bits)
+    return mtn.read(data, str(path), bits)
 
 
-def save(path: Path, image: Image, number: int | None = None, kind: str | None = None) -> list[str]:
-    """Writes an image in the format of the path's suffix, or as `kind`. Returns the losses, also those of a file that was replaced.
-    `number`: the page for a CSV."""
-    data, losses = encode(path, image, number, kind)
+def save(path: Path, image: Image, kind: str | None = None) -> list[str]:
+    """Writes an image in the format of the path's suffix, or as `kind`. Returns the losses, also those of a file that was replaced."""
+    data, losses = encode(path, image, kind)
     return losses + storage.write(path, data)
 
 
@@ -177,7 +170,7 @@ def _is_by_hand(path: Path) -> bool:
         return True
 
 
-def encode(path: Path, image: Image, number: int | None = None, kind: str | None = None) -> tuple[bytes, list[str]]:
+def encode(path: Path, image: Image, kind: str | None = None) -> tuple[bytes, list[str]]:
     kind = kind or kind_of(path)
     if kind == BINARY:
         return image.to_bytes(), []
@@ -187,10 +180,6 @@ def encode(path: Path, image: Image, number: int | None = None, kind: str | None
         from m512.files.text import write_text
 
         return write_text(image).encode(), []
-    if kind == MTN:
-        from m512.files import mtn
+    from m512.files import mtn
 
-        return mtn.write(image)
-    from m512.files import csvpage
-
-    return csvpage.write(image, number)
+    return mtn.write(image)

@@ -19,9 +19,9 @@ HINT = "m512 convert --bits 12 --scale 10 makes it fit a board of 10 bits"
 
 
 def as_said(image: Image, bits: int | None) -> Image:
-    """The image of a text or a table, which states its own resolution. A note says that `bits` is another and has no effect."""
+    """The image of a text, which states its own resolution. A note says that `bits` is another and has no effect."""
     if bits and bits != image.bits:
-        image.notes.append(f"--bits {bits} has no effect on a text or a table, which says its resolution itself; this one has {image.bits} bits")
+        image.notes.append(f"--bits {bits} has no effect on a text, which says its resolution itself; this one has {image.bits} bits")
     return image
 
 
