@@ -13,7 +13,7 @@ four; the body sways like a sine, away from the foot in the air. A foot on the g
     body      left of the middle  | right of the middle
 
 Walking on the spot, backwards, to the side, and curves are the same cycle with other ways of the feet. The numbers are in
-gait.json, found by search.py in physics: what they are is told at `Gait`.
+gait.json, found by a search in physics; `Gait` describes them.
 """
 
 import argparse

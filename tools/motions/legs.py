@@ -67,22 +67,3 @@ def reach(foot: Foot, side: int, lean: float = 0.0):
         ANKLE_ROLL: -units(roll),
     }
     return {joint + (side < 0): CENTRE + side * angle for joint, angle in angles.items()}
-
-
-def foot_of(position, side: int) -> Foot:
-    """Inverse of reach(), for an upright body: the foot from the positions of one leg ({ID: position} of at least that leg). toes: against
-    the floor of that body."""
-    angle = {joint: side * (position[joint + (side < 0)] - CENTRE) / UNITS_PER_DEGREE for joint in (YAW, ROLL, HIP, KNEE, ANKLE)}
-    thigh = radians(angle[HIP] - SET)
-    shank = radians(angle[HIP] + angle[KNEE] + SET)
-    forward = THIGH_MM * sin(thigh) + SHANK_MM * sin(shank)
-    down = THIGH_MM * cos(thigh) + SHANK_MM * cos(shank)
-    left = -side * down * sin(radians(angle[ROLL]))
-    turn = radians(-side * angle[YAW])
-    return Foot(
-        forward * cos(turn) - left * sin(turn),
-        left * cos(turn) + forward * sin(turn),
-        degrees(turn),
-        down * cos(radians(angle[ROLL])),
-        angle[HIP] + angle[KNEE] + angle[ANKLE],
-    )

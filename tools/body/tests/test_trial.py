@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Trials: the player follows the firmware's law, the body obeys simple physics, and results are reproducible."""
 
+import dataclasses
 import pathlib
 
 import pytest
 
-from body.chance import NOMINAL, Push, Variation, random_body, with_zeros_of
+from body.chance import NOMINAL, Push, Variation, random_body
 from body.description import load
 from body.physics import Physics
 from body.quick import Quick
@@ -171,7 +172,7 @@ def test_walk_stands_on_bodies_on_which_a_worse_walk_fell():
     fell = []
     for seed in (5055, 5087, 5132, 5145, 5155):
         body = random_body(HUMANOID, seed, 11, pushes=2)
-        body = with_zeros_of(body, {servo: 1.6 * units for servo, units in body.zero_units.items()})
+        body = dataclasses.replace(body, zero_units={servo: 1.6 * units for servo, units in body.zero_units.items()})
         outcome = try_motion(IMAGE, NUMBER["walk"], 10, variation=body, keys=[(0, 1), (3, 8), (5.2, 1), (8, STOP)])
         fell += [(seed, outcome.said())] if outcome.fell_s is not None or not outcome.on_feet else []
     assert len(fell) <= 1, fell

@@ -80,8 +80,3 @@ def body_of_the_bench(robot, seed):
 
 def _even_in_log(chance, low, high):
     return math.exp(chance.uniform(math.log(low), math.log(high)))
-
-
-def with_zeros_of(variation, zero_units):
-    """The same body with other servo zeros."""
-    return dataclasses.replace(variation, zero_units=zero_units)

@@ -158,10 +158,6 @@ class Physics:
         self.data.eq_active[self._hand()] = 0
         self.stand({}, heading)
 
-    @property
-    def is_held(self):
-        return bool(self.data.eq_active[self._hand()])
-
     def _hand(self):
         try:
             return self.model.equality("hand").id
