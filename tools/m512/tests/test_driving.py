@@ -238,27 +238,6 @@ def test_a_stop_counts_behind_any_key(key, done):
         assert after(before + key).done == done and after(before, key).done == done, before
 
 
-def test_pad_steers_and_speeds_by_its_left_stick():
-    class Device:
-        axes, pressed = [0.5, -1.0], set()
-
-        def axis(self, n):
-            return self.axes[n]
-
-        def button(self, n):
-            return n in self.pressed
-
-    stick, device = driving.Stick(), Device()
-    driving.Pad(device).update(stick, 0.05)
-    assert stick.line() == "drive 50 150 100"
-    device.axes = [0.05, 0.0]
-    driving.Pad(device).update(stick, 0.05)
-    assert stick.line() == "drive 0 100 100"
-    device.pressed = {2}
-    driving.Pad(device).update(stick, 0.05)
-    assert stick.done == "stop"
-
-
 def test_drive_without_a_terminal_says_so(m512, monkeypatch):
     from contextlib import contextmanager
 

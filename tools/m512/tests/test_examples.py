@@ -202,7 +202,6 @@ def test_an_example_does_what_it_says(m512, world, tmp_path, monkeypatch, words,
     for output in outputs:
         (tmp_path / output).unlink(missing_ok=True)
     monkeypatch.setattr(shape, "_keys", space_is_pressed)
-    monkeypatch.setattr(shape, "_pad", space_is_pressed)  # pygame may be absent
     monkeypatch.setenv("M512_BUILD", str(REPO / "build"))
     result = m512(*words, input="")
     allowed = (0, 3) if command in FOUND_SOMETHING or "check" in words else (0,)

@@ -371,7 +371,7 @@ def test_amplitudes_of_single_joints_are_told_with_their_joints(m512, robot):
         assert client.shape()["amplitude"] == "60 3,4:120"
 
 
-@pytest.mark.parametrize("words", [("shape",), ("drive", "walk", "--pad"), ("layer", "old"), ("aim", "1:512"), ("play", "walk", "--rate", "120")])
+@pytest.mark.parametrize("words", [("shape",), ("drive", "walk"), ("layer", "old"), ("aim", "1:512"), ("play", "walk", "--rate", "120")])
 def test_edit_refuses_what_takes_play_and_nothing_moves(m512, started, words):
     edit = started("edit-cm5.hex", text=OLD)
     edit.pass_time(1.5)

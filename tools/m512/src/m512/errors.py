@@ -10,7 +10,7 @@ EXIT_REFUSED = 5  # the request would do harm, or the user said no
 EXIT_PORT = 6  # no port, no access, or the cable was unplugged
 EXIT_NO_ANSWER = 7  # the port exists, but nobody answers as expected
 EXIT_BOARD = 8  # the board answered with an error
-EXIT_MISSING = 9  # an optional library or the simulator is not installed
+EXIT_MISSING = 9  # the simulator, or a program for an adapter, is not installed
 EXIT_CANCELLED = 130  # Ctrl-C, as in shells
 
 WORDS_MOST = 300  # longest message in characters, when it quotes user input
@@ -76,8 +76,3 @@ class CancelledError(M512Error):
 
 class MissingError(M512Error):
     exit_code = EXIT_MISSING
-
-
-def how_to_install(package: str) -> str:
-    """The command that installs an optional library, for either way of installing m512."""
-    return f"pip install {package} (m512 by pipx: pipx inject m512 {package})"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Driving a motion that plays: turns a stick or keys into `@drive` lines, 20 per second.
+"""Driving a motion that plays: turns keys into `@drive` lines, 20 per second.
 
 The board ends the play through its exit page when no `@drive` arrives for a second (setting `drive`). So a lost cable or a program
 that hangs does not leave a robot walking.
@@ -11,7 +11,7 @@ import re
 from collections import deque
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any, Callable, Protocol
+from typing import Callable
 
 from m512.board.client import Client
 from m512.board.link import Link
@@ -40,13 +40,6 @@ class Stick:
 
     def line(self) -> str:
         return f"drive {_within(self.blend, BLENDS)} {_within(self.rate, RATES)} {_within(self.amplitude, AMPLITUDES)}"
-
-
-class Source(Protocol):
-    """Keys or a game pad."""
-
-    def update(self, stick: Stick, seconds: float) -> None:
-        """Changes the stick by the input of the last `seconds`."""
 
 
 class Keys:
@@ -85,28 +78,10 @@ def _arrow(sequence: re.Match[str]) -> str:
     return "" if sequence[0].startswith("\x1b[[") else ARROWS.get(sequence[1], "")
 
 
-class Pad:
-    """A game pad, read by `axis(n)` (-1 .. 1) and `button(n)`. The left stick steers and sets the speed, each of the first four buttons
-    stops, the fifth (a shoulder button) plays the second page while it is held."""
-
-    DEAD, LAYER = 0.12, 4
-
-    def __init__(self, pad: Any) -> None:
-        self.pad = pad
-
-    def update(self, stick: Stick, seconds: float) -> None:
-        across, along = (0.0 if abs(value) < self.DEAD else value for value in (self.pad.axis(0), self.pad.axis(1)))
-        stick.blend = _clamp(100 * across, BLENDS)
-        stick.rate = 100 - 50 * _clamp(along, (-1, 1))  # forward is negative
-        stick.layer = bool(self.pad.button(self.LAYER))
-        if any(self.pad.button(n) for n in range(4)):
-            stick.done = "stop"
-
-
 def drive(
-    client: Client, source: Source, link: Link, told: Callable[[Stick], object], layer: int = 0, begin: Callable[[], object] = lambda: None
+    client: Client, keys: Keys, link: Link, told: Callable[[Stick], object], layer: int = 0, begin: Callable[[], object] = lambda: None
 ) -> Stick:
-    """Begins the play, then sends lines until the source sets `done` or the play ends; calls `told(stick)` after each line. layer: the
+    """Begins the play, then sends lines until the keys set `done` or the play ends; calls `told(stick)` after each line. layer: the
     second page, 0: none. An exception stops the play softly, unless the board refuses to begin it."""
     stick, laid, lines, begun = Stick(), False, 0, False
     try:
@@ -114,7 +89,7 @@ def drive(
         begun, before = True, link.now()
         while not stick.done:
             now, lines = link.now(), lines + 1
-            source.update(stick, now - before)
+            keys.update(stick, now - before)
             before = now
             client.ask(stick.line())
             if layer and stick.layer != laid:

@@ -22,7 +22,7 @@ COMMANDS = {
     "play": ("robot", "Play a page of the board, or of the simulator."),
     "stop": ("robot", "Stop what is playing, softly or at once."),
     "shape": ("shape", "Speed, size and turn of the motion that plays."),
-    "drive": ("shape", "Play a page and drive it by keys or a game pad."),
+    "drive": ("shape", "Play a page and drive it by keys."),
     "layer": ("layers", "Play a second page over it, on joints of its own."),
     "aim": ("layers", "Bring joints to positions while everything else goes on."),
     "swing": ("layers", "Swing a joint to and fro, likewise."),

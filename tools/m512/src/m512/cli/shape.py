@@ -12,10 +12,10 @@ import click
 from m512 import ui
 from m512.cli.layers import must_last, show_shape
 from m512.cli.robot import apply, robot, robot_options, shape_options
-from m512.errors import MissingError, NoAnswerError, PortError, how_to_install
+from m512.errors import NoAnswerError, PortError
 
 if TYPE_CHECKING:
-    from m512.board.driving import Keys, Pad, Stick
+    from m512.board.driving import Keys, Stick
 
 
 @click.command(
@@ -43,14 +43,12 @@ def shape(rate: int | None, amplitude: int | None, blend: int | None, reset: boo
     epilog="""\b
 Examples:
   m512 drive walk                keys of the terminal; keep a or d (or an arrow) pressed to steer
-  m512 drive walk --layer wave_over       f lays a second page over it: it waves while it walks
-  m512 drive walk --pad          the first game pad (needs pygame)"""
+  m512 drive walk --layer wave_over       f lays a second page over it: it waves while it walks"""
 )
 @click.argument("page")
-@click.option("--pad", is_flag=True, help="A game pad instead of keys.")
-@click.option("--layer", "laid", metavar="PAGE", help="Key f (the pad's fifth button) lays this page over the walk.")
+@click.option("--layer", "laid", metavar="PAGE", help="Key f lays this page over the walk.")
 @robot_options
-def drive(page: str, pad: bool, laid: Any, **options: Any) -> None:
+def drive(page: str, laid: Any, **options: Any) -> None:
     """Play PAGE and drive it: a joystick at 20 lines a second.
 
     When the cable is lost or m512 ends, the board stops the play through its exit page.
@@ -60,18 +58,18 @@ def drive(page: str, pad: bool, laid: Any, **options: Any) -> None:
     with robot(options) as client:
         client.shape()  # Edit refuses this; it would play the page but could not be driven
         number, second = client.motion(page), client.motion(laid) if laid else 0
-        with _pad() if pad else _keys() as source:
+        with _keys() as keys:
 
             def begin() -> None:
                 try:
                     client.play(number)
                 except (NoAnswerError, PortError) as error:
                     raise type(error)(f"{error}. If page {number} plays, it goes on (m512 stop ends it)") from None
-                ui.say(f"page {number} plays. " + ("Any of the first four buttons stops it" if pad else driving.Keys.HELP))
+                ui.say(f"page {number} plays. {driving.Keys.HELP}")
                 if second:
-                    ui.say(f"{'The fifth button' if pad else 'f'} lays page {second} over it")
+                    ui.say(f"f lays page {second} over it")
 
-            stick = driving.drive(client, source, client.link, _tell, second, begin)
+            stick = driving.drive(client, keys, client.link, _tell, second, begin)
     ui.say("\nstopping" if stick.done else "")
 
 
@@ -92,7 +90,7 @@ def _keys() -> Iterator[Keys]:
     from m512.errors import RefusedError
 
     if not sys.stdin.isatty():
-        raise RefusedError("driving by keys needs a terminal; --pad takes a game pad")
+        raise RefusedError("driving by keys needs a terminal")
     console, keys = Console(), Keys()
     if isinstance(sys.stdin, io.TextIOWrapper):
         sys.stdin.reconfigure(errors="replace")  # a terminal set to Latin-1 sends bytes that are no UTF-8
@@ -117,35 +115,3 @@ def _keys() -> Iterator[Keys]:
     finally:
         with suppress(Exception):  # a terminal that is gone cannot be set back
             console.cleanup()
-
-
-@contextmanager
-def _pad() -> Iterator[Pad]:
-    """The first game pad, through pygame."""
-    import os
-
-    from m512.board.driving import Pad
-
-    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
-    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
-    try:
-        import pygame
-    except ImportError:
-        raise MissingError(f"a game pad needs pygame: {how_to_install('pygame')}") from None
-    pygame.init()
-    try:
-        if not pygame.joystick.get_count():
-            raise MissingError("no game pad is plugged in")
-        device = pygame.joystick.Joystick(0)
-
-        class Reader:
-            def axis(self, n: int) -> float:
-                pygame.event.pump()
-                return device.get_axis(n) if n < device.get_numaxes() else 0.0
-
-            def button(self, n: int) -> bool:
-                return bool(n < device.get_numbuttons() and device.get_button(n))
-
-        yield Pad(Reader())
-    finally:
-        pygame.quit()
