@@ -185,7 +185,7 @@ def test_the_simulated_board_refuses_what_the_real_one_cannot_play(monkeypatch, 
     monkeypatch.setenv("M512_CM5SIM", "/bin/true")
     formats.save(tmp_path / "x.bin", image_of(bits, 150))
     with pytest.raises(RefusedError, match=says):
-        Simulator(["/bin/true"], tmp_path / "x.bin")
+        Simulator("/bin/true", tmp_path / "x.bin")
 
 
 def test_a_12_bit_image_is_known_by_the_joints_that_move(tmp_path):

@@ -428,7 +428,7 @@ def test_the_simulated_board_is_the_one_that_the_image_is_for(monkeypatch, board
     """Otherwise the image starts on the wrong pins, and m512 waits five minutes for it."""
     monkeypatch.setenv("M512_CM5SIM", "/bin/echo")
     with pytest.raises(MissingError, match=f"--board={board} "):
-        Simulator([f"play-{board}.hex"])
+        Simulator(f"play-{board}.hex")
 
 
 def test_a_pose_of_a_servo_that_is_not_there_is_an_error(m512, started):

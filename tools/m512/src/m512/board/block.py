@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import re
 from collections import deque
-from collections.abc import Iterable
 from typing import Callable
 
 from m512.board.link import BAUD, Link
@@ -187,12 +186,12 @@ class BlockLoader:
         sums = self._sums(min(pages), max(pages) - min(pages) + 1, progress)
         return [number for number in sorted(pages) if sums[number] != page_sum(pages[number])]
 
-    def write(self, pages: dict[int, bytes], progress: Progress | None = None) -> int:
-        """Writes these pages; the loader reads each back. Returns how many were already equal."""
+    def write(self, pages: dict[int, bytes], progress: Progress | None = None) -> None:
+        """Writes these pages; the loader reads each back."""
         waiting = deque(sorted(pages))
         under_way: dict[int, int] = {}
         failures: dict[int, int] = {}
-        done = equal = 0
+        done = 0
         while waiting or under_way:
             while waiting and len(under_way) < WINDOW:
                 page = waiting.popleft()
@@ -202,7 +201,7 @@ class BlockLoader:
                 if answer is not None and answer[2] != BAD_FRAME:
                     continue
                 # Something was lost: collect the outstanding answers, then repeat the writes without acknowledgement.
-                done, equal = self._collect(under_way, done, equal)
+                done += self._collect(under_way)
                 for page in sorted(under_way.values()):
                     failures[page] = failures.get(page, 0) + 1
                     if failures[page] > TRIES:
@@ -216,19 +215,17 @@ class BlockLoader:
             page = under_way.pop(answer[1])
             if answer[2] not in (OK, EQUAL):
                 raise BoardError(f"0x{page * FLASH_PAGE:05X}: {STATUS.get(answer[2], answer[2])}", answer[2])
-            done, equal = done + 1, equal + (answer[2] == EQUAL)
+            done += 1
             if progress:
                 progress(done, len(pages))
-        return equal
 
-    def _collect(self, under_way: dict[int, int], done: int, equal: int) -> tuple[int, int]:
-        while True:
-            answer = self._receive(0.3)
-            if answer is None:
-                return done, equal
+    def _collect(self, under_way: dict[int, int]) -> int:
+        """Takes the writes that are acknowledged now out of `under_way`. Returns how many."""
+        before = len(under_way)
+        while (answer := self._receive(0.3)) is not None:
             if answer[0] == WRITE and answer[1] in under_way and answer[2] in (OK, EQUAL):
                 under_way.pop(answer[1])
-                done, equal = done + 1, equal + (answer[2] == EQUAL)
+        return before - len(under_way)
 
     def read_eeprom(self, start: int = 0, end: int = 4096, progress: Progress | None = None) -> bytes:
         base = EEPROM_PAGE * FLASH_PAGE
@@ -237,7 +234,7 @@ class BlockLoader:
     def write_eeprom(self, cells: dict[int, int], progress: Progress | None = None) -> None:
         """Writes single bytes, by address."""
         done = 0
-        for at, data in _pieces(sorted(cells.items()), EE_WRITE_MAX):
+        for at, data in pieces(cells, EE_WRITE_MAX):
             body = at.to_bytes(2, "little") + len(data).to_bytes(2, "little") + data + bytes(len(data) % 2)
             self._ask(EE_WRITE, body)
             done += len(data)
@@ -254,12 +251,13 @@ class BlockLoader:
             self.rate = BAUD
 
 
-def _pieces(cells: Iterable[tuple[int, int]], most: int) -> list[tuple[int, bytes]]:
-    """Runs of neighbouring bytes, at most `most` long."""
+def pieces(cells: dict[int, int], most: int, alone: bytes = b"") -> list[tuple[int, bytes]]:
+    """Runs of neighbouring bytes, at most `most` long. Each byte in `alone` is a run of its own."""
     out: list[tuple[int, bytearray]] = []
-    for at, value in cells:
-        if out and at == out[-1][0] + len(out[-1][1]) and len(out[-1][1]) < most:
-            out[-1][1].append(value)
+    for at, value in sorted(cells.items()):
+        start, run = out[-1] if out else (-1, bytearray())
+        if run and at == start + len(run) and len(run) < most and value not in alone and run[-1] not in alone:
+            run.append(value)
         else:
             out.append((at, bytearray([value])))
     return [(at, bytes(data)) for at, data in out]

@@ -35,7 +35,7 @@ class FactoryLoader(FactoryLine):
 
     # Writing flash
 
-    def write(self, pages: dict[int, bytes], progress: Progress | None = None, around: dict[int, bytes] | None = None) -> int:
+    def write(self, pages: dict[int, bytes], progress: Progress | None = None, around: dict[int, bytes] | None = None) -> None:
         """Writes these pages and reads them back. `around`: pages known to be on the board, which may be rewritten."""
         if any(page * FLASH_PAGE < APP[1] for page in pages):
             self.stay()  # a partly written program must not be started
@@ -46,7 +46,6 @@ class FactoryLoader(FactoryLine):
                 whole = self._with_neighbour({page: known[page] for page in unit})
                 self._write_unit(whole, todo, progress and (lambda n, before=done: progress(before + n, len(pages))))
                 done += len(todo)
-        return 0
 
     def _with_neighbour(self, unit: dict[int, bytes]) -> dict[int, bytes]:
         """Adds the other half of a motion page, as the board holds it: both halves are written together."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from m512.board.block import RESET, START, STAY, Progress
+from m512.board.block import RESET, START, STAY, Progress, pieces
 from m512.board.link import Link
 from m512.errors import BoardError, NoAnswerError
 
@@ -152,7 +152,7 @@ class FactoryLine:
     def write_eeprom(self, cells: dict[int, int], progress: Progress | None = None) -> None:
         """Writes single bytes, by address. Does not read them back."""
         done = 0
-        for at, data in _pieces(cells):
+        for at, data in pieces(cells, EEPROM_PIECE, b"\r\n"):  # a surplus byte would be typed text, so a line end is a piece of its own
             for _ in range(TRIES):
                 if self._eeprom_piece(at, data):
                     break
@@ -218,15 +218,3 @@ class FactoryLine:
 
 def _as_text(data: bytes) -> bytes:
     return bytes(byte if 0x20 <= byte <= 0x7F else 0x2E for byte in data)
-
-
-def _pieces(cells: dict[int, int]) -> list[tuple[int, bytes]]:
-    """Runs of neighbouring bytes. A surplus byte would be typed text, so a line end is a piece of its own."""
-    out: list[tuple[int, bytearray]] = []
-    for at in sorted(cells):
-        last = out[-1] if out else (-1, bytearray())
-        if at == last[0] + len(last[1]) and len(last[1]) < EEPROM_PIECE and cells[at] not in b"\r\n" and last[1][-1] not in b"\r\n":
-            last[1].append(cells[at])
-        else:
-            out.append((at, bytearray([cells[at]])))
-    return [(at, bytes(data)) for at, data in out]

@@ -92,11 +92,11 @@ def our_motions() -> Path | None:
 class Simulator:
     """cm5sim with its console on a pty, with our motions unless others are given. Use as a context manager; `url` is the port."""
 
-    def __init__(self, images: list[str], motions: Path | None = None, servos: str = "1-18", extra: list[str] | None = None):
-        paths = [find_image(image) for image in images]
-        command = [str(find_cm5sim())] + [str(path) for path in paths]
-        command += [f"--board={board}" for board in sorted(filter(None, map(board_of, paths)))]
-        command += ["--servos", servos, "--pty", "--no-stdio", "--realtime"] + (extra or [])
+    def __init__(self, image: str, motions: Path | None = None, servos: str = "1-18"):
+        path = find_image(image)
+        command = [str(find_cm5sim()), str(path), "--servos", servos, "--pty", "--no-stdio", "--realtime"]
+        board = board_of(path)
+        command += [f"--board={board}"] if board else []
         motions = motions or our_motions()
         # A file without a name: nothing is left of it, however this process ends.
         with tempfile.TemporaryFile() as area:

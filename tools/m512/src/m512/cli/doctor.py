@@ -54,7 +54,7 @@ def doctor(port: str, sim: bool, mend: bool, as_json: bool) -> None:
     elif sim:
         from m512.board.sim import Simulator, meet
 
-        with Simulator(["play-cm5.hex"]) as simulator:
+        with Simulator("play-cm5.hex") as simulator:
             found = examine(simulator.url, tell, meet)
     else:
         found = examine(port, tell)

@@ -90,7 +90,7 @@ def robot(options: dict[str, Any], image: Any = "play") -> Iterator[Client]:
         only_the_simulator()
         from m512.board.sim import Simulator, meet
 
-        with Simulator([options["image"]], options["motions"], options["servos"]) as simulator, Link(simulator.url) as link:
+        with Simulator(options["image"], options["motions"], options["servos"]) as simulator, Link(simulator.url) as link:
             yield meet(link)
         return
     with Link(ports.pick(options["port"]), image=image) as link:

@@ -52,7 +52,7 @@ def term(port: str, log: Path | None, force: bool, send: Path | None, listing: b
         only_the_simulator()
         from m512.board.sim import Simulator
 
-        with Simulator([image], motions) as simulator:
+        with Simulator(image, motions) as simulator:
             Terminal(simulator.url, log).run(send, data)
         return
     if not is_bus(port):

@@ -198,6 +198,3 @@ def to_hex(image: Image) -> str:
 def is_erased(page: Page) -> bool:
     """All 0xFF: flash that was never written."""
     return page.data == b"\xff" * PAGE_BYTES
-
-
-__all__ = ["EMPTY", "Image", "from_bytes", "from_hex", "hex_segments", "is_erased", "to_hex"]

@@ -7,7 +7,6 @@ faster: the joint lags, and the motion differs from the intended one.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
@@ -41,14 +40,12 @@ def no_load_units_per_tick(volts: float, bits: int = 10) -> float:
     return no_load_degrees_s(volts) / float(degrees_per_unit(bits)) / TICKS_PER_SECOND
 
 
-def too_fast(
-    image: Image, number: int, volts: float = BATTERY_V, pose: Sequence[int] | None = None, seconds: float = LOOKED_SECONDS
-) -> list[TooFast]:
+def too_fast(image: Image, number: int, volts: float = BATTERY_V, seconds: float = LOOKED_SECONDS) -> list[TooFast]:
     """The steps of a play from page `number` (along its next links) in which a joint must move faster than an unloaded servo can at this
-    supply. `pose`: the initial pose; by default that of the page's first step, because the robot approaches it slowly."""
+    supply. The play begins in the pose of the page's first step, because the robot approaches it slowly."""
     limit, degrees_s = no_load_units_per_tick(volts, image.bits), float(degrees_per_unit(image.bits)) * TICKS_PER_SECOND
     found: dict[tuple[int, int], TooFast] = {}
-    start = list(pose or _first_pose(image, number))
+    start = _first_pose(image, number)
     ticks = play(image, number, start, int(seconds * TICKS_PER_SECOND))
     for place, step in groupby(ticks, lambda tick: (tick.page, tick.step)):
         goals = [start] + [tick.goals for tick in step if tick.goals is not None]
