@@ -148,15 +148,14 @@ bool settings_save_poll(settings_store_t *store, const settings_t *settings)
         return store->saving;
     }
     if (store->at == SAVE_STEPS) {
-        store->copy = copy;
-        store->sequence++;
         store->saving = false;
         return false;
     }
     const uint8_t at = store->at == RECORD_BYTES ? 0 : store->at;   /* the magic is written last */
     uint8_t byte = store->at == 0 ? NO_MAGIC : byte_to_save(store, settings, at);
-    if (eeprom_start(copy_addr(copy) + at, byte)) {
-        store->at++;
+    if (eeprom_start(copy_addr(copy) + at, byte) && ++store->at == SAVE_STEPS) {
+        store->copy = copy;   /* from here on a new save goes to the other one, after this byte */
+        store->sequence++;
     }
     return true;
 }

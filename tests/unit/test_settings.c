@@ -221,6 +221,40 @@ static void test_power_cut_at_every_write_leaves_old_or_new(void)
     printf("settings: %u power cuts, %u old, %u new, 0 other\n", cuts, olds, news);
 }
 
+/* Changes the settings again when the last byte of a save has begun, and cuts at the n-th EEPROM write from there on. */
+static bool cut_save_after_save(uint32_t operation, const settings_t *first, const settings_t *second)
+{
+    jmp_buf power;
+    fake_eeprom_reset();
+    (void)settings_load(&store, &loaded);
+    save(&store, &settings);
+    const uint8_t last = store.at;
+    settings_save_start(&store);
+    while (store.at != last) {
+        (void)settings_save_poll(&store, first);
+    }
+    if (setjmp(power) == 0) {
+        fake_eeprom_cut(operation, -1, &power);
+        save(&store, second);
+        fake_eeprom_cut(0, 0, &power);
+        return false;
+    }
+    return true;
+}
+
+static void test_power_cut_after_a_save_that_followed_at_once_keeps_one_of_them(void)
+{
+    settings_t first = settings, second = settings;
+    first.approach_deg_s = 33;
+    second.approach_deg_s = 77;
+    for (uint32_t operation = 1; cut_save_after_save(operation, &first, &second); operation++) {
+        TEST_ASSERT_EQUAL(SETTINGS_OK, settings_load(&store, &loaded));
+        TEST_ASSERT_TRUE(loaded.approach_deg_s == 33 || loaded.approach_deg_s == 77);
+    }
+    TEST_ASSERT_EQUAL(SETTINGS_OK, settings_load(&store, &loaded));
+    TEST_ASSERT_EQUAL_MEMORY(&second, &loaded, sizeof second);
+}
+
 /* Cuts a first save at its n-th EEPROM write. Returns whether the cut happened. */
 static bool cut_first_save(uint32_t operation, int torn)
 {
@@ -296,6 +330,7 @@ int main(void)
     RUN_TEST(test_record_of_an_older_program_keeps_its_settings);
     RUN_TEST(test_saving_in_steps_never_blocks_and_ends);
     RUN_TEST(test_power_cut_at_every_write_leaves_old_or_new);
+    RUN_TEST(test_power_cut_after_a_save_that_followed_at_once_keeps_one_of_them);
     RUN_TEST(test_first_save_that_is_cut_off_is_no_damage);
     RUN_TEST(test_copy_under_way_has_no_magic);
     RUN_TEST(test_items_are_set_within_their_range_only);
