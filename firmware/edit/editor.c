@@ -167,6 +167,7 @@ static void tell_notice(void)
         dialog_message_begin();
         report_failed_assert();
         text_P(notice);
+        dialog_tell_joints(TEXT_P("Not used, at 57142 bps"), the_servos.slow);
         dialog_message_end();
         notice = NULL;
     }

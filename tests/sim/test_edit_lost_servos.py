@@ -20,6 +20,15 @@ def test_lost_servo_is_named_in_the_message_row_and_the_screen_stays():
         assert "6" in r.line("on 6")
 
 
+def test_servos_at_57142_bps_are_named_at_the_start():
+    with start() as r:
+        for joint in (20, 21):
+            r.board.servos.add(joint, rate=57142)
+        r.board.reset()
+        r.settle(1500)
+        assert r.message == "Arrows move, HELP explains, EXIT leaves Not used, at 57142 bps: ID 20-21"
+
+
 def test_all_that_is_wrong_stands_in_one_row():
     with start() as r:
         r.line("on")
