@@ -100,6 +100,11 @@ bool page_store_is_erased(uint8_t page)
     return true;
 }
 
+bool page_store_is_damaged(const page_store_t *store, uint8_t page)
+{
+    return !page_store_is_good(store, page) && !page_store_is_erased(page);
+}
+
 void page_store_name(uint8_t page, char name[PAGE_NAME_BYTES])
 {
     uint8_t length = 0;

@@ -41,6 +41,9 @@ page_status_t page_store_look(uint8_t page);
 /* Whether all 512 bytes are 0xFF (erased). page_store_check reports such a page as bad, but it is not damaged. */
 bool page_store_is_erased(uint8_t page);
 
+/* Whether a page is neither good nor erased. */
+bool page_store_is_damaged(const page_store_t *store, uint8_t page);
+
 /* Name, NUL-terminated, at most 13 characters, cut at the first byte that is not printable ASCII. */
 void page_store_name(uint8_t page, char name[PAGE_NAME_BYTES]);
 

@@ -134,10 +134,7 @@ static bool overwriting_is_meant(uint8_t page)
     if (page != the_session.page) {
         return session_is_empty(page) || dialog_ask(TEXT_P("That page is not empty. "));
     }
-    if (page_store_is_erased(page) || page_store_check(&the_pages, page) == PAGE_OK) {
-        return true;
-    }
-    return dialog_ask(TEXT_P("The stored page is damaged. "));
+    return !page_store_is_damaged(&the_pages, page) || dialog_ask(TEXT_P("The stored page is damaged. "));
 }
 
 static uint8_t save_by_mailbox(uint8_t page)

@@ -44,7 +44,7 @@ static NOINLINE void start(void)
                       : service == PAGE_SERVICE_NONE  ? TEXT_P("No boot loader can write: no SAVE")
                                                       : TEXT_P("Arrows move, HELP explains, EXIT leaves");
     page_store_init(&the_pages);
-    if (!page_store_is_good(&the_pages, 0) && !page_store_is_erased(0)) {
+    if (page_store_is_damaged(&the_pages, 0)) {
         notice_P = TEXT_P("Page 0 is damaged: no trim");
     }
     (void)settings_load(&the_settings_store, &the_settings);

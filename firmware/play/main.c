@@ -224,7 +224,7 @@ static void greet(settings_status_t settings)
         TEXT("The settings were damaged: these are the defaults");
         text_line_end();
     }
-    if (!page_store_is_good(&the_play.pages, 0) && !page_store_is_erased(0)) {
+    if (page_store_is_damaged(&the_play.pages, 0)) {
         TEXT("Page 0 is damaged: no trim");
         text_line_end();
     }

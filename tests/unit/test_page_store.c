@@ -104,6 +104,10 @@ static void test_erased_is_not_damaged(void)
     TEST_ASSERT_FALSE(page_store_is_erased(5));
     flash_of(6)[511] = 0xFE;
     TEST_ASSERT_FALSE(page_store_is_erased(6));
+    page_store_init(&store);
+    TEST_ASSERT_FALSE(page_store_is_damaged(&store, 4));
+    TEST_ASSERT_FALSE(page_store_is_damaged(&store, 5));
+    TEST_ASSERT_TRUE(page_store_is_damaged(&store, 6));
 }
 
 static void test_names_end_at_the_first_odd_byte(void)
