@@ -147,6 +147,13 @@ uint8_t commands_do_rate(const shell_args_t *args)
     return REQUEST_OK;
 }
 
+/* Whether there is a pose about which an amplitude can scale. */
+static bool has_centre(void)
+{
+    const uint8_t page = the_play.settings.centre_page;
+    return page != 0 && page_store_is_good(&the_play.pages, page) && page_store_byte(page, PAGE_AT_STEPS) != 0;
+}
+
 uint8_t commands_do_amplitude(const shell_args_t *args)
 {
     uint32_t joints = SERVO_LINK_ALL;
@@ -155,6 +162,9 @@ uint8_t commands_do_amplitude(const shell_args_t *args)
         if (status != REQUEST_OK) {
             return status;
         }
+    }
+    if (args->number[0] != SHAPE_NORMAL && !has_centre() && !requests_from_program()) {
+        return requests_refuse(REQUEST_ERR_IDLE, TEXT_P("The centre page has no pose: settings centre"));
     }
     shape_set_amplitude(&the_play.performer.shape, (uint8_t)args->number[0], joints);
     return REQUEST_OK;

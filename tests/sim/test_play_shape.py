@@ -64,6 +64,17 @@ def test_words_and_requests_do_the_same():
 # --- rate, amplitude, blend ---
 
 
+@pytest.mark.parametrize("centre", [0, 90])  # off; an empty page
+def test_amplitude_is_refused_to_a_person_where_nothing_can_be_scaled(centre):
+    board = robot(pages=pages())
+    assert ask(board, f"settings centre {centre}") == " OK"
+    assert ask(board, "amplitude 60") == ask(board, "amplitude 60 3") == "The centre page has no pose: settings centre"
+    assert where(board)["amplitude"] == "100"
+    assert ask(board, "@amplitude 60") == "@amplitude OK" and where(board)["amplitude"] == "60"
+    assert ask(board, "amplitude 100") == " OK" and where(board)["amplitude"] == "100"
+    assert ask(board, "settings centre 1") == ask(board, "amplitude 60") == " OK"
+
+
 def test_rate_changes_the_speed_of_a_walk_from_the_next_step_on():
     board = looping()
     ask(board, "settings talk 1")
