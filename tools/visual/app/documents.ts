@@ -195,15 +195,15 @@ export class KeptDocuments implements Documents {
         for (const id of [...this.refused]) if (!(await this.put(id, DROP_ALL))) return;
     }
 
-    /** Stores a robot's pages unless its newest backup has the same content. */
+    /** Stores a robot's pages, not twice if its newest backup has the same content. Rejects if the storage does not take them. */
     async backUp(robot: string, pages: readonly Uint8Array[]): Promise<void> {
         const image = imageOf({ name: robot, pages });
         const { backups } = this.state.get();
         const last = backups.find(backup => backup.robot === robot);
-        if (last?.image.every((byte, i) => byte === image[i])) return;
-        const backup: Backup = { id: this.parts.newId(), robot, image, takenMs: this.parts.nowMs() };
-        await this.parts.storage.putBackup(backup);
-        this.state.set({ backups: [backup, ...this.state.get().backups] });
+        const isSame = last?.image.every((byte, i) => byte === image[i]);
+        const backup: Backup = last && isSame ? last : { id: this.parts.newId(), robot, image, takenMs: this.parts.nowMs() };
+        await this.parts.storage.putBackup(backup); // a stored one too: the browser's data may have been deleted since
+        if (backup !== last) this.state.set({ backups: [backup, ...this.state.get().backups] });
     }
 
     /** Opens a stored document with its history, or a copy if another tab has it open. */

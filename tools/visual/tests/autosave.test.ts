@@ -558,6 +558,18 @@ test('a backup that could not be stored is not taken for one at the next try', a
     expect((await disk.load()).backups).toHaveLength(1);
 });
 
+test('a backup that is gone from the storage is made again, and one that cannot be is refused', async () => {
+    const disk = new PassingStorage();
+    const { documents } = await openTab(disk);
+    await documents.backUp('usb', library.pages);
+    const emptied = new PassingStorage(); // the browser's data was deleted while the page is open
+    vi.spyOn(disk, 'putBackup').mockImplementation(backup => emptied.putBackup(backup));
+    await documents.backUp('usb', library.pages);
+    expect((await emptied.load()).backups).toEqual(documents.state.get().backups);
+    vi.spyOn(disk, 'putBackup').mockRejectedValue(new Error('InvalidStateError'));
+    await expect(documents.backUp('usb', library.pages)).rejects.toThrow('InvalidStateError');
+});
+
 test('of two edits the first could not be stored, and is not stored over the second when it is tried again', async () => {
     const disk = new PassingStorage();
     const { editor } = await openTab(disk);
