@@ -36,7 +36,8 @@ export class Arrival {
     connectionChanged(connection: ConnectionState): void {
         const { state, messages, status, sources, editor } = this.parts;
         const { version, name, error } = sources.connection;
-        state.set({ connection, version, portName: name, where: null, isPortBusy: error?.code === 'port-busy' });
+        const isOff = sources.isSimulated && !state.get().isPowered;
+        state.set({ connection, version: isOff ? null : version, portName: name, where: null, isPortBusy: error?.code === 'port-busy' });
         status.tell();
         status.look();
         if (connection === 'other-board') messages.fail(error);

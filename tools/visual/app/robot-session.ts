@@ -196,10 +196,7 @@ export class RobotSession implements Session {
             frame: state => {
                 this.lastFrame = state;
                 this.status.reach(state.ticks);
-                if (state.isPowered !== this.state.get().isPowered) {
-                    this.state.set({ isPowered: state.isPowered });
-                    this.status.tell();
-                }
+                if (state.isPowered !== this.state.get().isPowered) this.powerChanged(state.isPowered);
                 this.frames.tell(state);
             },
             text: bytes => {
@@ -214,6 +211,13 @@ export class RobotSession implements Session {
             },
             backUp: image => this.documents.backUp(ROBOT_IN_PAGE, documentFrom(image, '').pages),
         };
+    }
+
+    /** What a robot has said that is off now is not true any more. */
+    private powerChanged(isPowered: boolean): void {
+        const known = isPowered ? {} : { where: null, version: null, message: this.messages.unread };
+        this.state.set({ isPowered, ...known });
+        this.status.tell();
     }
 
     /** Starts the robot in the page. */

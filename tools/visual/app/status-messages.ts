@@ -49,10 +49,11 @@ export class StatusMessages {
     }
 
     /** Reports why a robot did not do what it was asked. Any other error is a bug and is thrown. Says nothing of a robot that was left for the
-     *  one that is ready now, or of one that has crashed, which the page says anyway. */
+     *  one that is ready now, or of one that has crashed or is off, which the page says anyway. */
     readonly fail = (error: unknown): void => {
         if (!(error instanceof RobotError)) throw error;
-        const { connection, stopped } = this.state.get();
+        const { connection, stopped, source, isPowered } = this.state.get();
+        if (error.code === 'no-answer' && source === 'simulated' && !isPowered) return;
         if (error.code === 'not-connected' && (connection === 'ready' || stopped)) return;
         if (error.code === 'new-version') this.state.set({ hasNewVersion: true });
         this.complain(errorText(error), 'robot');

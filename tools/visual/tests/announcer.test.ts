@@ -86,6 +86,15 @@ test('get up: one that has rolled over gets up from there, and gives up behind t
     expect(played).toEqual(['back']);
 });
 
+test('one that is switched off is told at once, and nothing of what it did', async () => {
+    const { announcer, message } = heard();
+    announcer.look(at('idle', 0, 0), '');
+    await vi.advanceTimersByTimeAsync(5000);
+    announcer.look({ ...START, isPowered: false, doing: { text: 'The robot is switched off.', tone: 'calm' } }, '');
+    await vi.advanceTimersByTimeAsync(5000);
+    expect(message.at(-1)?.[1]).toBe('The robot is switched off.');
+});
+
 test('one that was told to be starting, or without a cable, is told when it answers', async () => {
     const { announcer, message } = heard();
     const starts = { ...START, connection: 'asking', doing: { text: 'The robot is starting …', tone: 'calm' } } as SessionState;

@@ -26,7 +26,7 @@ test.each([
     const fail = vi.fn();
     const inVain = () => Promise.reject(new RobotError(code));
     const arrival = arrivalWith({
-        state: new Store({} as SessionState),
+        state: new Store({ isPowered: true } as SessionState),
         messages: { fail },
         sources: {
             isSimulated: true,

@@ -7,6 +7,7 @@ import type { Body } from '../model/body.ts';
 import type { FormatsWorker } from '../model/file-formats.ts';
 import type { FromSim, ToSim } from '../sim/messages.ts';
 import { PassingStorage } from '../view/document-storage.ts';
+import { TEXTS } from '../view/texts/texts.ts';
 import { libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
 
 vi.mock('../app/assets.ts', () => ({
@@ -47,6 +48,7 @@ class Worker {
     isSilent = Worker.startsSilent;
     private image = '';
     private isHeld = true;
+    private isPowered = true;
     private page = WALK;
     private asked = 0;
     private ticks = 0;
@@ -79,6 +81,16 @@ class Worker {
         clearInterval(this.timer);
     }
 
+    switchOff(): void {
+        this.isPowered = false;
+        this.isSilent = true;
+        this.sendFrame();
+    }
+
+    print(line: string): void {
+        this.tell({ kind: 'bytes', bytes: new TextEncoder().encode(`${line}\r\n`) });
+    }
+
     /** Edit has saved a page. */
     save(): void {
         this.tell({ kind: 'memories', memories: MEMORIES, id: null });
@@ -102,13 +114,13 @@ class Worker {
     private sendFrame(): void {
         this.ticks += 4;
         const trunk = { pos: [0, 0, 0.3], quat: [1, 0, 0, 0] } as const;
-        const { ticks, isHeld } = this;
+        const { ticks, isHeld, isPowered } = this;
         const state = {
             ticks,
             servos: [],
             trunk,
             leds: 0,
-            isPowered: true,
+            isPowered,
             isHeld,
             hasFallen: false,
             lateMs: 0,
@@ -209,6 +221,26 @@ test('a motion that is saved in Edit of the robot in the page: the list of its m
     const before = lists();
     worker.save();
     await vi.waitFor(() => expect(lists()).toBe(before + 1), SOON);
+});
+
+test.each([
+    ['', () => undefined],
+    [', its time stands still', (worker: Worker) => worker.stand()],
+])('switched off while it walks%s: nothing says any more what it does or that it does not answer', async (_, stand) => {
+    const { session, worker, plays, said } = await page();
+    await vi.waitFor(() => expect(plays()).toHaveLength(2), SOON);
+    await vi.waitFor(() => expect(session.state.get().where?.state).toBe('playing'), SOON);
+    worker.print('Paused');
+    await vi.waitFor(() => expect(session.state.get().message?.text).toBe('Paused'), SOON);
+    worker.isSilent = true;
+    void session.transfer.read(); // is under way
+    worker.switchOff();
+    stand(worker);
+    const isOff = { where: null, version: null, message: null, doing: { text: TEXTS.status.isOff } };
+    expect(session.state.get()).toMatchObject(isOff);
+    await new Promise(resolve => setTimeout(resolve, 2000)); // more than ten seconds of the robot
+    expect(session.state.get()).toMatchObject(isOff);
+    expect(said).toEqual(['Paused']);
 });
 
 /** What switches the robot off, resets it, or makes another one of it. */

@@ -33,7 +33,9 @@ export class Announcer {
         this.isMoving = moves;
         if (fallen !== this.lastFallen && fallen !== '') this.tell(fallen);
         this.lastFallen = fallen;
-        const trouble = state.message?.tone === 'bad' ? state.message.text : state.connection === 'ready' ? '' : state.doing.text;
+        const isOff = state.source === 'simulated' && !state.isPowered;
+        const answers = state.connection === 'ready' && !isOff;
+        const trouble = state.message?.tone === 'bad' ? state.message.text : answers ? '' : state.doing.text;
         if (trouble !== this.lastTrouble && trouble !== '') this.tell(trouble);
         this.lastTrouble = trouble;
         const isReady = state.connection === 'ready';
