@@ -179,13 +179,17 @@ def test_bits_that_a_file_states_itself_are_not_overruled_without_a_word(m512, t
 
 
 @pytest.mark.parametrize("bits, says", [(12, "12-bit positions mean nothing to this board"), (10, "pages 128..150: no room among")])
-def test_the_simulated_board_refuses_what_the_real_one_cannot_play(monkeypatch, tmp_path, bits, says):
+def test_the_simulated_board_refuses_what_the_real_one_cannot_play(m512, monkeypatch, tmp_path, bits, says):
     from m512.board.sim import Simulator
 
     monkeypatch.setenv("M512_CM5SIM", "/bin/true")
     formats.save(tmp_path / "x.bin", image_of(bits, 150))
     with pytest.raises(RefusedError, match=says):
         Simulator("/bin/true", tmp_path / "x.bin")
+    flashed = m512("flash", tmp_path / "x.bin", "--dry-run", "-p", "nowhere")
+    assert flashed.exit_code == 5 and says in flashed.stderr and "x.bin: " in flashed.stderr
+    put = m512("put", tmp_path / "x.bin", "1", "-p", "nowhere")
+    assert ("x.bin: 12-bit positions mean nothing" in put.stderr) == (bits == 12), put.stderr
 
 
 def test_a_12_bit_image_is_known_by_the_joints_that_move(tmp_path):

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from m512.crc16 import crc16
 from m512.errors import FileError, RefusedError
-from m512.files import formats, scale12, storage
+from m512.files import conversion, formats, scale12, storage
 from m512.files.image import Image, hex_segments, is_erased
 from m512.files.page import PAGE_BYTES, Page
 
@@ -162,11 +162,8 @@ def _placed_motions(path: Path, segments: Segments, out: Plan, with_trim: bool, 
 
 
 def _motions(path: Path, image: Image, out: Plan, with_trim: bool, damaged: str) -> Segments:
-    if image.bits != 10:
-        raise RefusedError("12-bit positions mean nothing to this board: scale them first (m512 convert --scale 10)")
-    image, losses = image.resized(128) if (image.first, image.end) != (0, 128) else (image, [])
-    if losses:
-        raise RefusedError("this board has 128 pages:\n  " + "\n  ".join(losses) + "\nmove or delete them first (m512 pages)")
+    image, losses = conversion.for_board(image, path)
+    out.remarks += losses
     bad = [(n, page.fault_text()) for n, page in image.items() if page.fault() and not is_erased(page)]
     if bad and damaged == "ask":
         raise RefusedError("damaged pages (--damaged keep flashes them all the same):\n" + "\n".join(f"  page {n}: {why}" for n, why in bad))

@@ -25,10 +25,8 @@ from m512.board.child import ending_with_this
 from m512.board.client import Client
 from m512.board.link import Link
 from m512.board.memory import BOARDS, Record
-from m512.errors import FileError, MissingError, NoAnswerError, RefusedError
+from m512.errors import FileError, MissingError, NoAnswerError
 from m512.files.image import hex_segments
-from m512.files.scale12 import HINT
-from m512.files.wording import named_pages_text
 from m512.places import build_folder, source_tree, wheel_folder
 
 START_SECONDS = 300.0
@@ -123,17 +121,9 @@ class Simulator:
     @staticmethod
     def _fitting(motions: Path) -> bytes:
         """The motion area of a file. RefusedError for content that a board with 10 bits and 128 pages cannot play, as with a real board."""
-        from m512.files import formats
+        from m512.files import conversion, formats
 
-        image = formats.load(motions)
-        if image.bits != 10:
-            raise RefusedError(f"{motions}: 12-bit positions mean nothing to this board: {HINT}")
-        lost = image.beyond(128)
-        if lost:
-            raise RefusedError(
-                f"{motions}: {named_pages_text(lost)}: no room among this board's 128 pages (m512 convert --pages 128 leaves them out)"
-            )
-        return image.resized(128)[0].to_bytes()
+        return conversion.for_board(formats.load(motions), motions)[0].to_bytes()
 
     def _wait_for_port(self) -> str:
         assert self.process.stdout is not None

@@ -368,13 +368,14 @@ def put(source: Path, pages: Sequence[str], yes: bool, **options: Any) -> None:
     It asks before it replaces a page that has another name or none. For many pages at once, or with Play, `m512 flash` is the way.
     """
     from m512.board.motions import save_pages
-    from m512.files import formats
+    from m512.files import conversion, formats
     from m512.files.image import Image
     from m512.pages import operations
 
     if options["sim"]:
         raise click.UsageError("the simulator forgets what is saved in it; `m512 play PAGE --sim --motions FILE` plays a file's pages")
     image = formats.load(source)
+    conversion.must_be_10_bits(image, source)
     moves = page_moves(pages, image)
     goal = Image.empty(256)  # the board reports how many pages it has
     operations.place(goal, image, moves, replace=True)

@@ -9,8 +9,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from m512.errors import FileError, RefusedError
-from m512.files import formats
-from m512.files.image import Image, is_erased
+from m512.files import formats, scale12
+from m512.files.image import BOARD_PAGES, Image, is_erased
 from m512.files.page import Page
 from m512.files.wording import Findings, named_pages_text
 
@@ -43,6 +43,25 @@ def treat_damaged(image: Image, source: Path, how: str, notes: list[str]) -> lis
     return [page for page, _ in bad]
 
 
+def must_be_10_bits(image: Image, source: Path) -> None:
+    """RefusedError: a board takes no positions of 12 bits."""
+    if image.bits != 10:
+        raise RefusedError(f"{source}: 12-bit positions mean nothing to this board: {scale12.HINT}")
+
+
+def for_board(image: Image, source: Path) -> tuple[Image, list[str]]:
+    """The pages 0..127 that a real or simulated board takes, and the links that are lost with the others. RefusedError: 12 bits, or pages
+    beyond 127 that hold something."""
+    must_be_10_bits(image, source)
+    lost = image.beyond(BOARD_PAGES)
+    if lost:
+        raise RefusedError(
+            f"{source}: {named_pages_text(lost)}: no room among this board's {BOARD_PAGES} pages (m512 convert --only NAME takes some, "
+            f"--pages {BOARD_PAGES} leaves these out)"
+        )
+    return (image, []) if (image.first, image.end) == (0, BOARD_PAGES) else image.resized(BOARD_PAGES)
+
+
 def fitted(image: Image, count: int | None, target: Path) -> tuple[Image, list[str]]:
     """The image with the number of pages of the result (`count`, or what suits both kinds of file if None), and the losses.
     RefusedError: the user's pages would be lost without a `count`."""
@@ -61,4 +80,4 @@ def fitted(image: Image, count: int | None, target: Path) -> tuple[Image, list[s
 
 def fitting(image: Image, target: Path) -> int:
     """The number of pages of the source. A .mtn always has 255: it is written from the existing pages, and read for a board of 128."""
-    return 128 if image.form == formats.MTN and formats.BY_SUFFIX.get(target.suffix.lower()) != formats.MTN else image.end
+    return BOARD_PAGES if image.form == formats.MTN and formats.BY_SUFFIX.get(target.suffix.lower()) != formats.MTN else image.end

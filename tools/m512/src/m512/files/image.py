@@ -23,6 +23,7 @@ from m512.files.page import EMPTY, PAGE_BYTES, Fault, Kind, Page
 from m512.files.wording import Findings, counted, field_text, named_pages_text
 
 SIZES = {65536: (0, 128), 65024: (1, 128), 131072: (0, 256)}
+BOARD_PAGES = 128
 HEX_BASE = {128: 0x0E000, 256: 0x1E000}
 TWELVE_BIT_MAX = 4095
 

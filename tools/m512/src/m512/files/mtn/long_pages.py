@@ -13,11 +13,9 @@ from collections.abc import Sequence
 from typing import Any, Callable
 
 from m512.errors import FileError
-from m512.files.image import Image
+from m512.files.image import BOARD_PAGES, Image
 from m512.files.page import NAME_BYTES, STEPS, Page
 from m512.files.wording import pages_text
-
-BOARD_PAGES = 128
 
 
 def place_long_pages(image: Image, blocks: Sequence[Any], fill: Callable[[Page, list[Any]], None], where: str) -> None:
