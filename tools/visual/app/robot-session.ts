@@ -216,8 +216,7 @@ export class RobotSession implements Session {
     /** What a robot has said that is off now is not true any more. */
     private powerChanged(isPowered: boolean): void {
         const known = isPowered ? {} : { where: null, version: null, message: this.messages.unread };
-        this.state.set({ isPowered, ...known });
-        this.status.tell();
+        this.status.tell({ isPowered, ...known });
     }
 
     /** Starts the robot in the page. */

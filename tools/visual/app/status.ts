@@ -71,12 +71,13 @@ export class Status {
         }
     }
 
-    /** Updates the sentence in the status bar. */
-    tell(): void {
-        const { stopped, connection, where } = this.state;
+    /** Updates the sentence in the status bar. change: sets this as well, at the same time, so that the two fit. */
+    tell(change: Partial<SessionState> = {}): void {
+        const state = { ...this.state, ...change };
+        const { stopped, connection, where } = state;
         const tone =
             stopped !== null || connection === 'foreign' || connection === 'other-board' || connection === 'waiting' ? 'bad' : 'calm';
-        this.parts.state.set({ doing: { text: doingText(this.state, where), tone } });
+        this.parts.state.set({ ...change, doing: { text: doingText(state, where), tone } });
     }
 
     /** The robot in the page has reached this time. Silence while it starts or restarts is normal. */

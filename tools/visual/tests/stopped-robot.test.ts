@@ -234,6 +234,8 @@ test.each([
     await vi.waitFor(() => expect(session.state.get().message?.text).toBe('Paused'), SOON);
     worker.isSilent = true;
     void session.transfer.read(); // is under way
+    const shown = new Set<string>(); // a screen reader is told each
+    session.state.watch(({ isPowered, doing }) => isPowered || shown.add(doing.text));
     worker.switchOff();
     stand(worker);
     const isOff = { where: null, version: null, message: null, doing: { text: TEXTS.status.isOff } };
@@ -241,6 +243,7 @@ test.each([
     await new Promise(resolve => setTimeout(resolve, 2000)); // more than ten seconds of the robot
     expect(session.state.get()).toMatchObject(isOff);
     expect(said).toEqual(['Paused']);
+    expect([...shown]).toEqual([TEXTS.status.isOff]);
 });
 
 /** What switches the robot off, resets it, or makes another one of it. */
