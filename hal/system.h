@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Reset causes, bits (several after a power-on with a slow supply). */
+/* Reset causes, bits. Several after a power-on with a slow supply, and after a reset of the loader at its prompt. */
 enum {
     SYSTEM_RESET_POWER_ON = 1 << 0,
     SYSTEM_RESET_EXTERNAL = 1 << 1,

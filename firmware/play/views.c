@@ -187,21 +187,29 @@ void views_print_settings(void)
     }
 }
 
-static const char *reset_text_P(uint8_t cause)
+/* The causes of all resets since an application last ran: the loader does not clear them. */
+static void print_resets(uint8_t causes)
 {
-    if (cause & SYSTEM_RESET_POWER_ON) {
-        return TEXT_P("power-on");
+    TEXT_NAMED(power_on, "power-on");
+    TEXT_NAMED(external, "reset button");
+    TEXT_NAMED(brown_out, "brown-out");
+    TEXT_NAMED(watchdog, "on request or watchdog");   /* an intentional restart uses the watchdog */
+    TEXT_NAMED(jtag, "JTAG");
+    static const char *const names[] PROGMEM = { power_on, external, brown_out, watchdog, jtag };   /* by bit */
+    STATIC_ASSERT(SYSTEM_RESET_JTAG == 1 << 4 && SYSTEM_RESET_WATCHDOG == 1 << 3 && SYSTEM_RESET_BROWN_OUT == 1 << 2 &&
+                  SYSTEM_RESET_EXTERNAL == 1 << 1, "the order of the names");
+    TEXT(", last reset: ");
+    if (causes == 0) {
+        TEXT("unknown");
     }
-    if (cause & SYSTEM_RESET_BROWN_OUT) {
-        return TEXT_P("brown-out");
+    for (uint8_t bit = 0; causes != 0; bit++, causes >>= 1) {
+        if ((causes & 1u) != 0) {
+            text_P(pgm_read_ptr(&names[bit]));
+            if (causes > 1) {
+                TEXT(", ");
+            }
+        }
     }
-    if (cause & SYSTEM_RESET_WATCHDOG) {
-        return TEXT_P("on request or watchdog");   /* an intentional restart uses the watchdog */
-    }
-    if (cause & SYSTEM_RESET_EXTERNAL) {
-        return TEXT_P("reset button");
-    }
-    return cause & SYSTEM_RESET_JTAG ? TEXT_P("JTAG") : TEXT_P("unknown");
 }
 
 uint8_t views_version(const shell_args_t *args)
@@ -214,8 +222,7 @@ uint8_t views_version(const shell_args_t *args)
                record.board == APP_RECORD_PC  ? TEXT_P(" for a PC") :
                                                 TEXT_P(" for CM-5"));
     }
-    TEXT(", last reset: ");
-    text_P(reset_text_P(system_reset_cause()));
+    print_resets(system_reset_cause());
     text_line_end();
     return SHELL_OK;
 }

@@ -5,6 +5,7 @@ import re
 
 import pytest
 
+from cm5sim import Board
 from m512.files.image import Image, from_bytes
 from tests.sim.play_robot import JOINTS, PAUSE, STOP, UP, ask, motions, page, paste, robot, tick_of, walk_steps
 
@@ -524,3 +525,14 @@ def test_a_restart_on_request_does_not_read_like_a_crash():
     board = robot()
     board.send("@reset\r")
     board.expect("last reset: on request or watchdog", ms=3000)
+
+
+def test_the_mode_button_at_the_loaders_prompt_is_named_beside_the_power_on():
+    """The loader leaves the chip's flags of past resets as they are."""
+    board = Board(images=["boot-cm5.hex", "play-cm5.hex"], motions=motions(), servos=JOINTS)
+    board.expect("\r\n - ", ms=1000)  # an erased EEPROM: it stays
+    board.eeprom[0xFFF] = 0x11
+    board.reset()
+    board.expect("last reset: power-on, reset button\r", ms=3000)
+    board.reset()
+    board.expect("last reset: reset button\r", ms=3000)
