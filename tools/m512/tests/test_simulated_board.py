@@ -168,7 +168,7 @@ def test_sim_option_plays_without_a_robot(m512, motions):
     assert "playing: page 100" in result.stderr and json.loads(result.stdout)["state"] == "idle"
 
 
-def test_flash_restarts_edit_and_asks_where_edits_would_be_lost(m512, motions, started):
+def test_flash_restarts_edit_and_asks_where_edits_would_be_lost(m512, motions, started, tmp_path):
     edit = started("boot-cm5.hex", "edit-cm5.hex", text=OLD)
     start(m512, edit)
     looked = m512("flash", motions, "-p", edit.path, "--dry-run")
@@ -180,8 +180,14 @@ def test_flash_restarts_edit_and_asks_where_edits_would_be_lost(m512, motions, s
         client.ask("open 3")
         client.ask("data 64 0102")
         assert client.has_edits()
-    result = m512("flash", motions, "-p", edit.path, "--wait", "5")
-    assert result.exit_code == 5 and "not saved" in result.stderr and "--yes" in result.stderr
+    backup = ("backup", tmp_path / "kept", "-p", edit.path, "--wait", "5")
+    for words in (("flash", motions, "-p", edit.path, "--wait", "5"), backup):
+        result = m512(*words)
+        assert result.exit_code == 5 and "not saved" in result.stderr and "--yes" in result.stderr
+    result = m512(*backup, "--yes", "--what", "eeprom")
+    assert result.exit_code == 0 and "MODE" not in result.stderr, result.stderr
+    with VirtualLink(edit.path) as link:
+        Client(link).ask("data 64 0102")
     result = m512("flash", motions, "-p", edit.path, "--wait", "5", "--yes")
     assert result.exit_code == 0 and "MODE" not in result.stderr, result.stderr
 

@@ -79,7 +79,7 @@ def refuse_words(names: set[str], why: str) -> None:
             raise click.UsageError(f"{option.opts[0]} {why}")
 
 
-def connect(port: str, wait: float, yes: bool = False, board: str = "") -> Any:
+def connect(port: str, wait: float, yes: bool, board: str) -> Any:
     """(link, loader) of the board on a port. A running Play or Edit is restarted; unsaved edits are lost only after a yes."""
     from m512.board import bus, loaders, ports
     from m512.board.link import Link
@@ -277,11 +277,12 @@ Examples:
 )
 @click.argument("folder", type=FilePath(), required=False)
 @click.option("--what", default="motions,eeprom,app", show_default=True, help="Areas to read.")
+@click.option("--yes", is_flag=True, help="Do not ask when Edit has edits that are not saved.")
 @port_option
 @board_option
 @wait_option
 @json_option
-def backup(folder: Path, what: str, port: str, board: str, wait: float, as_json: bool) -> None:
+def backup(folder: Path, what: str, yes: bool, port: str, board: str, wait: float, as_json: bool) -> None:
     """Read motions, EEPROM and application into FOLDER, with a manifest (date, board, CRCs)."""
     from m512.board import backup as backups
     from m512.board import loaders
@@ -289,7 +290,7 @@ def backup(folder: Path, what: str, port: str, board: str, wait: float, as_json:
     areas = _areas(what)
     folder = folder or Path(datetime.now().strftime("backup-%Y%m%d-%H%M%S"))
     backups.must_be_possible(folder)
-    link, loader = connect(port, wait, board=board)
+    link, loader = connect(port, wait, yes, board)
     with link:
         with loaders.as_found(loader):
             made = backups.take(loader, folder, areas, ui.phase)
