@@ -123,6 +123,15 @@ def test_a_page_0_without_a_trim_leaves_the_robot_its_own(m512, tmp_path, page, 
         assert bytes(board.flash[0xE000:0xE200]) == bytes(page)
 
 
+def test_a_link_beyond_the_last_page_is_flashed_as_it_is(tmp_path):
+    """An image without page 0 has no more pages than the board, so that none is left out."""
+    image = read_text(TEXT)
+    image[3].next = 200
+    image[3].seal()
+    (tmp_path / "x.bin").write_bytes(image.to_bytes()[512:])
+    assert plan(tmp_path / "x.bin").pages[0xE600 // 256] == bytes(image[3])[:256]
+
+
 def test_a_file_of_page_0_alone_is_told_why_it_is_left_out(tmp_path):
     with pytest.raises(FileError, match="holds nothing to flash: page 0 of the file holds no trim.*--with-trim"):
         plan(hex_file(tmp_path / "x.hex", (0xE000, bytes(trim_page(0x4000, 0x4000, 0)))))

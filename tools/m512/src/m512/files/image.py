@@ -104,7 +104,7 @@ class Image:
         return {number: page.title for number, page in self.items() if number >= count and not page.is_empty and len(set(page.data)) > 1}
 
     def resized(self, count: int) -> tuple[Image, list[str]]:
-        """A copy with pages 0..count-1, and a list of losses. Links to missing pages become empty."""
+        """A copy with pages 0..count-1, and a list of losses. Links to pages that are left out become empty."""
         losses = []
         out = Image([Page() for _ in range(count)], 0, self.bits, list(self.notes), dict(self.joints), self.form, self.given)
         lost = self.beyond(count)
@@ -114,7 +114,8 @@ class Image:
         for number, page in self.items():
             if number < count:
                 out[number] = page
-                _cut_links(out[number], number, count, cut)
+                if self.end > count:
+                    _cut_links(out[number], number, count, cut)
         return out, losses + cut.lines()
 
 
