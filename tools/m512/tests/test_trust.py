@@ -426,6 +426,13 @@ def test_files_are_replaced_whole_or_not_at_all(files, monkeypatch):
     assert target.read_bytes() == b"whole" and target.stat().st_mode == mode
 
 
+@pytest.mark.parametrize("name", ["x" * 255, "\u00e9" * 127])
+def test_the_longest_name_that_a_folder_takes_is_written(files, name):
+    for data in (b"new", b"replaced"):
+        storage.write(files / name, data)
+        assert (files / name).read_bytes() == data
+
+
 def in_place(files, *before, name="x.bin"):
     command = [*before, sys.executable, "-m", "m512", "pages", name, "rename", "3", "new", "--in-place"]
     return subprocess.run(command, cwd=files, capture_output=True, text=True, timeout=300)

@@ -136,7 +136,8 @@ def _replace(path: Path, called: Path, data: bytes) -> list[str]:
     if old and not (os.access(path, os.W_OK) and old.st_mode & 0o222):  # root has access to everything
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
     try:
-        handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+        # Of a long name the first 60 characters, at most 240 bytes: with what is added it is still a legal name.
+        handle, name = tempfile.mkstemp(prefix=f".{path.name[:60]}.", dir=path.parent)
     except OSError as error:
         raise FileError(f"cannot write {called}: no new file can be made in the folder {path.parent}: {error.strerror}") from None
     try:
