@@ -162,6 +162,22 @@ def test_put_does_not_lose_a_motion_unasked_where_a_name_is_missing(m512, starte
         assert m512("put", path, "51", "--yes", "-p", edit.path).exit_code == 0
 
 
+@pytest.mark.parametrize("there", ["bow", "nod"])
+def test_put_asks_before_it_replaces_a_damaged_page(m512, started, tmp_path, there):
+    image = read_text(f"{MOTIONS}page 51 {there}\n  step 25 | 1:300\n")
+    image[51].data[100] ^= 4
+    edit = started("boot-cm5.hex", "edit-cm5.hex", text=MOTIONS)
+    edit.board.flash[0xE000 + 51 * 512 : 0xE000 + 52 * 512] = bytes(image[51])
+    start(m512, edit)
+    path = tmp_path / "new.m512"
+    path.write_text(MOTIONS + "page 51 bow\n  step 25 | 1:310\n")
+    before = bytes(edit.board.flash[0xE000:0x1E000])
+    result = m512("put", path, "51", "-p", edit.path)
+    assert result.exit_code == 5 and f'This replaces the damaged page 51 "{there}" on the robot. Save?' in result.stderr, result.stderr
+    assert bytes(edit.board.flash[0xE000:0x1E000]) == before
+    assert m512("put", path, "51", "--yes", "-p", edit.path).stderr == "saved: page 51\n"
+
+
 def test_sim_option_plays_without_a_robot(m512, motions):
     result = m512("play", "nod", "--sim", "--motions", motions, "--json")
     assert result.exit_code == 0, result.stderr

@@ -110,7 +110,7 @@ def _flash_pages(numbers: list[int], image: Image) -> dict[int, bytes]:
 
 def save_pages(client: Client, image: Image, numbers: list[int], confirm: Callable[[str], None] = lambda question: None) -> list[int]:
     """Saves the given pages that differ on the board and returns their numbers. Before anything is written, `confirm` is asked about
-    pages with another name or none, and a trim, that would be lost. It raises for a no."""
+    pages with another name or none, damaged pages, and a trim, that would be lost. It raises for a no."""
     if not client.can_save:
         raise BoardError(f"Play does not save pages. Edit does: m512 run {client.file_of('edit')}; or write a whole motion file: m512 flash FILE")
     lost = {number: title for number, title in image.beyond(client.pages).items() if number in numbers}
@@ -124,10 +124,11 @@ def save_pages(client: Client, image: Image, numbers: list[int], confirm: Callab
         there = client.page(number) if here else Page()
         if here and there == new:
             continue
+        damaged = there.fault() and not is_erased(there)
         if not number and not _is_nothing(0, there):
             replaced.append("the trim (page 0)")
-        if number and not there.is_empty and (there.title != new.title or not there.title or not new.steps):
-            replaced.append(named_pages_text({number: there.title}))
+        elif number and (damaged or not there.is_empty and (there.title != new.title or not there.title or not new.steps)):
+            replaced.append(("the damaged " if damaged else "") + named_pages_text({number: there.title}))
         changed.append(number)
     if replaced:
         confirm(f"This replaces {' and '.join(replaced)} on the robot. Save?")

@@ -358,14 +358,14 @@ Examples:
 )
 @click.argument("source", type=FilePath())
 @click.argument("pages", nargs=-1, required=True)
-@click.option("--yes", is_flag=True, help="Do not ask before a page of another name, or of none, is lost.")
+@click.option("--yes", is_flag=True, help="Do not ask before a page is lost.")
 @click.option("--sim", is_flag=True, hidden=True)
 @json_option
 @port_option
 def put(source: Path, pages: Sequence[str], yes: bool, **options: Any) -> None:
     """Save PAGES of a motion file to the board, one by one, while Edit runs there: 3, wave, 20..25, `all`, or wave:40 to number 40.
 
-    It asks before it replaces a page that has another name or none. For many pages at once, or with Play, `m512 flash` is the way.
+    It asks before it replaces a page that has another name or none, or is damaged. For many pages at once, or with Play, `m512 flash` is the way.
     """
     from m512.board.motions import save_pages
     from m512.files import conversion, formats
