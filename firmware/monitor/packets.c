@@ -8,6 +8,8 @@
 #include "shell.h"
 #include "text.h"
 
+enum { TRIES = 2 };
+
 uint8_t packets_say(const char *line_P)
 {
     text_P(line_P);
@@ -44,7 +46,7 @@ bool packets_exchange(uint8_t id, uint8_t instruction, uint8_t count)
     bus_answer_t answer = { 0, 0, 0, NULL };
     bool silent = id == DXL_BROADCAST && instruction != DXL_PING;
     uint8_t expected = silent ? BUS_NO_ANSWER : instruction == DXL_READ ? packets_params()[1] : 0;
-    bus_status_t status = bus_call(id, instruction, packets_params(), count, expected, silent ? 1 : PACKETS_TRIES, &answer);
+    bus_status_t status = bus_call(id, instruction, packets_params(), count, expected, silent ? 1 : TRIES, &answer);
     packets_print_bytes(TEXT_P("->[Dynamixel]:"), bus_packet(), bus_packet()[3] + 4u);
     text_line_end();
     if (silent) {

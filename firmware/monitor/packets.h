@@ -7,9 +7,6 @@
 #include <stdint.h>
 #include "bus.h"
 
-/* How often a packet is sent if it is not answered. */
-enum { PACKETS_TRIES = 2 };
-
 /* The place of the next packet's parameters, in the packet itself, which saves a buffer. */
 uint8_t *packets_params(void);
 

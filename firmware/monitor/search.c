@@ -11,6 +11,12 @@
 
 enum { ID_MAX = 253 };
 
+static void print_id(uint8_t id)
+{
+    text_put(' ');
+    text_padded(id, 3, '0');
+}
+
 void search_ids(uint8_t last)
 {
     uint8_t found = 0;
@@ -18,8 +24,7 @@ void search_ids(uint8_t last)
     for (uint8_t id = 0; id <= last; id++) {
         system_kick();
         if (bus_call_ping(id, 1, NULL) == BUS_OK) {
-            text_put(' ');
-            text_padded(id, 3, '0');
+            print_id(id);
             found++;
         }
     }
@@ -38,21 +43,49 @@ void search_rates(void)
     search_ids(ID_MAX);
 }
 
+bool search_is_there(uint8_t id, uint8_t rate)
+{
+    bus_set_rate(rate);
+    const bool is_there = bus_call_ping(id, BUS_CALL_TRIES, NULL) != BUS_ERR_TIMEOUT;
+    bus_set_rate(BUS_RATE_1M);
+    return is_there;
+}
+
+static void print_left(const uint8_t *ids, uint8_t count)
+{
+    if (count == 0) {
+        return;
+    }
+    TEXT(" Left at 57142 bps, because 1 Mbps has that ID:");
+    for (uint8_t i = 0; i < count; i++) {
+        print_id(ids[i]);
+    }
+    text_line_end();
+    (void)packets_say(TEXT_P(" Give the servo at 1 Mbps another ID (CID, ID), then FAST"));
+}
+
 void search_make_fast(void)
 {
     const uint8_t change[] = { DXL_AT_BAUD, BUS_RATE_1M };
-    bus_set_rate(BUS_RATE_57142);
+    uint8_t left[ID_MAX + 1], left_count = 0;
     TEXT(" Moved to 1 Mbps:");
     for (uint8_t id = 0; id <= ID_MAX; id++) {
         system_kick();
-        if (bus_call_ping(id, 1, NULL) == BUS_OK) {
-            /* A servo may answer at the old rate, at the new one, or not at all. The final search shows the result. */
-            (void)bus_call(id, DXL_WRITE, change, sizeof change, 0, BUS_CALL_TRIES, NULL);
-            text_put(' ');
-            text_padded(id, 3, '0');
+        bus_set_rate(BUS_RATE_57142);
+        if (bus_call_ping(id, 1, NULL) != BUS_OK) {
+            continue;
         }
+        if (search_is_there(id, BUS_RATE_1M)) {
+            left[left_count++] = id;
+            continue;
+        }
+        bus_set_rate(BUS_RATE_57142);
+        /* A servo may answer at the old rate, at the new one, or not at all. The final search shows the result. */
+        (void)bus_call(id, DXL_WRITE, change, sizeof change, 0, BUS_CALL_TRIES, NULL);
+        print_id(id);
     }
     bus_set_rate(BUS_RATE_1M);
     text_line_end();
     search_ids(ID_MAX);
+    print_left(left, left_count);
 }

@@ -4,6 +4,7 @@
 #ifndef SEARCH_H
 #define SEARCH_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* Searches IDs 0..last at the current rate of the bus. */
@@ -12,7 +13,12 @@ void search_ids(uint8_t last);
 /* Searches IDs 0..253 at 57,142 bps and at 1 Mbps. Leaves the bus at 1 Mbps. */
 void search_rates(void);
 
-/* Moves every servo at 57,142 bps to 1 Mbps, one at a time, and searches at 1 Mbps. */
+/* Whether a servo answers to this ID at this rate, however damaged: the answers of two servos with one ID collide.
+ * Leaves the bus at 1 Mbps. */
+bool search_is_there(uint8_t id, uint8_t rate);
+
+/* Moves every servo at 57,142 bps to 1 Mbps, one at a time, and searches at 1 Mbps. Leaves and names those whose ID 1 Mbps
+ * already has: two servos with one ID at one rate can only be told apart by unplugging one. */
 void search_make_fast(void);
 
 #endif

@@ -9,6 +9,7 @@
 #include "packets.h"
 #include "pgm.h"
 #include "ranges_own.h"
+#include "search.h"
 #include "text.h"
 
 enum { TABLE_BYTES = 50, DUMP_ROW = 10, PARAMS_MAX = 32 };
@@ -130,12 +131,13 @@ WORD(servo_words_baud)
     return SHELL_OK;
 }
 
-/* A new ID must be free: two servos with one ID can only be told apart by unplugging one. */
-static bool is_taken(uint8_t id)
+/* An ID must be free: two servos with one ID can only be told apart by unplugging one. */
+static bool is_taken(uint8_t id, uint8_t rate)
 {
-    const bool taken = bus_call_ping(id, PACKETS_TRIES, NULL) == BUS_OK;
+    const bool taken = search_is_there(id, rate);
     if (taken) {
-        (void)packets_say(TEXT_P("That ID is taken"));
+        (void)packets_say(rate == BUS_RATE_1M ? TEXT_P("That ID is taken")
+                                              : TEXT_P("That ID is taken at 57142 bps: FAST first"));
     }
     return taken;
 }
@@ -143,7 +145,7 @@ static bool is_taken(uint8_t id)
 WORD(servo_words_id)
 {
     uint8_t id = (uint8_t)args->number[0];
-    if (!is_one_servo() || is_taken(id)) {
+    if (!is_one_servo() || is_taken(id, BUS_RATE_1M) || is_taken(id, BUS_RATE_57142)) {
         return SHELL_ERR_REPORTED;
     }
     if (write_number(args, DXL_AT_ID)) {
@@ -160,7 +162,10 @@ WORD(servo_words_reset)
     if (!shell_word_is(args, 1, PSTR("yes"))) {
         return packets_say(TEXT_P("RESET YES: factory values, ID 1"));
     }
-    if ((current == 1 || !is_taken(1)) && packets_exchange(current, DXL_RESET, 0)) {
+    if ((current != 1 && is_taken(1, BUS_RATE_1M)) || is_taken(1, BUS_RATE_57142)) {
+        return SHELL_ERR_REPORTED;
+    }
+    if (packets_exchange(current, DXL_RESET, 0)) {
         current = 1;
     }
     return SHELL_OK;

@@ -97,6 +97,51 @@ def test_monitor_makes_slow_servos_fast():
     board.close()
 
 
+def test_fast_leaves_a_servo_whose_id_is_taken_at_1_mbps_and_says_what_to_do():
+    """Two servos with one ID at one rate can only be told apart by unplugging one."""
+    board = robot(servos=(1, 3))
+    slow, free, fast = board.servos.add(1, "dx117"), board.servos.add(20, "dx117"), board.servos[3]
+    heard = say(board, "fast")
+    board.run(ms=2500)
+    heard += board.take().decode("latin-1")
+    assert "Moved to 1 Mbps: 020\r" in heard and "Left at 57142 bps, because 1 Mbps has that ID: 001\r" in heard
+    assert "Give the servo at 1 Mbps another ID (CID, ID), then FAST" in heard
+    assert (slow.table[4], free.table[4]) == (34, 1)
+    say(board, "cid 1", "id 5", "fast")
+    board.run(ms=2500)
+    heard = board.take().decode("latin-1")
+    assert "001 003 005 020 004 Dynamixels" in heard and "Left" not in heard
+    assert (slow.id, slow.table[4], fast.id) == (1, 1, 3)
+    board.close()
+
+
+def test_a_new_id_is_free_at_both_rates():
+    board = robot(servos=(1, 3))
+    slow = board.servos.add(21, "dx117")
+    assert "That ID is taken at 57142 bps: FAST first" in say(board, "cid 3", "id 21")
+    assert "ID 03 error 00" in say(board, "ping") and slow.id == 21
+    assert "error 00" in say(board, "id 22")
+    board.close()
+
+
+def test_reset_makes_no_second_servo_with_id_1_at_the_other_rate():
+    """Not even of servo 1: factory values may include 57,142 bps."""
+    for servo in (1, 3):
+        board = robot(servos=(servo,))
+        slow = board.servos.add(1, "dx117")
+        assert "That ID is taken at 57142 bps: FAST first" in say(board, f"cid {servo}", "reset yes")
+        assert f"ID 0{servo} error 00" in say(board, "ping") and slow.table[4] == 34
+        board.close()
+
+
+def test_an_id_that_two_servos_share_is_taken():
+    """Their answers collide, so neither is a good one."""
+    board = robot(servos=(1, 3))
+    board.servos.add(3).write(5, [240])  # answers 20 us earlier
+    assert "That ID is taken" in say(board, "cid 1", "id 3")
+    board.close()
+
+
 def test_monitor_shows_packets_word_by_word():
     board = robot()
     for line, expected in (
