@@ -84,7 +84,7 @@ TEXT_NAMED(word_ping, "ping  [id]");
 TEXT_NAMED(word_swr, "swr  address count id byte ..  to several at once");
 TEXT_NAMED(word_scan, "scan  [last id]  who is there");
 TEXT_NAMED(word_led, "led  0|1");
-TEXT_NAMED(word_baud, "baud  n  2,000,000 / (n + 1)");
+TEXT_NAMED(word_baud, "baud  1|34  1 Mbps or 57142 bps");
 TEXT_NAMED(word_search, "search  who is there, at both rates");
 TEXT_NAMED(word_fast, "fast  moves servos at 57142 bps to 1 Mbps");
 TEXT_NAMED(word_toss, "toss  packets of the PC to the servos and back");
@@ -107,7 +107,7 @@ static const shell_command_t table_P[] PROGMEM = {
     { word_swr, servo_words_sync_write, SHELL_ARGS(3, SHELL_ANY_ARGS), 0 },
     { word_scan, mon_scan, SHELL_ARGS(0, 1), RANGE_ONE_ID },
     { word_led, servo_words_led, SHELL_ARGS(1, 1), RANGE_SWITCH },
-    { word_baud, servo_words_baud, SHELL_ARGS(1, 1), RANGE_BAUD },
+    { word_baud, servo_words_baud, SHELL_ARGS(1, 1), RANGE_BYTE },
     { word_search, mon_search, SHELL_ARGS(0, 0), 0 },
     { word_fast, mon_fast, SHELL_ARGS(0, 0), 0 },
     { word_toss, mon_toss, SHELL_ARGS(0, 0), 0 },

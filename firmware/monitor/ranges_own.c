@@ -18,6 +18,5 @@ const shell_range_t ranges_own_P[] PROGMEM = {
     [RANGE_ADDRESS - RANGE_OWN] = {name_address, 0, 49},
     [RANGE_COUNT - RANGE_OWN] = {name_count, 1, 50},
     [RANGE_SWITCH - RANGE_OWN] = {name_value, 0, 1},
-    [RANGE_BAUD - RANGE_OWN] = {name_value, 0, 254},
     [RANGE_MOVING_SPEED - RANGE_OWN] = {name_speed, 0, 1023},
 };

@@ -8,7 +8,7 @@
 enum {
     RANGE_BYTE = RANGE_OWN,                      /* 0..255 */
     RANGE_BUS_ID, RANGE_ONE_ID, RANGE_ADDRESS,   /* ID with 254 for all; ID of one servo; address in its table */
-    RANGE_COUNT, RANGE_SWITCH, RANGE_BAUD, RANGE_MOVING_SPEED
+    RANGE_COUNT, RANGE_SWITCH, RANGE_MOVING_SPEED
 };
 
 #endif

@@ -123,14 +123,6 @@ WORD(servo_words_led)
     return SHELL_OK;
 }
 
-WORD(servo_words_baud)
-{
-    if (is_one_servo()) {
-        (void)write_number(args, DXL_AT_BAUD);
-    }
-    return SHELL_OK;
-}
-
 /* An ID must be free: two servos with one ID can only be told apart by unplugging one. */
 static bool is_taken(uint8_t id, uint8_t rate)
 {
@@ -140,6 +132,21 @@ static bool is_taken(uint8_t id, uint8_t rate)
                                               : TEXT_P("That ID is taken at 57142 bps: FAST first"));
     }
     return taken;
+}
+
+WORD(servo_words_baud)
+{
+    const uint8_t rate = (uint8_t)args->number[0];
+    if (!is_one_servo()) {
+        return SHELL_ERR_REPORTED;
+    }
+    if (rate != BUS_RATE_1M && rate != BUS_RATE_57142) {
+        return packets_say(TEXT_P("BAUD 1: 1 Mbps. BAUD 34 (hex 22): 57142 bps. No image speaks another rate"));
+    }
+    if (rate == BUS_RATE_1M || !is_taken(current, rate)) {
+        (void)write_number(args, DXL_AT_BAUD);
+    }
+    return SHELL_OK;
 }
 
 WORD(servo_words_id)

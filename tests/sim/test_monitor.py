@@ -34,7 +34,10 @@ def sent(board):
         ("go 5 1024", "Speed must be 0..1023"),
         ("led", "Invalid Parameter"),
         ("led 2", "Value must be 0..1"),
-        ("baud 255", "Value must be 0..254"),
+        ("baud 0", "BAUD 1"),
+        ("baud 9", "BAUD 34"),
+        ("baud 255", "No image speaks another rate"),
+        ("baud 256", "Value must be 0..255"),
         ("swr 30 2 1 0", "SWR address count"),
         ("swr 30 0 1 1", "SWR address count"),
         ("reset no", "RESET YES"),
@@ -139,6 +142,19 @@ def test_an_id_that_two_servos_share_is_taken():
     board = robot(servos=(1, 3))
     board.servos.add(3).write(5, [240])  # answers 20 us earlier
     assert "That ID is taken" in say(board, "cid 1", "id 3")
+    board.close()
+
+
+def test_baud_moves_a_servo_to_the_other_rate_and_fast_brings_it_back():
+    board = robot(servos=(1, 3))
+    assert "03 04 03 04 22" in say(board, "cid 3", "baud 34")
+    assert board.servos[3].table[4] == 34 and "Timeout" in say(board, "ping")
+    say(board, "fast")
+    board.run(ms=2500)
+    assert "ID 03 error 00" in say(board, "ping")
+    one, slow = board.servos[1], board.servos.add(1, "dx117")
+    assert "That ID is taken at 57142 bps: FAST first" in say(board, "cid 1", "baud 34")
+    assert (one.table[4], slow.table[4]) == (1, 34)
     board.close()
 
 
