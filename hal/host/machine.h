@@ -3,8 +3,8 @@
  *   pc/            a Linux PC: serial port, terminal, files, the computer's clock
  *   simtime/       simulated time, for simulated servos
  *   web/           a web page: these functions are imported from it
- * Only machine_wait, machine_bus_rate, machine_keep, machine_settle and machine_end may block. One caller: the program's
- * only thread. */
+ * Only machine_wait, machine_bus_rate, machine_bus_write, machine_keep, machine_settle and machine_end may block. One
+ * caller: the program's only thread. */
 #ifndef MACHINE_H
 #define MACHINE_H
 
@@ -33,7 +33,8 @@ uint32_t machine_bus_least_patience(void);
 /* Sets the rate of a divisor (bus.h), or the user's rate in place of 1 Mbps. Returns bits per second. */
 uint32_t machine_bus_rate(uint8_t divisor);
 
-/* Sends one packet, in one piece. Bytes that cannot be sent are lost, as on a cable. */
+/* Sends one packet, in one piece. Bytes that cannot be sent are lost, as on a cable. In a browser it blocks while the port
+ * takes no bytes: so ticks come late, which ends a play, and goals never pile up. */
 void machine_bus_write(const uint8_t *bytes, uint16_t count);
 
 /* Takes up to `room` received bytes. Returns their number. */

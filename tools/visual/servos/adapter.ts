@@ -15,7 +15,8 @@ export interface AdapterEvents {
     isThere(isThere: boolean): void;
 }
 
-const BUFFER_BYTES = 4096;
+/** What the browser has taken waits there unseen while it gets no time: two ticks of goals. Received bytes find room in the driver. */
+const BUFFER_BYTES = 128;
 const TRY_AGAIN_MS = 1000;
 /** An adapter may lose what is sent right after it is opened. */
 const SETTLE_MS = 100;
@@ -28,6 +29,7 @@ export class Adapter {
     private reader: ReadableStreamDefaultReader<Uint8Array> | null = null;
     private reading: Promise<void> = Promise.resolve();
     private readonly heard: Uint8Array[] = [];
+    private endWrite: () => void = () => undefined;
     private rate = 0;
     private isClosed = false;
 
@@ -70,10 +72,17 @@ export class Adapter {
         }
     }
 
-    /** Bytes that cannot be sent are lost, as on a cable. */
-    write(bytes: Uint8Array): void {
-        const { port } = this;
-        this.writer?.write(bytes).catch(() => this.lose(port));
+    /** Resolves when the port has taken the bytes. Bytes that cannot be sent are lost, as on a cable. */
+    write(bytes: Uint8Array): Promise<void> {
+        const { port, writer } = this;
+        if (!writer) return Promise.resolve();
+        return new Promise(resolve => {
+            this.endWrite = resolve; // a port that is pulled out may leave the write open
+            void writer
+                .write(bytes)
+                .catch(() => this.lose(port))
+                .then(resolve);
+        });
     }
 
     /** Takes received bytes and returns their count. */
@@ -132,6 +141,7 @@ export class Adapter {
         this.writer = null;
         this.port = null;
         this.heard.length = 0;
+        this.endWrite();
         this.events.isThere(false);
         this.events.news();
         void this.giveUp(port, writer).finally(() => this.lookAgain());

@@ -15,7 +15,8 @@ export interface MachineParts {
     readonly adapter: {
         isThere(): boolean;
         setRate(bitsPerSecond: number): Promise<void>;
-        write(bytes: Uint8Array): void;
+        /** Resolves when the port has taken the bytes or is lost. */
+        write(bytes: Uint8Array): Promise<void>;
         read(to: Uint8Array): number;
     };
     isAskedToEnd(): boolean;
@@ -71,7 +72,8 @@ export async function runProgram(module: WebAssembly.Module, parts: MachineParts
             await parts.adapter.setRate(rate);
             return rate;
         }),
-        machine_bus_write: (at: number, count: number) => parts.adapter.write(bytes(at, count).slice()),
+        // The program waits with its goals for a port that gets no time: they do not pile up, and its ticks come late.
+        machine_bus_write: new Suspending((at: number, count: number) => parts.adapter.write(bytes(at, count).slice())),
         machine_bus_read: (at: number, room: number) => parts.adapter.read(bytes(at, room)),
         machine_console_read: (at: number, room: number) => parts.typed(bytes(at, room)),
         machine_console_write: (at: number, count: number) => {

@@ -12,10 +12,15 @@ afterEach(() => void vi.useRealTimers());
 class Bench {
     readonly sent: number[] = [];
     readonly rates: number[] = [];
+    /** The port takes no further bytes until it resolves. */
+    taken: Promise<void> | undefined;
     readonly told: boolean[] = [];
     isPlugged = true;
     isRefused = false;
-    readonly port = new BytePort('adapter', bytes => void this.sent.push(...bytes));
+    readonly port = new BytePort('adapter', bytes => {
+        this.sent.push(...bytes);
+        return this.taken;
+    });
     readonly adapter = new Adapter(() => Promise.resolve(this.isPlugged ? this : null), {
         news: () => undefined,
         isThere: isThere => void this.told.push(isThere),
@@ -56,7 +61,7 @@ async function opened(): Promise<Bench> {
 
 test('bytes go both ways, in pieces that the program has room for', async () => {
     const bench = await opened();
-    bench.adapter.write(Uint8Array.of(1, 2));
+    void bench.adapter.write(Uint8Array.of(1, 2));
     for (const piece of [
         [3, 4, 5],
         [6, 7],
@@ -67,13 +72,29 @@ test('bytes go both ways, in pieces that the program has room for', async () => 
     expect([bench.heard(), bench.heard(), bench.heard()]).toEqual([[3, 4, 5, 6], [7], []]);
 });
 
+test.each(['takes them', 'is pulled out'])('bytes that the port does not take are waited for until it %s', async end => {
+    const bench = await opened();
+    let take = (): void => undefined;
+    bench.taken = new Promise(resolve => {
+        take = resolve;
+    });
+    const done = vi.fn();
+    void bench.adapter.write(Uint8Array.of(1)).then(done);
+    await vi.advanceTimersByTimeAsync(LONG_MS);
+    expect(done).not.toHaveBeenCalled();
+    if (end === 'takes them') take();
+    else bench.port.unplug();
+    await vi.advanceTimersByTimeAsync(1);
+    expect(done).toHaveBeenCalled();
+});
+
 test('another rate: the port is opened anew, what was sent before has left, and it goes on', async () => {
     const bench = await opened();
-    bench.adapter.write(Uint8Array.of(1));
+    void bench.adapter.write(Uint8Array.of(1));
     const set = bench.adapter.setRate(57_142);
     await vi.advanceTimersByTimeAsync(LONG_MS);
     await set;
-    bench.adapter.write(Uint8Array.of(2));
+    void bench.adapter.write(Uint8Array.of(2));
     bench.port.push(Uint8Array.of(9));
     await vi.advanceTimersByTimeAsync(1);
     expect(bench.rates).toEqual([1_000_000, 57_142]);
@@ -98,12 +119,12 @@ test('a plug that is pulled out is told, nothing is sent, and the port is taken 
     await vi.advanceTimersByTimeAsync(LONG_MS);
     expect(bench.told).toEqual([false]);
     expect(bench.adapter.isThere()).toBe(false);
-    bench.adapter.write(Uint8Array.of(5));
+    void bench.adapter.write(Uint8Array.of(5));
     bench.isPlugged = true;
     await vi.advanceTimersByTimeAsync(LONG_MS);
     expect(bench.told).toEqual([false, true]);
     expect(bench.heard()).toEqual([]); // bytes received before the loss are dropped: they answer nothing
-    bench.adapter.write(Uint8Array.of(6));
+    void bench.adapter.write(Uint8Array.of(6));
     await vi.advanceTimersByTimeAsync(1);
     expect(bench.sent).toEqual([6]);
 });

@@ -66,6 +66,9 @@ export class FakeServos {
     private readonly tables = new Map<number, Uint8Array>();
     private readonly coming: { readonly atMs: number; readonly bytes: Uint8Array }[] = [];
     private typing: number[] = [];
+    /** Until then the port takes no bytes. */
+    private heldUpMs = 0;
+    private isAsleep = false;
     private readonly waits: { readonly what: () => boolean; readonly done: () => void }[] = [];
     private readonly options: FakeOptions;
     private isStopped = false;
@@ -90,6 +93,11 @@ export class FakeServos {
 
     stop(): void {
         this.isStopped = true;
+    }
+
+    /** The port takes no bytes for so long, as that of a browser that gets no time. */
+    holdUp(ms: number): void {
+        this.heldUpMs = this.nowMs + ms;
     }
 
     type(text: string): void {
@@ -117,7 +125,7 @@ export class FakeServos {
                     this.rate = rate;
                     return Promise.resolve();
                 },
-                write: bytes => this.hear(bytes),
+                write: bytes => this.write(bytes),
                 read: to => this.read(to),
             },
             isAskedToEnd: () => this.isAskedToEnd,
@@ -139,7 +147,9 @@ export class FakeServos {
     }
 
     private async sleep(untilMs: number): Promise<void> {
+        this.isAsleep = true;
         await new Promise(resolve => setImmediate(resolve));
+        this.isAsleep = false;
         if (this.isStopped) throw new Error('stopped');
         this.nowMs = Math.max(this.nowMs, Math.min(untilMs, this.coming[0]?.atMs ?? Infinity));
         for (const wait of this.waits.splice(0)) {
@@ -156,6 +166,15 @@ export class FakeServos {
             this.coming.shift();
         }
         return count;
+    }
+
+    /** Time also passes for a program that waits here rather than asleep. */
+    private async write(bytes: Uint8Array): Promise<void> {
+        while (this.nowMs < this.heldUpMs) {
+            await new Promise(resolve => setImmediate(resolve));
+            if (!this.isAsleep) this.nowMs++;
+        }
+        this.hear(bytes);
     }
 
     private hear(bytes: Uint8Array): void {

@@ -96,6 +96,19 @@ test('a page that stands still for longer than 0.1 s breaks the play off, softly
     });
 });
 
+test('a port that takes no bytes for longer than 0.1 s breaks the play off in the same way, and no goals pile up for it', async () => {
+    await withProgram('play', {}, async servos => {
+        await servos.until(() => servos.text.includes('18 servos: 1-18'));
+        await typeAndWait(servos, 'play walk', 'repetition 1');
+        const sent = servos.frames.length;
+        const outMs = servos.nowMs + 250;
+        servos.holdUp(250);
+        await servos.until(() => servos.nowMs >= outMs + 8);
+        expect(servos.frames.length - sent).toBeLessThan(4);
+        await servos.until(() => servos.text.includes('The computer came 0.1 s late'));
+    });
+});
+
 test('a browser that is held up while it looks for servos misses none', async () => {
     await withProgram('play', {}, async servos => {
         await servos.until(() => servos.rate === 1_000_000 && servos.packets.at(-1)?.id === 5);
