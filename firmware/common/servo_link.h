@@ -161,9 +161,9 @@ uint32_t servo_link_torque_off(servo_link_t *link, uint32_t ids);
 
 /* Prepares a servo that is present for a goal every tick: switches torque on as above, reads its position, and sets the
  * moving speed to 0, which means full speed. A servo with a slow one may still be on its way (a single move): it stops where
- * it is, and its position becomes the goal. 4 ms. true: it is ready, and *pos is where it stands, in page coordinates that
- * are not limited (-300..1323, in two's complement): as a goal it moves no joint, not even one that its trim puts outside
- * 0..1023. */
+ * it is, and its position becomes the goal. 4 ms. true: it is ready, and *pos is where it stands, or its goal if it is still
+ * moving there at full speed; in page coordinates that are not limited (-300..1323, in two's complement): as a goal it moves
+ * no joint, not even one that its trim puts outside 0..1023. */
 MUST_CHECK bool servo_link_engage(servo_link_t *link, uint8_t id, uint16_t *pos);
 
 #endif

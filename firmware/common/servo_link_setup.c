@@ -11,9 +11,9 @@
 
 #define PING_TRIES 2u
 #define WRITE_BYTES_MAX 4u
-/* The registers that torque_on and read_pose read: torque enable to present position. */
+/* The registers that torque_on, read_pose and engage read: torque enable to present speed. */
 #define READ_FROM DXL_AT_TORQUE_ENABLE
-#define READ_BYTES (DXL_AT_PRESENT + 2u - READ_FROM)
+#define READ_BYTES (DXL_AT_PRESENT_SPEED + 2u - READ_FROM)
 STATIC_ASSERT(READ_BYTES <= DXL_ANSWER_PARAMS, "the bus takes the answer");
 
 static uint16_t word_at(const uint8_t *bytes)
@@ -243,7 +243,8 @@ uint32_t servo_link_torque_off(servo_link_t *link, uint32_t ids)
 }
 
 /* A servo with a speed limit may still be on its way to a far goal. Its goal and its limit change in one packet, because
- * without the limit it would leap. */
+ * without the limit it would leap. One without a limit that is still moving lags behind the last play: it goes on to its
+ * goal, because it will have left the position that was read before the first goal comes. */
 bool servo_link_engage(servo_link_t *link, uint8_t id, uint16_t *pos)
 {
     uint8_t table[READ_BYTES];
@@ -253,7 +254,8 @@ bool servo_link_engage(servo_link_t *link, uint8_t id, uint16_t *pos)
     if (!switch_on(link, id, table)) {
         return false;
     }
-    *pos = (uint16_t)(present_in(table) - (uint16_t)link->trim_pos[id]);
+    const bool lags = word_at(speed) == 0 && word_at(table + (DXL_AT_PRESENT_SPEED - READ_FROM)) != 0;
+    *pos = (uint16_t)((lags ? word_at(goal) : present_in(table)) - (uint16_t)link->trim_pos[id]);
     if (word_at(speed) != 0) {
         memcpy(goal, table + (DXL_AT_PRESENT - READ_FROM), 2);
         memset(speed, 0, 2);

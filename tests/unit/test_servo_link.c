@@ -178,6 +178,19 @@ static void test_engage_leaves_a_servo_without_a_speed_limit_where_it_is(void)
     TEST_ASSERT_EQUAL(600, fake_bus_word(1, DXL_AT_GOAL));
 }
 
+/* The play before has just ended. When the first goal comes, the servo is no longer where it was read. */
+static void test_engage_begins_at_the_goal_of_a_servo_that_lags_behind(void)
+{
+    const int16_t trim[SERVO_LINK_JOINTS] = { [1] = 30 };
+    robot(1);
+    servo_link_set_trim(&servos, trim);
+    fake_bus_set_word(1, DXL_AT_GOAL, 600);
+    fake_bus_set_word(1, DXL_AT_PRESENT, 550);
+    fake_bus_set_word(1, DXL_AT_PRESENT_SPEED, 1024 + 70);
+    TEST_ASSERT_EQUAL(570, engaged_at(1));
+    TEST_ASSERT_EQUAL(600, fake_bus_word(1, DXL_AT_GOAL));
+}
+
 /* ---- WRITEs that the servo did not obey ---- */
 
 /* A limp servo at 300 with the old goal 512. */
@@ -254,6 +267,7 @@ int main(void)
     RUN_TEST(test_engage_takes_back_a_speed_limit);
     RUN_TEST(test_engage_stops_a_servo_that_a_single_move_still_drives);
     RUN_TEST(test_engage_leaves_a_servo_without_a_speed_limit_where_it_is);
+    RUN_TEST(test_engage_begins_at_the_goal_of_a_servo_that_lags_behind);
     RUN_TEST(test_torque_stays_off_when_the_goal_cannot_be_set);
     RUN_TEST(test_goal_that_arrives_at_the_second_try_is_enough);
     RUN_TEST(test_servo_that_answers_no_write_is_read_back);

@@ -127,7 +127,7 @@ static void line_typed(void)
     if (session.is_edit && (!session.typed_is_known || strstr(line, "sav") != NULL)) {
         session.save_asked_tick = session.tick;
     }
-    const bool searches = !session.is_edit && session.typed_is_known && strstr(line, "find") != NULL;
+    const bool searches = !session.is_edit && session.typed_is_known && strcmp(line, "servos find") == 0;
     rules.searches_again = rules.searches_again || (rules.is_searching && searches);
     rules.is_searching = rules.is_searching || searches;
     marks_typed(line);
@@ -480,6 +480,9 @@ void rules_printed(const char *line)
         kept_printed(line);
         views_printed(line);
         replies_printed(line);
+    }
+    if (strncmp(line, "Busy", 4) == 0) {
+        rules.is_searching = rules.searches_again = false;   /* refused */
     }
     if (strstr(line, " servos: ") != NULL) {
         servos_are_listed(rules.is_searching);
