@@ -1018,6 +1018,11 @@ def test_a_wait_that_is_no_time_is_refused(m512, files, seconds):
     assert not (files / "kept").exists()
 
 
+def test_an_address_that_is_no_number_is_named(m512, files):
+    result = m512("flash", files / "x.bin", "--address", "E000", "-p", "none")
+    assert result.exit_code == 2 and "--address" in result.stderr and "'E000'" in result.stderr
+
+
 def test_images_beside_the_simulator_are_found(tmp_path, monkeypatch):
     from m512.board import sim
     from m512.errors import MissingError

@@ -101,7 +101,7 @@ def number(context: click.Context, parameter: click.Parameter, value: Any) -> in
     try:
         return int(value, 0)
     except ValueError:
-        raise click.BadParameter("a number, decimal or 0x") from None
+        raise click.BadParameter(f"{value!r} is no number: 57344 or 0xE000") from None
 
 
 def flash_options(function: Any) -> Any:
