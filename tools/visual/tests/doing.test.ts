@@ -3,7 +3,7 @@
 import { expect, test } from 'vitest';
 import type { PlayState, Where } from '../robot/protocol.ts';
 import type { SessionState } from '../view/session/session.ts';
-import { doingText, postureText, shapeText } from '../view/texts/robot.ts';
+import { doingText, postureText, shapeText, startText } from '../view/texts/robot.ts';
 
 const state = (image: string): SessionState =>
     ({
@@ -22,6 +22,13 @@ test('Edit says where its screen is, before its first answer and after it, until
     expect(said).toEqual(Array(3).fill('Edit runs: its screen is in the terminal.'));
     expect(doingText(state('edit'), where('playing'))).toBe('Playing motion 2 (bow), step 1.');
     expect(doingText(state('play'), where('idle'))).toBe('The robot stands and waits.');
+});
+
+test('a robot that goes to a pose, as in live follow, plays no motion: not even motion 0, which is the trim', () => {
+    const now = { state: 'approach', page: 0, step: 0 } as Where;
+    expect(doingText(state('play'), now)).toBe('Going slowly to a pose.');
+    expect(startText({ ...state('play'), where: now })).toBe('Going slowly to a pose.');
+    expect(startText({ ...state('play'), where: where('approach') })).toBe('Plays motion 2 (bow).');
 });
 
 test('only the robot in the page lies or is held: another one that does not answer yet is not said to do so', () => {

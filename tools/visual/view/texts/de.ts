@@ -206,6 +206,7 @@ const DE: Texts = {
         getUp: 'Der Roboter liegt am Boden. Drücke „Aufstehen“.',
         held: 'Eine Hand hält den Roboter.',
         shownOnly: motion => `Nur im Bild: ${motion}.`,
+        moves: 'Geht langsam in eine Pose.',
         approaches: motion => `Geht langsam in die erste Pose von ${motion}.`,
         playing: (motion, step) => `Spielt ${motion} ab, Schritt ${step}.`,
         paused: (motion, step) => `Pause in ${motion}, Schritt ${step}.`,

@@ -445,6 +445,8 @@ export const EN = {
         getUp: 'The robot lies on the floor. Press Get up.',
         held: 'A hand holds the robot.',
         shownOnly: (motion: string) => `In the picture only: ${motion}.`,
+        /** Live follow, for example. */
+        moves: 'Going slowly to a pose.',
         approaches: (motion: string) => `Going slowly to the first pose of ${motion}.`,
         playing: (motion: string, step: number) => `Playing ${motion}, step ${step}.`,
         paused: (motion: string, step: number) => `Paused in ${motion}, step ${step}.`,

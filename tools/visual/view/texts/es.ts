@@ -204,6 +204,7 @@ const ES: Texts = {
         getUp: 'El robot está en el suelo. Pulsa «Levantarse».',
         held: 'Una mano sujeta el robot.',
         shownOnly: motion => `Solo en la imagen: ${motion}.`,
+        moves: 'Va despacio hacia una pose.',
         approaches: motion => `Va despacio hacia la primera pose del ${motion}.`,
         playing: (motion, step) => `Reproduce el ${motion}, paso ${step}.`,
         paused: (motion, step) => `En pausa en el ${motion}, paso ${step}.`,

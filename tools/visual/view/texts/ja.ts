@@ -202,6 +202,7 @@ const JA: Texts = {
         getUp: 'ロボットが床に倒れています。「起き上がる」を押してください。',
         held: '手がロボットを支えています。',
         shownOnly: motion => `3D ビューのみ：${motion}。`,
+        moves: 'ポーズへゆっくり移動しています。',
         approaches: motion => `${motion}の最初のポーズへゆっくり移動しています。`,
         playing: (motion, step) => `${motion}のステップ ${step} を再生しています。`,
         paused: (motion, step) => `${motion}のステップ ${step} で一時停止しています。`,

@@ -201,6 +201,7 @@ const KO: Texts = {
         getUp: '로봇이 바닥에 넘어져 있습니다. “일어서기”를 누르세요.',
         held: '손이 로봇을 잡고 있습니다.',
         shownOnly: motion => `3D 화면에서만: ${motion}.`,
+        moves: '자세로 천천히 가는 중입니다.',
         approaches: motion => `${motion}의 첫 자세로 천천히 가는 중입니다.`,
         playing: (motion, step) => `${motion}, 단계 ${step} 재생 중입니다.`,
         paused: (motion, step) => `${motion}, 단계 ${step}에서 일시 정지했습니다.`,

@@ -61,7 +61,7 @@ function robotText(state: SessionState, where: Where | null): string {
         case 'ready':
             return isEdit ? status.editRuns : status.waits;
         case 'approach':
-            return status.approaches(motionTitle(state, where.page));
+            return where.page === 0 ? status.moves : status.approaches(motionTitle(state, where.page));
         case 'paused':
             return status.paused(motionTitle(state, where.page), where.step);
         case 'playing':
@@ -83,7 +83,7 @@ export function postureText(
 /** For announcements of start and end: what the robot does, without steps and preview. */
 export function startText(state: SessionState): string {
     const { where } = state;
-    if (where === null || where.state === 'idle' || where.state === 'ready') return robotText(state, where);
+    if (where === null || where.state === 'idle' || where.state === 'ready' || where.page === 0) return robotText(state, where);
     const motion = motionTitle(state, where.page);
     return where.state === 'paused' ? TEXTS.status.pauses(motion) : TEXTS.status.plays(motion);
 }
