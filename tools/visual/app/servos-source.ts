@@ -23,6 +23,9 @@ import { Turns } from './turns.ts';
 
 /** Time limit for the robot to come to a stop before the program is ended. */
 const STAND_MS = 5000;
+/** Play's echo of a typed `on` and its OK, with no prompt in between. */
+const SWITCHED_ON = /\bon[ ,\d]*\r\n(?:(?!\] ).*\r\n)* OK\r\n/;
+const HEARD_MOST = 200;
 
 export class ServosSource {
     private readonly events: SourceEvents;
@@ -39,10 +42,16 @@ export class ServosSource {
     private unstored: readonly Uint8Array[] | null = null;
     /** false: what is stored could not be read, and must not be replaced by what the program then has: the motions of a new robot. */
     private mayStore = true;
+    /** What Play has printed since the adapter is back. null: no torque waits for `on`. */
+    private heard: string | null = null;
 
     constructor(body: Body, events: SourceEvents, mayAsk: () => boolean) {
         this.events = events;
-        this.robot = new FollowedRobot(body, events, mayAsk);
+        const text = (bytes: Uint8Array): void => {
+            this.hear(bytes);
+            events.text(bytes);
+        };
+        this.robot = new FollowedRobot(body, { ...events, text }, mayAsk);
     }
 
     /** null if there is none. */
@@ -172,6 +181,7 @@ export class ServosSource {
             case 'sentence':
                 return this.say(message.text, 'calm');
             case 'adapter':
+                this.heard = message.isThere ? '' : null;
                 return this.events.change({ adapter: message.isThere ? 'back' : 'out' });
             case 'ended': // restarts, as a board does
                 return void this.restart(this.image).catch(() => this.stop(TEXTS.robot.servosCrashed));
@@ -185,6 +195,14 @@ export class ServosSource {
             default:
                 message satisfies never;
         }
+    }
+
+    private hear(bytes: Uint8Array): void {
+        if (this.heard === null) return;
+        this.heard = (this.heard + new TextDecoder('latin1').decode(bytes)).slice(-HEARD_MOST);
+        if (!SWITCHED_ON.test(this.heard)) return;
+        this.heard = null;
+        this.events.change({ adapter: null });
     }
 
     private say(text: string, tone: 'calm' | 'bad'): void {

@@ -145,6 +145,23 @@ test('the adapter is out when another image starts: the page says so, and does n
     await source.close();
 });
 
+test('the adapter is back: that is said until Play has obeyed `on`, whose answer comes in pieces', async () => {
+    const { source, events } = await runs();
+    const told = (): unknown[] => events.change.mock.calls.flatMap(([change]) => ('adapter' in change ? [change.adapter] : []));
+    const says = async (text: string): Promise<void> => {
+        for (const byte of new TextEncoder().encode(text)) Runs.last.tell({ kind: 'bytes', bytes: Uint8Array.of(byte) });
+        await new Promise(resolve => setTimeout(resolve, 5));
+    };
+    for (const isThere of [false, true]) Runs.last.tell({ kind: 'adapter', isThere });
+    await says('on 19\r\nNo answer: ID 19\r\n] off\r\n OK\r\n] ');
+    expect(told()).toEqual(['out', 'back']);
+    await says('on\r\nServo 18 answers again\r\n OK\r\n] ');
+    expect(told()).toEqual(['out', 'back', null]);
+    await says('on 1 2\r\n OK\r\n] ');
+    expect(told()).toHaveLength(3);
+    await source.close();
+});
+
 test('a browser that stores nothing: Play has what Edit has saved', async () => {
     const { source } = await runs();
     browser.saves = false;

@@ -412,6 +412,7 @@ test.skipIf(why !== null)(
             expect(servos.frames().length).toBe(sent);
             await person.open('Terminal');
             await person.type('on\r');
+            await person.untilStanding();
             await person.button('Wave').click();
             await person.doing.filter({ hasText: 'Playing motion 3 (wave)' }).waitFor();
             await person.untilStanding();
