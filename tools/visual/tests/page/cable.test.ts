@@ -9,7 +9,9 @@ const suite = pageSuite();
 const PAGES = [60, 61, 62, 63];
 
 type Port = { deliver(bytes: Uint8Array): void; unplug(): void };
-type Shell = { session: { sources: { simulated: { connection: { port: Port } } } } };
+type Shell = {
+    session: { state: { set(change: { adapter: 'out' | 'back' | null }): void }; sources: { simulated: { connection: { port: Port } } } };
+};
 
 /** Pulls the cable when the third page is being saved. */
 async function pullAtThirdSave(person: Visitor): Promise<void> {
@@ -79,6 +81,14 @@ test('a cable pulled during live follow ends it: the robot does not move by itse
     await page.locator('app-shell').evaluate(shell => (shell as unknown as Shell).session.sources.simulated.connection.port.unplug());
     await expect.poll(() => follow.isChecked()).toBe(false);
     await person.untilStanding(); // it connects again
+    expect([await follow.isEnabled(), await follow.isChecked()]).toEqual([true, false]);
+    // The adapter of My servos: the program behind it goes on, and so does the connection.
+    await follow.check();
+    const adapter = (change: 'out' | 'back'): Promise<void> =>
+        page.locator('app-shell').evaluate((shell, now) => (shell as unknown as Shell).session.state.set({ adapter: now }), change);
+    await adapter('out');
+    expect([await follow.isEnabled(), await follow.isChecked()]).toEqual([false, false]);
+    await adapter('back');
     expect([await follow.isEnabled(), await follow.isChecked()]).toEqual([true, false]);
     await person.leave();
 });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Live follow: the robot moves slowly to the chosen step. Off by default, and switched off when the taught limbs change, the robot is stopped
-// or refuses, or the connection ends: a robot that is plugged in again must not move by itself.
+// or refuses, or the connection ends or the servo adapter is out: a robot that is plugged in again must not move by itself.
 
 import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
@@ -34,10 +34,10 @@ export class FollowBar extends HTMLElement {
     private render(): void {
         const { follow } = this.editing.get();
         this.box.checked = follow;
-        const { tab, connection } = this.session.state.get();
+        const { tab, connection, adapter } = this.session.state.get();
         const { editor } = this.session;
         const { page, step } = editor.state.get();
-        this.box.disabled = connection !== 'ready';
+        this.box.disabled = connection !== 'ready' || adapter === 'out';
         if (follow && this.box.disabled) return this.end(); // this renders again
         const shall = follow && isEditing(tab) && editor.page(page).steps.length > 0;
         if (!shall && !this.isFollowing) return;
