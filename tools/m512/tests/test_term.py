@@ -166,6 +166,48 @@ def test_a_log_that_cannot_be_written_is_told_and_the_terminal_goes_on(term):
         child.expect("<where>")
 
 
+class Playing(Echo):
+    """Never quiet, so that each line of a file takes its whole time. Reads no faster than a board."""
+
+    def on_silence(self, seconds):
+        self.send(b".")
+
+    def _read(self):
+        try:
+            return os.read(self.master, 64)
+        except (OSError, TypeError):
+            return b""
+
+
+QUIT = "\x1dq"
+
+
+@pytest.mark.parametrize("sending, typed", [("l", "stop\r"), ("l", QUIT), ("s", "stop\r"), ("b", "stop\r"), ("--send", QUIT)])
+def test_a_key_ends_a_call_and_a_sending_and_reaches_the_board_at_once(term, tmp_path, sending, typed):
+    """A `stop` once waited for the end: 30 s, or longer than a minute."""
+    (tmp_path / "script").write_bytes((b"shape" * 13 + b"\r") * 20000 if sending == "b" else b"shape\n" * 60)
+    with Playing() as board:
+        child = term("-p", board.path, *(["--send", tmp_path / "script"] if sending == "--send" else []))
+        child.expect("to quit")
+        if sending != "--send":
+            child.send("\x1d" + sending)
+            child.expect("Press MODE" if sending == "l" else "file: ")
+        if sending in "sb":
+            child.send(f"{tmp_path / 'script'}\r")
+        if sending != "l":
+            child.expect("<shape")
+        child.send(typed)
+        said = {"l": "the call has ended: a key was pressed", "b": "the first [0-9,]+ of 1,320,000 bytes of .*script were sent: a key was pressed"}
+        child.expect(said.get(sending, "line [0-9]+ of .*script and all after it were not sent: a key was pressed"), timeout=25)
+        if typed == QUIT:
+            child.expect(pexpect.EOF, timeout=25)
+            child.close()
+            assert child.exitstatus == 0
+        else:
+            child.expect("<stop>", timeout=25)
+            assert board.lines[-1] == b"stop"
+
+
 class Busy(FactoryPtyPeer):
     """An application that echoes what is typed; its person presses MODE after 20 '#'."""
 

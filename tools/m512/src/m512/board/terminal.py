@@ -1,16 +1,20 @@
 # SPDX-License-Identifier: MIT
-"""A raw terminal. One thread copies from the keyboard to the board, one from the board to the screen. Ctrl-] is the only reserved key."""
+"""A raw terminal. One thread copies from the keyboard to the board, one from the board to the screen. Ctrl-] is the only reserved key.
+
+A third thread calls the loader and sends files. Any key ends that before it goes to the board itself: a `stop` must not wait.
+"""
 
 from __future__ import annotations
 
 import io
+import re
 import sys
 import threading
 import time
 from contextlib import suppress
 from itertools import chain
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, Callable
 
 from m512.board.factory_line import PROMPT
 from m512.board.link import Link
@@ -24,7 +28,9 @@ HELP = """
  Ctrl-] l   call the boot loader: press MODE, '#' is sent until it answers
  Ctrl-] s   send a text file, a line at a time    Ctrl-] b  send a file as it is
  Ctrl-] g   log to a file, on and off             Ctrl-] Ctrl-]  send Ctrl-]
+ Any key ends the call or the sending.
 """
+CALL_SECONDS = 30
 PIPE_QUIET = 0.3  # silence that ends an answer when lines come from a pipe
 HELD_SECONDS = 10  # how long the board may hold a file back by XOFF: saving takes less than a second
 LINE_SECONDS = 2.0  # how long the board may take to answer a line of a file
@@ -39,6 +45,8 @@ class Terminal:
         self.log_lock = threading.Lock()  # one thread writes it, the other opens and closes it
         self.running, self.held, self.trouble = True, False, ""
         self.heard_at, self.heard = 0.0, b""  # the last that came
+        self.work: threading.Thread | None = None  # calls the loader or sends a file
+        self.work_ends = ""  # why it ends before its time
         self.link = Link(url, image=image)
         if log:
             try:
@@ -87,10 +95,11 @@ class Terminal:
         try:
             reader.start()
             if send:
-                self._send_lines(send, data)
+                self._begin(lambda: self._send_lines(send, data))
             self._keys(console)
         finally:
             self.running = False
+            self._end("the terminal ends")
             console.cleanup()
             reader.join(1)
             self.link.close()
@@ -123,8 +132,7 @@ class Terminal:
             try:
                 data = self.link.read_some(0.1)
             except M512Error as error:
-                self.trouble, self.running = str(error), False
-                self._say(f"{error} (press a key)")
+                self._lost(error)
                 return
             if not data:
                 continue
@@ -132,6 +140,28 @@ class Terminal:
             self.held = data.rfind(XOFF) > data.rfind(XON) if XOFF in data or XON in data else self.held
             console.write_bytes(bytes(b for b in data if b not in HIDDEN))
             self._to_log(data)
+
+    def _lost(self, error: M512Error) -> None:
+        self.trouble, self.work_ends, self.running = str(error), "the line broke", False
+        self._say(f"{error} (press a key)")
+
+    def _begin(self, work: Callable[[], None]) -> None:
+        """Starts work that sends. It ends soon after work_ends is set."""
+
+        def whole() -> None:
+            try:
+                work()
+            except M512Error as error:
+                self._lost(error)
+
+        self.work_ends, self.work = "", threading.Thread(target=whole, daemon=True)
+        self.work.start()
+
+    def _end(self, why: str) -> None:
+        if self.work:
+            self.work_ends = self.work_ends or why
+            self.work.join()
+            self.work = None
 
     def _keys(self, console: Any) -> None:
         while self.running:
@@ -141,6 +171,7 @@ class Terminal:
                 key = "\x03"
             if not self.running or key == "":
                 return
+            self._end("a key was pressed")
             if key != KEY:
                 # The keyboard sends LF for Enter on POSIX; boards want CR.
                 self.link.write(("\r" if key == "\n" else key).encode("utf-8", "replace"), wait=False)
@@ -155,8 +186,8 @@ class Terminal:
         if key == KEY:
             self.link.write(KEY.encode())
         elif key == "l":
-            self._say("Press MODE; '#' is sent for 30 s")
-            self._call()
+            self._say(f"Press MODE; '#' is sent for {CALL_SECONDS} s, or until you press a key")
+            self._begin(self._call)
         elif key in "sb":
             name = self._ask(console, "file: ")
             if name:
@@ -168,16 +199,21 @@ class Terminal:
         return True
 
     def _call(self) -> None:
-        until, more = time.monotonic() + 30, 3
+        until, more = time.monotonic() + CALL_SECONDS, 3
         self.heard = b""
-        while self.running and time.monotonic() < until and more:
+        while not self.work_ends and time.monotonic() < until and more:
             self.link.write(b"#")
             time.sleep(0.015)
             # A loader sends 0xFF when it starts, then its text; an application may echo. Three more '#' fit into the loader's window of
             # 60 ms, and the last byte in it must be a '#'.
             more -= any(sign in self.heard for sign in (b"\xff", BANNER, PROMPT))
-        time.sleep(0.35)
-        self.link.write(b"\x08\r")
+        if self.work_ends:
+            self._say(f"the call has ended: {self.work_ends}")
+        else:
+            time.sleep(0.35)
+            if more:
+                self._say(f"no boot loader has answered in {CALL_SECONDS} s")
+        self.link.write(b"\x08\r")  # so that no '#' stands before what is typed next
 
     def _toggle_log(self, console: Any) -> None:
         if self.log:
@@ -218,21 +254,23 @@ class Terminal:
     def send_text(self, path: Path) -> None:
         data = self._file(path)
         if data is not None:
-            self._send_lines(path, data)
+            self._begin(lambda: self._send_lines(path, data))
 
     def _send_lines(self, path: Path, data: bytes) -> None:
         """After each line waits until the board has answered and is quiet. Waits for XON after XOFF, but not for ever: it may be lost."""
         for number, line in enumerate(data.replace(b"\r\n", b"\n").split(b"\n"), 1):
             until = time.monotonic() + HELD_SECONDS
-            while self.held and self.running:
+            while self.held and not self.work_ends:
                 time.sleep(0.01)
                 if time.monotonic() > until:
                     self.held = False  # the next try does not wait for the lost one
-                    self._say(f"line {number} of {path} and all after it were not sent: the board has said XOFF and no XON for {HELD_SECONDS} s")
-                    return
+                    self.work_ends = f"the board has said XOFF and no XON for {HELD_SECONDS} s"
+            if self.work_ends:
+                self._say(f"line {number} of {path} and all after it were not sent: {self.work_ends}")
+                return
             sent = time.monotonic()
             self.link.write(line + b"\r")
-            while time.monotonic() - sent < LINE_SECONDS and self.running:
+            while time.monotonic() - sent < LINE_SECONDS and not self.work_ends:
                 time.sleep(0.02)
                 if self.heard_at > sent and time.monotonic() - self.heard_at > 0.06:
                     break
@@ -241,8 +279,18 @@ class Terminal:
     def send_raw(self, path: Path) -> None:
         data = self._file(path)
         if data is not None:
-            self.link.write(data)
-            self._say(f"{path} sent, {len(data):,} bytes")
+            self._begin(lambda: self._send_pieces(path, data))
+
+    def _send_pieces(self, path: Path, data: bytes) -> None:
+        """A line at a time, or 512 bytes of what has none. So a text that is ended by a key leaves no half line on the board."""
+        sent = 0
+        for piece in re.findall(rb"[^\r\n]{0,511}[\r\n]|[^\r\n]{1,512}", data):
+            if self.work_ends:
+                self._say(f"the first {sent:,} of {len(data):,} bytes of {path} were sent: {self.work_ends}")
+                return
+            self.link.write(piece)
+            sent += len(piece)
+        self._say(f"{path} sent, {sent:,} bytes")
 
     def _file(self, path: Path) -> bytes | None:
         try:

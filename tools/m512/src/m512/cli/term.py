@@ -32,7 +32,7 @@ def term(port: str, log: Path | None, force: bool, send: Path | None, listing: b
     """A terminal at 57,600 baud, good for Edit's full screen.
 
     Everything typed goes to the board, but for Ctrl-]: then h shows help, q quits, l calls the boot loader with '#',
-    s sends a file, b a file as it is (binary), g switches logging.
+    s sends a file, b a file as it is (binary), g switches logging. Any key ends a call or a sending.
     """
     from m512.board import ports
     from m512.board.bus import is_bus
