@@ -15,6 +15,8 @@ static ring_t rx;
 static uint8_t tx[CONSOLE_TX_BYTES];
 static uint8_t tx_count;
 static uint8_t received, sent;
+static bool has_rested;      /* since the last byte of input */
+static bool output_waited;   /* since the last rest */
 static uint8_t xoffs;   /* calls of console_xoff without a matching console_xon */
 static volatile uint8_t lost;
 
@@ -25,6 +27,8 @@ void console_init(void)
     xoffs = 0;
     received = 0;
     sent = 0;
+    has_rested = false;
+    output_waited = false;
 }
 
 void console_set_rate(uint8_t divisor)
@@ -41,10 +45,24 @@ void host_fetch_console(void)
         received++;
         (void)ring_put(&rx, bytes[i]);
     }
+    has_rested &= count == 0;
     const uint8_t gone = (uint8_t)machine_console_write(tx, tx_count);
     tx_count = (uint8_t)(tx_count - gone);
     sent = (uint8_t)(sent + gone);
     memmove(tx, tx + gone, tx_count);
+    output_waited |= tx_count > 0;
+}
+
+/* A program also rests while its output waits, but then it is in the middle of a line. */
+void host_console_rest(void)
+{
+    has_rested |= ring_count(&rx) == 0 && tx_count == 0 && !output_waited;
+    output_waited = false;
+}
+
+bool host_console_has_rested(void)
+{
+    return has_rested;
 }
 
 /* ---- input ---- */

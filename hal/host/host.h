@@ -18,6 +18,11 @@ void host_wait(uint64_t until);
 void host_fetch_bus(void);
 void host_fetch_console(void);
 
+/* console.c: what system_sleep calls, and whether the program has slept with nothing left to carry out or to print since the
+ * last input. */
+void host_console_rest(void);
+bool host_console_has_rested(void);
+
 /* time.c */
 uint64_t host_next_tick(void);
 

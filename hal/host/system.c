@@ -43,6 +43,7 @@ void system_sleep(void)
     if (!host_is_moving()) {
         host_settle();
     }
+    host_console_rest();
     const uint64_t tick = host_next_tick(), free = host_line_free();
     host_wait(free > machine_now() && free < tick ? free : tick);   /* the next packet waits until the line is free */
 }

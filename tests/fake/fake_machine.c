@@ -158,10 +158,16 @@ uint16_t machine_bus_read(uint8_t *to, uint16_t room)
 /* ---- console ---- */
 
 static const char *typed = "";
+static bool output_is_blocked;
 
 void fake_machine_type(const char *text)
 {
     typed = text;
+}
+
+void fake_machine_block(bool blocked)
+{
+    output_is_blocked = blocked;
 }
 
 uint16_t machine_console_read(uint8_t *to, uint16_t room)
@@ -176,7 +182,7 @@ uint16_t machine_console_read(uint8_t *to, uint16_t room)
 uint16_t machine_console_write(const uint8_t *bytes, uint16_t count)
 {
     (void)bytes;
-    return count;
+    return output_is_blocked ? 0 : count;
 }
 
 uint8_t machine_buttons(void)

@@ -29,6 +29,7 @@ uint32_t fake_machine_rate(void);
 
 /* ---- the console ---- */
 void fake_machine_type(const char *text);         /* console input; not copied */
+void fake_machine_block(bool blocked);            /* console output waits; default: it leaves at once */
 
 /* ---- memory ---- */
 /* Cuts the power at machine_keep call number `write` from now on (0: never). That write leaves a random mixture of old

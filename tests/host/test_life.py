@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Start and end of the programs, what they store, and exclusive use of port and folder."""
 
+import fcntl
 import os
 import pty
 import re
@@ -147,6 +148,47 @@ def test_a_file_that_is_not_ours_is_named_and_left_alone(make, files, tmp_path):
     )
     assert asked.returncode == 4 and "pages.bin: not a file of" in asked.stderr
     assert (tmp_path / "robot" / "pages.bin").read_bytes() == b"mine"
+
+
+# Through a pipe
+
+
+def through_pipe(robot, text, image="play", pause_s=0):
+    """Pipes this text into the program, ends the input, and returns what it prints. pause_s: between two readings of 512 bytes."""
+    process = subprocess.Popen(
+        [program(image), "--robot", robot.folder / "robot", "--motions", robot.motions, robot.port],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+    )
+    with process:
+        fcntl.fcntl(process.stdout, fcntl.F_SETPIPE_SZ, 4096)
+        process.stdin.write(text.encode())
+        process.stdin.close()
+        said = b""
+        while piece := os.read(process.stdout.fileno(), 512):
+            said += piece
+            time.sleep(pause_s)
+    assert process.returncode == 0
+    return said.decode()
+
+
+def test_every_line_of_a_pipe_is_carried_out_before_its_end_ends_the_program(make, files):
+    said = through_pipe(make(motions=files), "settings approach 33\r" + 40 * "version\r" + "settings\nplay 2\r")
+    assert said.count("] version") == 40 and re.search(r"approach\s+33", said.split("] settings\r\n")[1])
+    assert "] play 2" in said and "Bad" not in said
+
+
+@pytest.mark.parametrize("image, end_of_list", [("play", "2 pages, 0 damaged"), ("edit", "swing")])
+def test_a_slow_reader_of_a_pipe_gets_every_answer(make, files, image, end_of_list):
+    assert through_pipe(make(motions=files), 12 * "help\rlist\r", image, pause_s=0.02).count(end_of_list) == 12
+
+
+def test_the_end_of_a_pipe_ends_a_play_softly(make, files):
+    robot = make(motions=files)
+    assert "] play 2" in through_pipe(robot, "on\rplay 2\r")
+    ways = steps(robot.frames())
+    assert len(ways) > 5 and ways[-1] <= 1
 
 
 # On a terminal

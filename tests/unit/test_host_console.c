@@ -17,6 +17,7 @@ void setUp(void)
 void tearDown(void)
 {
     fake_machine_type("");
+    fake_machine_block(false);
 }
 
 static const char pasted[] = "0123456789abcdefghijklmnopqrstuvwxyz0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ";
@@ -49,10 +50,44 @@ static void test_nothing_is_fetched_between_xoff_and_xon(void)
     TEST_ASSERT_FALSE(console_get(&byte));
 }
 
+static bool has_rested(void)
+{
+    host_fetch_console();
+    host_console_rest();
+    return host_console_has_rested();
+}
+
+static void test_a_program_rests_once_its_input_is_taken_and_until_more_comes(void)
+{
+    uint8_t byte;
+    fake_machine_type("a");
+    TEST_ASSERT_FALSE(has_rested());
+    TEST_ASSERT_TRUE(console_get(&byte));
+    TEST_ASSERT_FALSE(host_console_has_rested());
+    TEST_ASSERT_TRUE(has_rested());
+    fake_machine_type("b");
+    host_fetch_console();
+    TEST_ASSERT_FALSE(host_console_has_rested());
+}
+
+/* Even if all of it leaves just before it sleeps: it wakes up to print more. */
+static void test_a_program_does_not_rest_while_its_output_waits(void)
+{
+    fake_machine_block(true);
+    TEST_ASSERT_TRUE(console_put('a'));
+    TEST_ASSERT_FALSE(has_rested());
+    host_fetch_console();
+    fake_machine_block(false);
+    TEST_ASSERT_FALSE(has_rested());
+    TEST_ASSERT_TRUE(has_rested());
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_no_more_is_fetched_at_once_than_comes_behind_an_xoff);
     RUN_TEST(test_nothing_is_fetched_between_xoff_and_xon);
+    RUN_TEST(test_a_program_rests_once_its_input_is_taken_and_until_more_comes);
+    RUN_TEST(test_a_program_does_not_rest_while_its_output_waits);
     return UNITY_END();
 }

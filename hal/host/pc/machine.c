@@ -140,7 +140,7 @@ void machine_watch(void)
 
 bool machine_is_asked_to_end(void)
 {
-    return asked_to_end;
+    return asked_to_end || (terminal_has_ended() && host_console_has_rested());   /* first come the lines of the pipe */
 }
 
 void machine_end(void)

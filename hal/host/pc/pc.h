@@ -40,6 +40,7 @@ void terminal_open(void);
 int terminal_poll(struct pollfd *entries);     /* fills in at most TERMINAL_FDS entries */
 void terminal_restore(void);                   /* may be called from a signal handler */
 void terminal_drain(void);
+bool terminal_has_ended(void);                 /* no input will come: the pipe is at its end */
 #define TERMINAL_FDS 2
 
 /* files.c: the robot's folder */

@@ -31,6 +31,7 @@ static struct {
     int listener;             /* of the socket; -1: none */
     int pty_other;            /* keeps the pty alive while clients come and go; -1: no pty */
     bool is_terminal;
+    bool has_ended;           /* no input will come */
     struct termios before;    /* of the terminal */
     uint8_t escape;           /* characters of Ctrl-T and an arrow so far */
     uint8_t button;
@@ -139,7 +140,8 @@ static void take_client(void)
     }
 }
 
-/* Handles the end of input. The end of a pipe ends the program; a socket waits for the next client. */
+/* Handles the end of input. A terminal that is gone ends the program at once, a pipe when its lines are carried out
+ * (machine_is_asked_to_end); a socket waits for the next client. */
 static void lose_input(void)
 {
     if (console.listener >= 0) {
@@ -147,8 +149,16 @@ static void lose_input(void)
         console.in = console.out = -1;
     } else if (console.pty_other < 0) {
         console.in = -1;
-        machine_ask_to_end();
+        console.has_ended = true;
+        if (console.is_terminal) {
+            machine_ask_to_end();
+        }
     }
+}
+
+bool terminal_has_ended(void)
+{
+    return console.has_ended;
 }
 
 int terminal_poll(struct pollfd *entries)
