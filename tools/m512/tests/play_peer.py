@@ -3,7 +3,8 @@
 a second, a stop takes a second, and so does a move. A test says what happens on the way.
 
 `damaged`: words whose next answer loses a byte, as often as they are in the list. `ended`: word -> the exceptions that m512
-gets, once something has begun, while it waits for the answers to that word, as Ctrl-C or a signal causes them.
+gets, once something has begun, while it waits for the answers to that word, as Ctrl-C or a signal causes them. `says`: what the
+robot prints for a person at the end of page 2, after its state is idle.
 """
 
 from virtual_peer import VirtualPeer
@@ -16,9 +17,9 @@ PAGE_SECONDS = {1: 1.0, 2: 60.0}
 
 
 class PlayPeer(VirtualPeer):
-    def __init__(self, damaged=(), **ended):
+    def __init__(self, damaged=(), says="", **ended):
         self.damaged, self.ended, self.mute = list(damaged), {word: list(errors) for word, errors in ended.items()}, set()
-        self.began = False
+        self.began, self.says = False, says
         self.asked, self.line, self.error = [], None, None
         self.state, self.page, self.until = "idle", 0, None
         super().__init__()
@@ -55,6 +56,9 @@ class PlayPeer(VirtualPeer):
             self.damaged.remove(word)
             data = data.replace(b"OK", b"K").replace(b"ERR", b"RR")
         self.send(data)
+        if self.began and self.state == "idle" and self.says and word == "where":
+            self.send(b"\r" + self.says.replace("\n", "\r\n").encode() + b"\r\n] ")
+            self.says = ""
         if self.began and self.ended.get(word):
             self.error = self.ended[word].pop(0)
 

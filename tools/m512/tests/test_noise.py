@@ -112,7 +112,7 @@ def test_a_request_that_the_board_refuses_because_bytes_were_lost_is_sent_again(
     """firmware/common/PROTOCOL.md, ERR 15: the board has not executed the request."""
     link = NoisyLink(b"\x1e@tor ERR 15 Bytes of this line were lost: nothing was done\r\n\x1e@torque OK\r\n")
     link_client = Client.__new__(Client)
-    link_client.link, link_client.version, link_client.slack = link, {}, 0.0
+    link_client.link, link_client.version, link_client.slack, link_client.said = link, {}, 0.0, b""
     assert link_client.ask("torque on") == ""
 
 
@@ -126,7 +126,7 @@ GOOD = b"\x1e@where state=playing page=2 step=1 repetition=2 code=0 dv=96 missed
 def test_where_the_robot_is_is_asked_again_when_its_answer_is_damaged(was, becomes):
     """This once caused a traceback of m512 play --wait while the robot continued."""
     client = Client.__new__(Client)
-    client.version, client.slack, client.heard = {}, 0.0, b""
+    client.version, client.slack, client.heard, client.said = {}, 0.0, b"", b""
     bad = GOOD.replace(was, becomes)
     assert bad != GOOD
     client.link = NoisyLink(bad + GOOD)

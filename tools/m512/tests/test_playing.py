@@ -38,6 +38,33 @@ def test_a_move_whose_answer_is_lost_has_worked(m512, monkeypatch):
     assert result.exit_code == 0 and len(starts(robot)) == 1, result.stderr
 
 
+LATE, FAULT = "The computer came 0.1 s late: breaking off", "Ended for the fault of a servo in page 2 (b)"
+
+
+@pytest.mark.parametrize(
+    "says, told",
+    [
+        ("", ""),  # lost
+        ("Ended after page 2 (Ended. Page 3)", ""),
+        ("Stopped after page 2", ""),
+        ("Broken off in page 2", ""),  # by somebody
+        (f"{LATE}\nBroken off in page 2", LATE),
+        ("Nobody drives any more: stopping\nPage 2 step 1 repetition 9\nStopped after page 2", "Nobody drives any more: stopping"),
+        ("Ended. Page 3 is damaged", "Ended. Page 3 is damaged"),
+        (f"Servo 5 does not answer\nServo 5 answers again\n{FAULT}", f"Servo 5 does not answer; {FAULT}"),
+    ],
+)
+def test_a_play_that_the_robot_breaks_off_is_told_with_its_reason(m512, says, told):
+    """`m512 play a --wait && m512 play b` once continued with b."""
+    with PlayPeer(says=says) as robot:
+        result = m512("play", "2", "--wait", "--json", "-p", robot.path)
+    assert json.loads(result.stdout)["state"] == "idle"
+    if told:
+        assert result.exit_code == 8 and result.stderr.endswith(f"m512: the robot has broken off the motion: {told}\n"), result.stderr
+    else:
+        assert result.exit_code == 0 and "broken off" not in result.stderr, result.stderr
+
+
 def test_a_play_is_refused_while_another_one_goes_on(m512):
     for damaged in ([], ["play"], ["play", "where"]):
         with PlayPeer(damaged=damaged) as robot:

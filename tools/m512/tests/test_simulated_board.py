@@ -4,6 +4,7 @@
 import json
 import re
 import signal
+from contextlib import nullcontext
 from types import SimpleNamespace
 
 import pytest
@@ -296,6 +297,31 @@ def test_a_play_whose_follower_is_ended_is_stopped(m512, robot, monkeypatch):
     assert m512("play", "walk", "--wait", "-p", robot.path).exit_code == 128 + signal.SIGHUP
     robot.pass_time(5.0)
     assert json.loads(m512("stop", "--json", "-p", robot.path).stdout)["state"] == "idle"
+
+
+@pytest.mark.parametrize("fault", ["overload", "silent", "dead", "blocked"])
+@pytest.mark.parametrize(
+    "image, words",
+    [("play", ("play", "walk", "--wait")), ("play", ("pose", "5:900")), ("play", ("drive", "walk")), ("edit", ("play", "walk", "--wait"))],
+)
+def test_a_motion_that_the_fault_of_a_servo_breaks_off_is_no_success(m512, started, monkeypatch, image, words, fault):
+    monkeypatch.setattr("m512.cli.shape._keys", lambda: nullcontext(driving.Keys()))
+    robot = started(f"{image}-cm5.hex", text=MOTIONS)
+    robot.pass_time(1.5)
+    sleep, waits = VirtualLink.sleep, []
+
+    def fails(link, seconds):
+        waits.append(seconds)
+        if len(waits) == 3:
+            robot.board.servos[5].fault(fault)
+        sleep(link, seconds)
+
+    monkeypatch.setattr(VirtualLink, "sleep", fails)
+    result = m512(*words, "-p", robot.path)
+    assert result.exit_code == 8 and "m512: the robot has broken off the motion: " in result.stderr, result.stderr
+    said = result.stderr.partition("broken off the motion: ")[2]
+    assert ("Servo 5 " in said and "Ended for the fault of a servo in " in said) or image == "edit", said
+    assert said.endswith("fault of servo 5 (m512 doctor)\n")
 
 
 @pytest.mark.parametrize("word", ["0", "128", "300"])

@@ -9,7 +9,7 @@ EXIT_BAD_FILE = 4  # a file is missing, damaged or of the wrong kind, or the pag
 EXIT_REFUSED = 5  # the request would do harm, or the user said no
 EXIT_PORT = 6  # no port, no access, or the cable was unplugged
 EXIT_NO_ANSWER = 7  # the port exists, but nobody answers as expected
-EXIT_BOARD = 8  # the board answered with an error
+EXIT_BOARD = 8  # the board answered with an error, or has broken off a motion
 EXIT_MISSING = 9  # the simulator, or a program for an adapter, is not installed
 EXIT_CANCELLED = 130  # Ctrl-C, as in shells
 

@@ -26,6 +26,14 @@ WHERE = {
     **{word: ("[0-9]+", "0") for word in ("step", "code", "dv", "missed", "layer")},
     **{word: ("[0-9A-Fa-f]+", "0") for word in ("faulty", "aim")},
 }
+# What Play prints for a person (firmware/common/report_event.c): the end of a motion, and why it is not the one that was asked for.
+END = re.compile(r"(Ended|Stopped|Broken off)\b.*|The pose is reached")
+AS_ASKED = re.compile(r"(Ended|Stopped) after .*|The pose is reached")
+BROKEN_OFF = re.compile(
+    r"Ended for the fault .*|Ended\. Page \d+ is damaged.*|The computer came .* late.*|The servo adapter is gone.*|Nobody drives .*"
+)
+CAUSE = re.compile(r"Servo \d+ (does not|reports (?!no error)|has lost).*")
+SAID_BYTES = 4096  # more than the sentences of one end
 LISTED = r' (\d+):(\d+|!):"([^"]*)"'  # an entry of @list
 DAMAGED = "{} came damaged, " + f"{TRIES} times. Is the cable good?"
 CHECK = "Check the cable, then repeat the command"
@@ -50,6 +58,7 @@ class Client:
     def __init__(self, link: Link, patience: Sequence[float] = (0.9, 1.5), slack: float = 0.0):
         self.link = link
         self.heard = b""  # bytes received when no answer came
+        self.said = b""  # the last that was printed for a person since a motion began
         self.version: dict[str, str] = {}
         self._listed: dict[int, tuple[int | None, str]] | None = None  # the answer of listed()
         self.slack = 0.0
@@ -121,7 +130,8 @@ class Client:
             if not ended:
                 self.heard += raw
                 return None
-            _, framed_here, answer = raw.translate(None, FLOW).rpartition(BEGIN)
+            before, framed_here, answer = raw.translate(None, FLOW).rpartition(BEGIN)
+            self.said = (self.said + (before if framed_here else answer))[-SAID_BYTES:]
             said, _, text = answer.decode("ascii", "replace").strip().partition(" ")
             if framed_here and (said == word or text.startswith(f"ERR {ERR_LINE} ")) and re.search(r"(^| )(OK|ERR \d+ .*)$", text):
                 return text
@@ -241,6 +251,22 @@ class Client:
                 return found
         raise NoAnswerError(DAMAGED.format("what the robot does"))
 
+    def why_broken_off(self) -> str:
+        """Why the motion that this Client has begun, and that has ended, did not come to its end. Empty: it did, or somebody has stopped it."""
+        for _ in range(TRIES):
+            faulty = int(self.where().get("faulty", "0"), 16)
+            said = re.split("[\r\n]+", self.said.decode("ascii", "replace"))
+            if self.version["image"] != "play" or any(END.fullmatch(line) for line in said):
+                break
+            self.link.sleep(0.1)  # Play prints the end soon after its state is idle; Edit does not print that of a program's motion
+        as_asked = any(AS_ASKED.fullmatch(line) for line in said)
+        if not any(BROKEN_OFF.fullmatch(line) for line in said) and (as_asked or not faulty):
+            return ""
+        why = [line for line in said if BROKEN_OFF.fullmatch(line) or CAUSE.fullmatch(line)]
+        if faulty:
+            why.append(f"fault of servo {' '.join(str(joint) for joint in range(JOINTS) if faulty >> joint & 1)} (m512 doctor)")
+        return "; ".join(why)
+
     def shape(self) -> dict[str, str]:
         """What shapes the motion, as shape_in_words() says it."""
         return shape_in_words(self._fields(self.ask("shape")))
@@ -252,6 +278,7 @@ class Client:
         """Sends a request that begins a movement. While something moves a board refuses it. So when its answer is lost it is not simply
         repeated: a robot that stood still before and moves now has taken it."""
         stood = self.where()["state"] == "idle"
+        self.said = b""
         for _ in range(TRIES):
             try:
                 self.ask(request, tries=1)

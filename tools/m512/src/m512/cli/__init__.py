@@ -94,7 +94,8 @@ class LazyGroup(click.Group):
     cls=LazyGroup,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     epilog="Exit codes: 0 done, 2 wrong command line, 3 differences or faults found, 4 bad file or empty page, 5 refused, "
-    "6 port lost or not there, 7 no answer, 8 error answer of the board, 9 something not installed, 130 Ctrl-C, "
+    "6 port lost or not there, 7 no answer, 8 error answer of the board or a motion that it has broken off, 9 something not "
+    "installed, 130 Ctrl-C, "
     "141 the reader of the results has gone (| head).",
 )
 @click.version_option(__version__, prog_name="m512")

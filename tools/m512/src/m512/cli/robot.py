@@ -15,7 +15,7 @@ import click
 from m512 import ui
 from m512.cli.board import FilePath, json_option, only_the_simulator, port_option, refuse_words
 from m512.cli.files import page_moves, page_numbers
-from m512.errors import BoardError, CancelledError, NoAnswerError, PortError, RefusedError, WordError
+from m512.errors import BoardError, CancelledError, M512Error, NoAnswerError, PortError, RefusedError, WordError
 
 if TYPE_CHECKING:
     from m512.board.client import Client
@@ -154,10 +154,10 @@ def play(page: str, rate: int | None, amplitude: int | None, blend: int | None, 
             client.play(number, code)
             ui.say(f"page {number} plays" + ("; waiting for its end, Ctrl-C stops it" if wait else ""))
 
-        stopped = _follow(client, start, wait or is_ours, is_ours)
+        failed = _follow(client, start, wait or is_ours, is_ours)
         _report(client, options["as_json"])
-    if stopped:
-        raise CancelledError(STOPPED)
+    if failed:
+        raise failed
 
 
 def _is_ours(options: dict[str, Any]) -> bool:
@@ -167,10 +167,11 @@ def _is_ours(options: dict[str, Any]) -> bool:
     return bool(options["sim"]) or is_bus(options["port"] or "")
 
 
-def _follow(client: Client, start: Callable[[], None], wait: bool, is_ours: bool) -> bool:
+def _follow(client: Client, start: Callable[[], None], wait: bool, is_ours: bool) -> M512Error | None:
     """Starts a movement and, with `wait`, shows the state until the robot is idle. The first Ctrl-C stops, the second breaks, at any
-    moment from the start on. Returns whether there was one. Anything else that ends this program (a closed terminal window, or a pipe
-    whose reader has gone) also stops the movement, because nobody can press Ctrl-C any more."""
+    moment from the start on. Returns an error for that, and for a motion that the robot has broken off. Anything else that ends this
+    program (a closed terminal window, or a pipe whose reader has gone) also stops the movement, because nobody can press Ctrl-C any
+    more."""
     try:
         return _followed(client, start, wait)
     except (PortError, NoAnswerError) as error:
@@ -179,7 +180,13 @@ def _follow(client: Client, start: Callable[[], None], wait: bool, is_ours: bool
         raise type(error)(f"{error}. What plays on the robot goes on (m512 stop ends it)") from None
 
 
-def _followed(client: Client, start: Callable[[], None], wait: bool) -> bool:
+def broken_off(client: Client) -> BoardError | None:
+    """The error for a motion that has ended, if the robot has broken it off."""
+    why = client.why_broken_off()
+    return BoardError(f"the robot has broken off the motion: {why}") if why else None
+
+
+def _followed(client: Client, start: Callable[[], None], wait: bool) -> M512Error | None:
     before, asked, halt, started = None, 0, "", False
     while True:
         try:
@@ -191,14 +198,14 @@ def _followed(client: Client, start: Callable[[], None], wait: bool) -> bool:
                 start()
                 started = True
                 if not wait:
-                    return False
+                    return None
             state = client.where()
             here = (state["state"], state["page"], state["repetition"])
             if here != before:
                 ui.say(f"{state['state']}: page {state['page']}, repetition {state['repetition']}")
                 before = here
             if state["state"] == "idle":
-                return asked > 0
+                return CancelledError(STOPPED) if asked else broken_off(client)
             if ui.is_unread():
                 raise BrokenPipeError
             client.link.sleep(0.1)
@@ -243,7 +250,7 @@ def pose(positions: Sequence[str], speed: int, as_text: bool, **options: Any) ->
 
     Moving one joint of a limp robot switches the torque of all joints on: the others hold the pose that they are in.
     """
-    wanted, stopped = positions_of(positions), False
+    wanted, failed = positions_of(positions), None
     with robot(options) as client:
         if wanted:
             missing = sorted(wanted.keys() - client.pose().keys())
@@ -254,7 +261,7 @@ def pose(positions: Sequence[str], speed: int, as_text: bool, **options: Any) ->
                 client.move(wanted, speed)
                 ui.say("moving; waiting for the end")
 
-            stopped = _follow(client, start, True, _is_ours(options))
+            failed = _follow(client, start, True, _is_ours(options))
         found = client.pose()
     if not found:
         raise BoardError("no servo answers; is their power on? m512 doctor looks")
@@ -266,8 +273,8 @@ def pose(positions: Sequence[str], speed: int, as_text: bool, **options: Any) ->
         for joint, (at, on) in found.items():
             degrees = "" if at is None else f"{(at - 512) * 300 / 1024:+7.1f} deg"
             ui.show(f"ID {joint:2}  {'silent' if at is None else at:>6}  {degrees}  {'holds' if on else 'limp'}")
-    if stopped:
-        raise CancelledError(STOPPED)
+    if failed:
+        raise failed
 
 
 def positions_of(words: Sequence[str]) -> Any:

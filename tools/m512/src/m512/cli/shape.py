@@ -11,7 +11,7 @@ import click
 
 from m512 import ui
 from m512.cli.layers import must_last, show_shape
-from m512.cli.robot import apply, robot, robot_options, shape_options
+from m512.cli.robot import apply, broken_off, robot, robot_options, shape_options
 from m512.errors import NoAnswerError, PortError
 
 if TYPE_CHECKING:
@@ -70,7 +70,10 @@ def drive(page: str, laid: Any, **options: Any) -> None:
                     ui.say(f"f lays page {second} over it")
 
             stick = driving.drive(client, keys, client.link, _tell, second, begin)
+        failed = None if stick.done else broken_off(client)
     ui.say("\nstopping" if stick.done else "")
+    if failed:
+        raise failed
 
 
 def _tell(stick: Stick) -> None:
