@@ -36,10 +36,12 @@ export class Driving {
     /** Who waits until the robot in use can be driven; null: nobody. */
     private becoming: symbol | null = null;
     private isPushed = false;
+    private ranPlay = false;
 
     constructor(parts: DrivingParts) {
         this.parts = parts;
         this.stick = new StickDrive(parts.connection, () => this.walkPage(), parts.messages.fail);
+        parts.state.watch(() => this.release());
     }
 
     remote(held: ReadonlySet<RemoteButton>): void {
@@ -86,11 +88,22 @@ export class Driving {
         else if (this.state.source !== 'yours' && !this.hears) this.keep(held);
     }
 
+    /** Of a robot whose program this page has chosen: Play answers. */
+    private get runsPlay(): boolean {
+        const { source, connection, image, version } = this.state;
+        return source !== 'yours' && image === 'play' && connection === 'ready' && version?.image === 'play';
+    }
+
     /** The robot runs Play and is on its feet. */
     private get hears(): boolean {
-        const { connection, image, version } = this.state;
-        const isHeld = this.isSimulated && this.parts.simulated.isHeld;
-        return image === 'play' && connection === 'ready' && version?.image === 'play' && !isHeld;
+        return this.runsPlay && !(this.isSimulated && this.parts.simulated.isHeld);
+    }
+
+    /** When Play starts, every button counts as down (firmware/common/REMOTE.md), and a press would be ignored for half a second. */
+    private release(): void {
+        const { runsPlay } = this;
+        if (runsPlay && !this.ranPlay) this.pass(NONE);
+        this.ranPlay = runsPlay;
     }
 
     private keep(held: ReadonlySet<RemoteButton>): void {
@@ -115,18 +128,13 @@ export class Driving {
         this.parts.messages.fail(error);
     }
 
-    /** Play ignores a button that is already down when it starts (firmware/common/REMOTE.md), so all buttons are released first. A key that
-     *  is still held is sent again anyway. */
+    /** A key that is still held is sent again anyway. */
     private carryOut(): void {
-        if (!this.wish) return;
-        this.send(NONE);
-        setTimeout(() => {
-            const { wish } = this;
-            this.wish = null;
-            if (!wish || this.keys.isHeld) return;
-            this.send(wish);
-            setTimeout(() => !this.keys.isHeld && this.send(NONE), REPEAT_MS);
-        }, REPEAT_MS);
+        const { wish } = this;
+        this.wish = null;
+        if (!wish || this.keys.isHeld) return;
+        this.send(wish);
+        setTimeout(() => !this.keys.isHeld && this.send(NONE), REPEAT_MS);
     }
 
     /** The robot could walk, and its pages are known: it answers questions behind the one for its pages. */
@@ -144,8 +152,11 @@ export class Driving {
 
     /** Edit and a boot loader would take a packet for typed letters, and who knows what another board would do. */
     private send(held: ReadonlySet<RemoteButton>): void {
+        if (this.state.source === 'yours' ? this.state.version?.image === 'play' : this.hears) this.pass(held);
+    }
+
+    private pass(held: ReadonlySet<RemoteButton>): void {
         const { messages, simulated } = this.parts;
-        if (this.state.source === 'yours' ? this.state.version?.image !== 'play' : !this.hears) return;
         if (this.isSimulated) simulated.post({ kind: 'bytes', sender: 'remote', bytes: remotePacket(held) });
         else void this.write(held).catch(messages.fail);
     }

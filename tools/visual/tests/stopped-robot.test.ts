@@ -5,6 +5,7 @@ import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { RobotSession } from '../app/robot-session.ts';
 import type { Body } from '../model/body.ts';
 import type { FormatsWorker } from '../model/file-formats.ts';
+import { remotePacket } from '../robot/remote.ts';
 import type { FromSim, ToSim } from '../sim/messages.ts';
 import { PassingStorage } from '../view/document-storage.ts';
 import { TEXTS } from '../view/texts/texts.ts';
@@ -36,6 +37,8 @@ function pages(text: string): number {
     return Number(last) - Number(first) + 1;
 }
 
+const isRelease = (packet: Uint8Array): boolean => packet.join() === remotePacket([]).join();
+
 /** The worker of a robot that a hand holds while it walks in the air. A play of page 1 lasts for three questions. */
 class Worker {
     static last: Worker;
@@ -61,7 +64,7 @@ class Worker {
     postMessage(message: ToSim): void {
         if (message.kind === 'start') this.image = message.images.application;
         if (message.kind === 'memories') setTimeout(() => this.tell({ kind: 'memories', memories: MEMORIES, id: message.id }));
-        if (message.kind === 'bytes' && message.sender === 'remote') Worker.all.push('remote');
+        if (message.kind === 'bytes' && message.sender === 'remote') Worker.all.push(isRelease(message.bytes) ? 'release' : 'remote');
         else if (message.kind === 'hold') this.isHeld = message.held;
         else if (message.kind === 'bytes' && !this.isSilent) setTimeout(() => this.answer(String.fromCharCode(...message.bytes)));
     }
