@@ -3,8 +3,10 @@
 
 import os
 import re
+import signal
 import subprocess
 import sys
+import time
 
 import pytest
 
@@ -116,6 +118,18 @@ def test_the_program_ends_softly_with_an_m512_that_was_killed(m512, motions):
     ways = [max(abs(after[joint] - before[joint]) for joint in before) for before, after in zip(frames, frames[1:])]
     assert ways[-1] <= 1 and max(ways) <= 12  # slows down to a stand
     m512("pose", "-p", "BUS")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells which program holds the adapter")
+def test_a_play_that_the_program_comes_late_for_is_told_as_broken_off(m512, motions):
+    process = playing(m512, motions)
+    until(lambda: any(goal.get(1, 512) != 512 for goal in m512.robot.frames()), "nothing moves")
+    program = int(re.search(r"\(motion512-play, process (\d+)\)", m512("stop", "-p", "BUS", code=6))[1])
+    os.kill(program, signal.SIGSTOP)
+    time.sleep(0.6)
+    os.kill(program, signal.SIGCONT)
+    said = "".join(process.communicate())
+    assert process.returncode == 8 and "the robot has broken off the motion: The computer came 0.1 s late" in said, said
 
 
 def test_an_adapter_pulled_during_a_play_is_a_lost_port(m512, motions):
