@@ -6,6 +6,7 @@
 #include <string.h>
 
 #define QUIET 96u                  /* ticks without a key and without output: everything is painted */
+#define READ_BY 16u                /* ticks: a pushed joint is shown so much later */
 #define SLOWER 100u                 /* half microseconds of latency per additional tick: all servos are asked twice */
 #define AT_REST (3u * SECOND)      /* a joint has arrived this long after its last goal */
 
@@ -128,7 +129,7 @@ static void look_at_play(const table_t *shown)
 
 static void look_at_repaint(void)
 {
-    editor.is_repainted = editor.is_repainted && session.pushed_tick < editor.kept_tick;
+    editor.is_repainted = editor.is_repainted && session.pushed_tick + READ_BY < editor.kept_tick;
     for (unsigned row = 0; row < TABLE_LOWEST && editor.is_repainted; row++) {
         if (strncmp(screen_row(row), "] ", 2) != 0 && strcmp(editor.kept[row], screen_row(row)) != 0) {
             session_fail("RE draws the screen that was there", "row %u: \"%s\", before it was \"%s\"", row + 1,

@@ -34,9 +34,11 @@ static void expect(const char *said)
     play.exit_tick = said[1] == 'E' ? session.tick : NEVER_TICK;
 }
 
+/* A program's line in band hides the screen until the robot stands still. */
 static bool is_plain(void)
 {
-    return rules_is_well() && session.tick - session.late_tick > SLOW && session.latency == 0;
+    table_t shown;
+    return screen_read(&shown) && rules_is_well() && session.tick - session.late_tick > SLOW && session.latency == 0;
 }
 
 static bool is_shown(const char *text)
