@@ -389,6 +389,7 @@ export class RobotSession implements Session {
         this.plays.cancel();
         this.sources.simulated.dropInterrupted();
         this.driving.forget();
+        this.sources.dropText();
         this.stops.tell();
     }
 

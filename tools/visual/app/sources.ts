@@ -66,6 +66,10 @@ export class RobotSources {
         return connection;
     }
 
+    dropText(): void {
+        this.current.connection?.dropText();
+    }
+
     useSimulated(): void {
         this.chosen++;
         if (this.isSimulated) return;

@@ -13,6 +13,7 @@ import { PROTOCOL, askVersion } from './protocol.ts';
 import type { Version } from './protocol.ts';
 import { Requests } from './requests.ts';
 import { RobotError } from './robot-error.ts';
+import { TypedText } from './typed-text.ts';
 
 const CR = 13;
 const RETRY_FIRST_MS = 250;
@@ -37,6 +38,7 @@ export class Connection {
     private readonly events: ConnectionEvents;
     private current: ConnectionState = 'closed';
     private line: Line | null = null;
+    private typed: TypedText | null = null;
     private asked: Requests | null = null;
     private cancelTimer: () => void = () => undefined;
     private retryMs = RETRY_FIRST_MS;
@@ -91,9 +93,14 @@ export class Connection {
 
     /** Sends typed characters. Rejects if there is no line. */
     async write(bytes: Uint8Array): Promise<void> {
-        if (!this.line) throw new RobotError('not-connected');
+        if (!this.typed) throw new RobotError('not-connected');
         this.typedAtMs = bytes.at(-1) === CR ? -Infinity : this.clock.now();
-        await this.line.write(bytes);
+        await this.typed.write(bytes);
+    }
+
+    /** Drops what is left of a pasted text. */
+    dropText(): void {
+        this.typed?.drop();
     }
 
     private on(event: ConnectionEvent): void {
@@ -137,7 +144,7 @@ export class Connection {
 
     /** Its state stays until something else is known: people read what it means. */
     private askLater(delayMs: number): void {
-        const isTyping = (): boolean => this.clock.now() - this.typedAtMs < TYPING_MS;
+        const isTyping = (): boolean => this.typed?.isPasting === true || this.clock.now() - this.typedAtMs < TYPING_MS;
         this.cancelTimer = this.clock.after(delayMs, () => (isTyping() ? this.askLater(delayMs) : void this.ask()));
     }
 
@@ -162,6 +169,7 @@ export class Connection {
             lost: cause => this.lose(cause),
         });
         this.line = line;
+        this.typed = new TypedText(line, this.clock);
         this.asked = new Requests(line, this.clock);
         this.on('opened');
     }
@@ -208,6 +216,7 @@ export class Connection {
     private async shut(): Promise<void> {
         const line = this.line;
         this.line = null;
+        this.typed = null;
         this.asked?.end('not-connected');
         this.asked = null;
         if (!line) return;

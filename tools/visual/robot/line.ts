@@ -8,7 +8,7 @@ import type { LineState } from './line-parser.ts';
 import type { Port } from './port.ts';
 import { RobotError } from './robot-error.ts';
 
-/** A lost XON must not block for ever. The longest hold in PROTOCOL.md is a save, 60 ms. */
+/** A lost XON must not block for ever. A save takes 60 ms. */
 const HOLD_LIMIT_MS = 1000;
 
 export interface LineEvents {
@@ -28,8 +28,8 @@ export class Line {
     private reader: ReadableStreamDefaultReader<Uint8Array> | null = null;
     private writer: WritableStreamDefaultWriter<Uint8Array> | null = null;
     private writing: Promise<void> = Promise.resolve();
-    private resume: (() => void) | null = null;
-    private held: Promise<void> | null = null;
+    /** The XOFF in force. */
+    private xoff: { atMs: number; readonly ended: Promise<void>; readonly end: () => void } | null = null;
     private isClosed = false;
     private loop: Promise<void> = Promise.resolve();
 
@@ -47,13 +47,26 @@ export class Line {
     write(bytes: Uint8Array, limitMs = Infinity): Promise<void> {
         const endMs = this.clock.now() + limitMs;
         const done = this.writing.then(async () => {
-            while (this.held) await this.held; // an XON and the next XOFF may come together
+            await this.untilXon(HOLD_LIMIT_MS);
             if (!this.writer || this.isClosed) throw new RobotError('not-connected');
             if (this.clock.now() > endMs) throw new RobotError('no-answer');
             await this.writer.write(bytes);
         });
         this.writing = done.catch(() => undefined); // the caller gets the error; later writes may still work
         return done;
+    }
+
+    /** Resolves when no XOFF is in force, or none that is younger than limitMs. */
+    async untilXon(limitMs: number): Promise<void> {
+        // An XON and the next XOFF may come together.
+        while (this.xoff) {
+            const { atMs, ended } = this.xoff;
+            const leftMs = atMs + limitMs - this.clock.now();
+            if (leftMs <= 0) return;
+            let cancel = (): void => undefined;
+            await Promise.race([ended, new Promise<void>(resolve => (cancel = this.clock.after(leftMs, resolve)))]);
+            cancel();
+        }
     }
 
     async close(): Promise<void> {
@@ -110,19 +123,18 @@ export class Line {
     }
 
     private hold(): void {
-        if (this.held) return;
-        this.held = new Promise(resolve => {
-            const cancel = this.clock.after(HOLD_LIMIT_MS, () => this.go());
-            this.resume = () => {
-                cancel();
-                resolve();
-            };
-        });
+        const atMs = this.clock.now();
+        if (this.xoff) {
+            this.xoff.atMs = atMs;
+            return;
+        }
+        let end = (): void => undefined;
+        const ended = new Promise<void>(resolve => (end = resolve));
+        this.xoff = { atMs, ended, end };
     }
 
     private go(): void {
-        this.resume?.();
-        this.resume = null;
-        this.held = null;
+        this.xoff?.end();
+        this.xoff = null;
     }
 }

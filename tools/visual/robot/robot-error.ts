@@ -18,6 +18,7 @@ export type RobotErrorCode =
     | 'was-hidden' // the page was hidden while it drove servos; the play was ended
     | 'cancelled' // somebody cancelled it
     | 'dropped' // the robot was switched off, reset or restarted before it could do it
+    | 'text-dropped' // the robot was to stop, or was restarted, while a pasted text was being sent
     | 'page-changed' // a page of the robot has changed since it was read; its number is in `words`
     | 'page-unsaved' // the page in Edit's memory has somebody else's edits
     | 'save-failed' // the board cannot save pages

@@ -273,6 +273,25 @@ test.each(RESTARTS)('%s while a motion waits for the robot to stand: it never pl
     expect(said.at(-1)).toMatch(/^Not done: the robot was switched off/);
 });
 
+const STOPS: typeof RESTARTS = [
+    ['Stop', session => session.command('stop')],
+    ['B6', session => [['b6'] as const, []].map(held => session.remote(new Set(held)))],
+    ...RESTARTS,
+];
+
+test.each(STOPS)('%s while a pasted text is being sent: the rest of it is not, and it is said', async (_, stop) => {
+    const { session, said } = await page();
+    await vi.waitFor(() => expect(session.state.get().connection).toBe('ready'), SOON);
+    session.type(new TextEncoder().encode('walk\r'.repeat(1000)));
+    const sent = (): number => Worker.all.filter(text => text === '').length; // no request
+    await vi.waitFor(() => expect(sent()).toBeGreaterThan(2), SOON);
+    void stop(session);
+    await vi.waitFor(() => expect(said.join()).toContain('the rest of the pasted text was not sent'), SOON);
+    const before = sent();
+    await new Promise(resolve => setTimeout(resolve, 200));
+    expect(sent() - before).toBeLessThan(2);
+});
+
 test.each(RESTARTS)('%s while a key and the motion of a link wait: neither moves it, and it is said', async (_, restart) => {
     const { session, plays, said } = await page();
     await vi.waitFor(() => expect(plays()).toEqual(['@play 1']), SOON);

@@ -177,7 +177,7 @@ test('a page that changed in the robot meanwhile is not written over, nor are ed
     const other = new PageWrite([page], format);
     await expect(bench.until(other.run(connection.requests))).rejects.toMatchObject({ code: 'page-changed', words: '30' });
     expect(flashPage(bench, 30)).toEqual(pageOf(library, 30));
-    await connection.write(new TextEncoder().encode('page 100\rname secret\r'));
+    await bench.until(connection.write(new TextEncoder().encode('page 100\rname secret\r')));
     await bench.run(3000);
     const mine = new PageWrite([{ ...page, before: pageOf(library, 30) }], format);
     await expect(bench.until(mine.run(connection.requests))).rejects.toMatchObject({ code: 'page-unsaved' });

@@ -11,7 +11,7 @@ test('Edit has edits to lose while a page is changed; not as it starts, in an em
     const { bench, connection } = await connectedEdit(SEED);
     const { format } = await makeFormat();
     const typed = async (line: string): Promise<boolean> => {
-        await connection.write(new TextEncoder().encode(`${line}\r`));
+        await bench.until(connection.write(new TextEncoder().encode(`${line}\r`)));
         await bench.run(50); // time for the line to be sent
         return bench.until(hasUnsavedEdits(connection.requests, format));
     };

@@ -240,6 +240,7 @@ const DE: Texts = {
             cancelled: 'Angehalten.',
             dropped:
                 'Nicht ausgeführt: Der Roboter wurde vorher ausgeschaltet, zurückgesetzt oder neu gestartet. Gib es ihm noch einmal auf.',
+            'text-dropped': 'Der Roboter sollte anhalten oder neu starten, deshalb wurde der Rest des eingefügten Textes nicht gesendet.',
             'page-changed':
                 'Diese Bewegung hat sich im Roboter geändert, seit sie gelesen wurde; sie wurde nicht überschrieben. Vergleiche noch einmal. Bewegung:',
             'page-unsaved':

@@ -58,6 +58,7 @@ const errors: Record<RobotErrorCode, string> = {
     'was-hidden': 'This page was hidden, so the motion was ended softly. A hidden page cannot keep time: keep it in sight.',
     cancelled: 'Stopped.',
     dropped: 'Not done: the robot was switched off, reset or restarted first. Ask it once more.',
+    'text-dropped': 'The robot was told to stop or to start anew, so the rest of the pasted text was not sent.',
     'page-changed': 'This motion has changed in the robot since it was read; nothing was written over it. Compare once more. Motion:',
     'page-unsaved': "The motion in Edit's memory has edits that are not saved. Type SAVE or UNDO in the terminal, then try again.",
     'save-failed':

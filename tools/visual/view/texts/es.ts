@@ -235,6 +235,7 @@ const ES: Texts = {
                 'Esta página estaba oculta, así que el movimiento terminó con suavidad. Una página oculta no puede llevar el tiempo: mantenla a la vista.',
             cancelled: 'Detenido.',
             dropped: 'No se ha hecho: antes el robot se apagó, se restableció o se reinició. Pídeselo otra vez.',
+            'text-dropped': 'Se mandó parar o reiniciar el robot, así que el resto del texto pegado no se ha enviado.',
             'page-changed':
                 'Este movimiento ha cambiado en el robot desde que se leyó; no se ha sobrescrito. Compara otra vez. Movimiento:',
             'page-unsaved':
