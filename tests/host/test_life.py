@@ -94,6 +94,47 @@ def test_a_file_is_not_replaced_by_a_link_to_the_console(make, files):
     assert files.read_bytes() == mine
 
 
+def linked_elsewhere(tmp_path, link):
+    """A second program, on a port of its own, that is asked for the same link."""
+    master, slave = pty.openpty()
+    command = [program("edit"), "--robot", tmp_path / "other", f"--pty={link}", os.ttyname(slave)]
+    asked = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=30)
+    os.close(master)
+    os.close(slave)
+    return asked
+
+
+def test_the_link_of_a_running_program_is_refused_and_that_of_a_dead_one_is_replaced(make, files, tmp_path):
+    link = tmp_path / "console"
+    robot = make(motions=files, arguments=[f"--pty={link}"]).run()
+    robot.expect("] ")
+    port = os.readlink(link)
+    asked = linked_elsewhere(tmp_path, link)
+    assert asked.returncode == 6 and f"{link}: in use by another program" in asked.stderr
+    assert os.readlink(link) == port and " OK" in robot.ask("status")
+    robot.process.kill()
+    robot.process.wait()
+    os.close(robot.end)
+    others = [pty.openpty()]  # a terminal of this computer gets the number of the dead program's port
+    while os.ttyname(others[-1][1]) != port and len(others) < 50:
+        others.append(pty.openpty())
+    robot.run().expect("] ")
+    assert os.readlink(link) == re.search(r"serial port: (\S+)", robot.said.decode())[1]
+    assert robot.stop() == 0 and not os.path.lexists(link)
+    for one in sum(others, ()):
+        os.close(one)
+
+
+def test_a_link_that_is_no_longer_its_own_is_left_alone(make, files, tmp_path):
+    link = tmp_path / "console"
+    robot = make(motions=files, arguments=[f"--pty={link}"]).run()
+    robot.expect("] ")
+    link.unlink()
+    link.symlink_to("elsewhere")
+    assert robot.stop() == 0 and os.readlink(link) == "elsewhere"
+    assert linked_elsewhere(tmp_path, link).returncode == 6 and os.readlink(link) == "elsewhere"
+
+
 def without_privilege(*command):
     """The command without the privilege that lets root open a port in exclusive use."""
     return (["setpriv", "--bounding-set=-sys_admin"] if os.geteuid() == 0 else []) + [str(word) for word in command]

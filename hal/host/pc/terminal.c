@@ -12,7 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -41,6 +40,7 @@ static struct {
 } console = {.in = -1, .out = -1, .listener = -1, .pty_other = -1};
 
 static const char *pty_link;   /* to remove at the end */
+static char pty_path[64];      /* what it leads to */
 
 /* ---- opening ---- */
 
@@ -59,32 +59,72 @@ static void open_terminal(void)
     }
 }
 
+/* Reads what the link leads to. false: no link is there. */
+static bool read_link(char path[sizeof pty_path])
+{
+    const ssize_t count = readlink(pc_options.pty_link, path, sizeof pty_path - 1);
+    path[count > 0 ? count : 0] = '\0';
+    return count > 0;
+}
+
+/* Whether a program like this one serves this pty. It holds a lock, which dies with it. The number of a dead program's pty
+ * may be that of somebody's terminal now. */
+static bool is_served(const char *path)
+{
+    struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    const int pty = open(path, O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+    const bool is_locked = pty >= 0 && fcntl(pty, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
+    if (pty >= 0) {
+        close(pty);
+    }
+    return is_locked;
+}
+
+/* Removes the link if it is left over from an earlier run. Anything but a link to a pty is not ours. */
+static void remove_old_link(void)
+{
+    char path[sizeof pty_path];
+    if (!read_link(path) || strncmp(path, "/dev/pts/", 9) != 0) {
+        return;
+    }
+    if (is_served(path)) {
+        pc_fail(EXIT_PORT, "%s: in use by another program: end that first, or name another link", pc_options.pty_link);
+    }
+    (void)unlink(pc_options.pty_link);
+}
+
+static void make_link(void)
+{
+    if (symlink(pty_path, pc_options.pty_link) != 0) {
+        pc_fail(EXIT_PORT, "%s: %s", pc_options.pty_link, strerror(errno));
+    }
+    pty_link = pc_options.pty_link;
+}
+
 static void open_pty(void)
 {
-    char path[64];
+    struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     struct termios raw;
+    const bool has_link = pc_options.pty_link[0] != '\0';
+    if (has_link) {
+        remove_old_link();   /* before this program has a pty: it may get the number of the old one */
+    }
     const int master = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
-    if (master < 0 || grantpt(master) != 0 || unlockpt(master) != 0 || ptsname_r(master, path, sizeof path) != 0) {
+    if (master < 0 || grantpt(master) != 0 || unlockpt(master) != 0 || ptsname_r(master, pty_path, sizeof pty_path) != 0) {
         pc_fail(EXIT_PORT, "no pty: %s", strerror(errno));
     }
-    console.pty_other = open(path, O_RDWR | O_NOCTTY | O_CLOEXEC);
+    console.pty_other = open(pty_path, O_RDWR | O_NOCTTY | O_CLOEXEC);
     if (console.pty_other < 0 || tcgetattr(console.pty_other, &raw) != 0) {
-        pc_fail(EXIT_PORT, "%s: %s", path, strerror(errno));
+        pc_fail(EXIT_PORT, "%s: %s", pty_path, strerror(errno));
     }
+    (void)fcntl(console.pty_other, F_SETLK, &lock);   /* for is_served; clients that lock their port use flock */
     cfmakeraw(&raw);
     tcsetattr(console.pty_other, TCSANOW, &raw);
     console.in = console.out = master;
-    if (pc_options.pty_link[0] != '\0') {
-        struct stat there;
-        if (lstat(pc_options.pty_link, &there) == 0 && S_ISLNK(there.st_mode)) {
-            (void)unlink(pc_options.pty_link);   /* a link is left over from an earlier run; a file is not ours */
-        }
-        if (symlink(path, pc_options.pty_link) != 0) {
-            pc_fail(EXIT_PORT, "%s: %s", pc_options.pty_link, strerror(errno));
-        }
-        pty_link = pc_options.pty_link;
+    if (has_link) {
+        make_link();
     }
-    fprintf(stderr, "%s: serial port: %s\n", pc_options.name, path);
+    fprintf(stderr, "%s: serial port: %s\n", pc_options.name, pty_path);
 }
 
 static void open_socket(void)
@@ -117,10 +157,11 @@ void terminal_restore(void)
     if (console.is_terminal) {
         tcsetattr(STDIN_FILENO, TCSANOW, &console.before);
     }
-    if (pty_link != NULL) {
+    char path[sizeof pty_path];
+    if (pty_link != NULL && read_link(path) && strcmp(path, pty_path) == 0) {
         (void)unlink(pty_link);
-        pty_link = NULL;
     }
+    pty_link = NULL;
 }
 
 void terminal_drain(void)
