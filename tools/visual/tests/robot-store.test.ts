@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The memory of the robot in the page: what the disk has not taken is not reported as stored.
+// The memory of the robot in the page: what the disk has not taken is not reported as stored. And a storage that does not answer at all.
 import { afterEach, expect, test, vi } from 'vitest';
-import { forgetRobot, saveRobot } from '../view/robot-store.ts';
+import { BrowserStorage } from '../view/document-storage.ts';
+import { LastPuts } from '../view/last-puts.ts';
+import { forgetRobot, loadRobot, saveRobot } from '../view/robot-store.ts';
 
 const ROBOT = { flash: new Uint8Array(1), eeprom: new Uint8Array(1), servos: new Uint8Array(1) };
 
-afterEach(() => void vi.unstubAllGlobals());
+afterEach(() => {
+    vi.unstubAllGlobals();
+    vi.useRealTimers();
+});
 
 /** A database that takes every request. A full disk aborts its transactions afterwards, as browsers do. */
 function disk({ isFull }: { isFull: boolean }): void {
@@ -37,4 +42,19 @@ test('a disk with room', async () => {
     disk({ isFull: false });
     await saveRobot('cm5', ROBOT);
     await forgetRobot('cm5');
+});
+
+test('a storage that does not answer counts as none after a few seconds, and one that answers later is let go', async () => {
+    vi.useFakeTimers();
+    const close = vi.fn();
+    const asked: { result: object; onsuccess?: () => void }[] = [];
+    vi.stubGlobal('indexedDB', { open: () => (asked[asked.length] = { result: { close } }) });
+    for (const open of [() => loadRobot('cm5'), () => BrowserStorage.open(), () => LastPuts.open()]) {
+        let is = 'waiting';
+        open().catch((error: Error) => (is = error.message));
+        await vi.advanceTimersByTimeAsync(6000);
+        expect(is).toBe('the storage does not answer');
+        asked.at(-1)?.onsuccess?.();
+    }
+    expect(close).toHaveBeenCalledTimes(3);
 });

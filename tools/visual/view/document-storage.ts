@@ -5,6 +5,7 @@
 import type { StepsChange } from '../model/history-log.ts';
 import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
 import { LastPuts } from './last-puts.ts';
+import { openedDatabase } from './opened-database.ts';
 import { TEXTS } from './texts/texts.ts';
 
 /** A stored document. */
@@ -74,17 +75,6 @@ function done<T>(asked: IDBRequest<T>): Promise<T> {
     });
 }
 
-/** Opens the database. Rejects while a tab with an older page still holds it. */
-function opened(asked: IDBOpenDBRequest): Promise<IDBDatabase> {
-    return new Promise((resolve, reject) => {
-        asked.onblocked = () => reject(new Error('another tab has an older page open'));
-        done(asked).then(database => {
-            database.onversionchange = () => database.close(); // a newer page needs it; this one can store nothing more and says so
-            resolve(database);
-        }, reject);
-    });
-}
-
 /** Steps of a document with from <= number < below. */
 function stepsIn(id: string, from: number, below: number): IDBKeyRange {
     return IDBKeyRange.bound([id, from], [id, below], false, true);
@@ -123,7 +113,8 @@ export class BrowserStorage implements DocumentStorage {
             for (const [store, keyPath] of Object.entries(KEYS))
                 if (!there.contains(store)) asked.result.createObjectStore(store, { keyPath });
         };
-        const database = await opened(asked);
+        const database = await openedDatabase(asked);
+        database.onversionchange = () => database.close(); // a newer page needs it; this one can store nothing more and says so
         return new BrowserStorage(database, await LastPuts.open());
     }
 

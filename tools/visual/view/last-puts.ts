@@ -2,6 +2,8 @@
 // What was not stored yet when a page was left. The browser drops a transaction with the page if it still waits for another one, so this has
 // a database of its own, in which none waits.
 
+import { openedDatabase } from './opened-database.ts';
+
 const DATABASE = 'motion512-last';
 const STORE = 'pages';
 
@@ -22,13 +24,10 @@ export class LastPuts<Put> {
     }
 
     /** Rejects when the browser stores nothing. */
-    static open<Put>(): Promise<LastPuts<Put>> {
-        return new Promise((resolve, reject) => {
-            const asked = indexedDB.open(DATABASE, 1);
-            asked.onupgradeneeded = () => asked.result.createObjectStore(STORE, { keyPath: 'page' });
-            asked.onsuccess = () => resolve(new LastPuts(asked.result));
-            asked.onerror = () => reject(asked.error);
-        });
+    static async open<Put>(): Promise<LastPuts<Put>> {
+        const asked = indexedDB.open(DATABASE, 1);
+        asked.onupgradeneeded = () => asked.result.createObjectStore(STORE, { keyPath: 'page' });
+        return new LastPuts(await openedDatabase(asked));
     }
 
     /** Keeps what this page has not stored yet, instead of what it has kept before. */

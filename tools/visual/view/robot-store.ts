@@ -3,6 +3,7 @@
 // pages, journal, EEPROM.
 
 import { MEM_BOOT_END, MEM_EEPROM_BYTES } from '../model/facts.ts';
+import { openedDatabase } from './opened-database.ts';
 
 export interface KeptRobot {
     readonly flash: Uint8Array;
@@ -13,17 +14,10 @@ export interface KeptRobot {
 const DATABASE = 'motion512';
 const STORE = 'robot';
 
-function request<T>(asked: IDBRequest<T>): Promise<T> {
-    return new Promise((resolve, reject) => {
-        asked.onsuccess = () => resolve(asked.result);
-        asked.onerror = () => reject(asked.error);
-    });
-}
-
-async function open(): Promise<IDBDatabase> {
+function open(): Promise<IDBDatabase> {
     const asked = indexedDB.open(DATABASE, 1);
     asked.onupgradeneeded = () => asked.result.createObjectStore(STORE);
-    return request(asked);
+    return openedDatabase(asked);
 }
 
 /** Resolves when the transaction is complete: a disk that is full takes the request and refuses afterwards. */

@@ -137,12 +137,13 @@ test('edits that still wait for the disk when the page is left are there the nex
 });
 
 test('whoever leaves is asked exactly when the browser keeps nothing', async () => {
-    for (const isKept of [true, false]) {
+    for (const storage of ['works', 'denied', 'hangs'] as const) {
+        const isKept = storage === 'works';
         const person = await Visitor.come(suite.browser, suite.address, {
             hasPicture: false,
             hasPhysics: false,
             before: async page => {
-                if (!isKept)
+                if (storage === 'denied')
                     await page.addInitScript(() =>
                         Object.defineProperty(window, 'indexedDB', {
                             get: () => {
@@ -150,6 +151,7 @@ test('whoever leaves is asked exactly when the browser keeps nothing', async () 
                             },
                         }),
                     );
+                if (storage === 'hangs') await page.addInitScript(() => (IDBFactory.prototype.open = () => ({}) as IDBOpenDBRequest));
             },
         });
         await person.page.locator('app-shell').waitFor();
