@@ -7,6 +7,8 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import suppress
+from pathlib import Path
 
 import pytest
 
@@ -120,14 +122,16 @@ def test_the_program_ends_softly_with_an_m512_that_was_killed(m512, motions):
     m512("pose", "-p", "BUS")
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells which program holds the adapter")
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux lists the children of a process")
 def test_a_play_that_the_program_comes_late_for_is_told_as_broken_off(m512, motions):
-    process = playing(m512, motions)
+    m512("put", motions, "all", "-p", "BUS")
+    process = m512.start("play", "nod", "--wait", "-p", "BUS")
     until(lambda: any(goal.get(1, 512) != 512 for goal in m512.robot.frames()), "nothing moves")
-    program = int(re.search(r"\(motion512-play, process (\d+)\)", m512("stop", "-p", "BUS", code=6))[1])
-    os.kill(program, signal.SIGSTOP)
-    time.sleep(0.6)
-    os.kill(program, signal.SIGCONT)
+    with suppress(OSError):  # on a busy computer it has been late already, and has ended
+        for program in Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split():
+            os.kill(int(program), signal.SIGSTOP)
+            time.sleep(0.6)
+            os.kill(int(program), signal.SIGCONT)
     said = "".join(process.communicate())
     assert process.returncode == 8 and "the robot has broken off the motion: The computer came 0.1 s late" in said, said
 
