@@ -47,7 +47,7 @@ export class Line {
     write(bytes: Uint8Array, limitMs = Infinity): Promise<void> {
         const endMs = this.clock.now() + limitMs;
         const done = this.writing.then(async () => {
-            await this.untilXon(HOLD_LIMIT_MS);
+            if (this.xoff) await this.untilXon(HOLD_LIMIT_MS);
             if (!this.writer || this.isClosed) throw new RobotError('not-connected');
             if (this.clock.now() > endMs) throw new RobotError('no-answer');
             await this.writer.write(bytes);
