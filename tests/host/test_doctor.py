@@ -51,6 +51,14 @@ def test_rates_are_mended_when_asked_and_nothing_else_is_written(make):
     assert "5 at 1000000 baud: IDs 1..3 5..6" in of(doctor(robot), "servos")[0]["text"]
 
 
+def test_a_servo_is_not_moved_to_a_rate_at_which_another_has_its_id(make):
+    robot = make(servos="1-3,3@57142,6@57142,6@115200")
+    found = doctor(robot, "--mend", code=3)
+    assert set(written(robot)) == {(6, BAUD, 1)}  # the first of the two, once
+    assert "stays at 57142 baud: another servo has ID 3 at 1000000" in " ".join(one["text"] for one in of(found, "servo 3"))
+    assert "another servo has ID 6 at 1000000" in " ".join(one["text"] for one in of(found, "servo 6"))
+
+
 def test_silence_says_what_to_look_at(make):
     found = doctor(make(servos="none"), code=3)
     assert "power" in of(found, "servos")[-1]["advice"] and of(found, "servos")[-1]["state"] == "bad"

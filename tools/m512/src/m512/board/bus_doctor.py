@@ -173,6 +173,12 @@ def _mend_rate(line: servos.Bus, add: Add, id_: int, rate: int, wanted: int) -> 
     if divisor is None:
         add(f"servo {id_}", WARN, f"no servo has the rate {wanted}", "name one of " + " ".join(map(str, RATES)))
         return
+    line.set_rate(wanted)
+    is_taken = line.ask(id_, servos.PING) is not None or bool(line.noise)
+    line.set_rate(rate)
+    if is_taken:  # both would move together, and no command could tell them apart
+        add(f"servo {id_}", BAD, f"stays at {rate} baud: another servo has ID {id_} at {wanted}", "unplug one of them, and give the other another ID")
+        return
     line.write(id_, AT_BAUD, divisor)  # the answer comes at the old rate or at the new one
     line.set_rate(wanted)
     done = line.ask(id_, servos.PING) is not None
