@@ -8,6 +8,8 @@ import sys
 import time
 import xml.etree.ElementTree
 
+import pytest
+
 from tests.sim.sim_command import ROBOT, TOP, Running, play, run
 
 # --- stored and written files ---
@@ -43,6 +45,19 @@ def test_file_of_another_kind_is_refused(tmp_path):
     done = run(ROBOT, "--flash", wrong)
     assert done.returncode == 4 and b"131072 bytes" in done.stderr
     assert wrong.read_bytes() == b"my thesis"
+
+
+@pytest.mark.parametrize("option", ["--flash", "--eeprom", "--servo-eeprom"])
+def test_path_that_cannot_be_written_is_told_before_the_robot_runs(tmp_path, option):
+    done = run(ROBOT, option, tmp_path / "nowhere" / "robot.bin")
+    assert done.returncode == 4 and b"nowhere/robot.bin.new: No such file" in done.stderr
+    assert done.stdout == b""
+    assert run("--bus-pty", "--time", "100ms", "--servo-eeprom", tmp_path / "nowhere" / "s.bin").stderr.startswith(b"cm5sim: /")
+
+
+def test_start_that_fails_leaves_no_file(tmp_path):
+    assert run("missing.hex", "--flash", tmp_path / "robot.bin").returncode == 4
+    assert list(tmp_path.iterdir()) == []
 
 
 MOVE = 'expect "ready"\nat 100ms send "m"\nat 1s quit\n'

@@ -64,6 +64,7 @@ def main() -> None:
 
 def run(options: Options, stop: Stop) -> int:
     """Returns the exit code. OSError: a file or port cannot be used."""
+    from .files import kept_files
     from .script import Script
 
     try:
@@ -71,12 +72,13 @@ def run(options: Options, stop: Stop) -> int:
     except ValueError as mistakes:
         print(mistakes, file=sys.stderr)
         return opt.EXIT_USAGE
-    if options.bus_pty is not None:
+    with kept_files(options):
+        if options.bus_pty is None:
+            return run_board(options, stop, script)
         from . import bus
 
         bus.main(options, lambda: stop.asked)
         return opt.EXIT_GOOD
-    return run_board(options, stop, script)
 
 
 def run_board(options: Options, stop: Stop, script: Script | None) -> int:

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import errno
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
 
 from .board import MOTIONS_ADDRESS, Board, find_image
 from .options import Options
@@ -44,12 +45,36 @@ def read_kept(path: str, size: int) -> bytes | None:
     return data
 
 
+def beside(path: str) -> str:
+    """The new file, which is written first, then replaces the old one, so that a full disk does not destroy a robot's pages."""
+    return f"{path}.new"
+
+
+@contextmanager
+def begun(path: str) -> Iterator[None]:
+    """Opens the new file already, so that a path that cannot be written is noticed before there is anything to lose."""
+    with open(beside(path), "ab") as new:
+        try:
+            yield
+        finally:
+            if os.fstat(new.fileno()).st_size == 0:  # the run failed before it could write
+                with suppress(FileNotFoundError):
+                    os.unlink(beside(path))
+
+
+@contextmanager
+def kept_files(options: Options) -> Iterator[None]:
+    """Has the files to keep while the run lasts. OSError: one cannot be written."""
+    with ExitStack() as stack:
+        for path in filter(None, (options.flash, options.eeprom, options.servo_eeprom)):
+            stack.enter_context(begun(path))
+        yield
+
+
 def write_kept(path: str, data: bytes) -> None:
-    """Writes a new file first, then replaces the old one, so that a full disk does not destroy a robot's pages."""
-    beside = f"{path}.new"
-    with open(beside, "wb") as file:
+    with open(beside(path), "wb") as file:
         file.write(data)
-    os.replace(beside, path)
+    os.replace(beside(path), path)
 
 
 def load_memories(board: Board, options: Options, say: Callable[[str], None]) -> None:
