@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Pictures: links are where MuJoCo puts them, the robot stands on the floor, and the command makes a file without a display."""
 
+import importlib.machinery
+import importlib.util
 import pathlib
 import subprocess
 import sys
@@ -84,3 +86,14 @@ def test_command_makes_a_file_without_a_display(tmp_path, ending, begins):
 def test_command_says_what_is_wrong(tmp_path, words, says):
     run = subprocess.run([sys.executable, str(PICTURE), *words, "-o", str(tmp_path / "a.png")], capture_output=True, text=True, check=False)
     assert run.returncode == 1 and says in run.stderr
+
+
+def test_readmes_makes_all_pictures_of_the_motions_readme(tmp_path):
+    loader = importlib.machinery.SourceFileLoader("picture", str(PICTURE))
+    picture = importlib.util.module_from_spec(importlib.util.spec_from_loader("picture", loader))
+    loader.exec_module(picture)
+    tree, picture.TOP = picture.TOP, tmp_path
+    (tmp_path / "tools" / "motions").mkdir(parents=True)
+    assert picture.readmes() == 0
+    made = sorted(path.relative_to(tmp_path) for path in tmp_path.rglob("*.png"))
+    assert made == sorted(path.relative_to(tree) for path in (tree / "tools" / "motions").glob("*.png"))
