@@ -2,6 +2,7 @@
 """Files of the command cm5sim: flash, EEPROM, traces, plots; and its port for avr-gdb."""
 
 import csv
+import signal
 import socket
 import subprocess
 import sys
@@ -53,6 +54,26 @@ def test_path_that_cannot_be_written_is_told_before_the_robot_runs(tmp_path, opt
     assert done.returncode == 4 and b"nowhere/robot.bin.new: No such file" in done.stderr
     assert done.stdout == b""
     assert run("--bus-pty", "--time", "100ms", "--servo-eeprom", tmp_path / "nowhere" / "s.bin").stderr.startswith(b"cm5sim: /")
+
+
+def test_a_kept_file_belongs_to_one_run_at_a_time(tmp_path):
+    kept, other = tmp_path / "robot.bin", tmp_path / "other.eep"
+    for end in (signal.SIGTERM, signal.SIGKILL):
+        with Running(ROBOT, "--flash", kept, "--tcp", "--no-stdio") as first:
+            first.message("serial port: (tcp)")
+            second = run(ROBOT, "--eeprom", other, "--flash", kept)
+            assert second.returncode == 4 and second.stdout == b""
+            assert b"robot.bin: in use by another cm5sim" in second.stderr and not other.exists()
+            first.stop(end)
+        assert kept.stat().st_size == 0x20000
+        assert run(ROBOT, "--flash", kept).returncode == 0
+    assert list(tmp_path.iterdir()) == [kept]
+
+
+def test_one_file_for_two_memories_is_refused(tmp_path):
+    done = run(ROBOT, "--flash", tmp_path / "robot.bin", "--eeprom", f"{tmp_path}/./robot.bin")
+    assert done.returncode == 2 and b"a file each" in done.stderr
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_start_that_fails_leaves_no_file(tmp_path):

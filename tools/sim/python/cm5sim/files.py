@@ -6,7 +6,9 @@ from __future__ import annotations
 import errno
 import os
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import ExitStack, contextmanager
+from fcntl import LOCK_EX, LOCK_NB, flock
+from typing import IO
 
 from .board import MOTIONS_ADDRESS, Board, find_image
 from .options import Options
@@ -50,23 +52,37 @@ def beside(path: str) -> str:
     return f"{path}.new"
 
 
+def is_at(path: str, file: IO[bytes]) -> bool:
+    """Whether this open file still has this name: another run may have renamed or removed it."""
+    try:
+        return os.path.samestat(os.stat(path), os.fstat(file.fileno()))
+    except FileNotFoundError:
+        return False
+
+
 @contextmanager
 def begun(path: str) -> Iterator[None]:
-    """Opens the new file already, so that a path that cannot be written is noticed before there is anything to lose."""
+    """Opens the new file already, so that a path that cannot be written is noticed before there is anything to lose, and locks it. The lock
+    ends with the process."""
     with open(beside(path), "ab") as new:
+        try:
+            flock(new, LOCK_EX | LOCK_NB)
+        except BlockingIOError:
+            raise OSError(f"{path}: in use by another cm5sim: end that first, or name another file") from None
+        if not is_at(beside(path), new):
+            raise OSError(f"{path}: another cm5sim has just ended: try again")
         try:
             yield
         finally:
-            if os.fstat(new.fileno()).st_size == 0:  # the run failed before it could write
-                with suppress(FileNotFoundError):
-                    os.unlink(beside(path))
+            if is_at(beside(path), new) and os.fstat(new.fileno()).st_size == 0:  # the run failed before it could write
+                os.unlink(beside(path))
 
 
 @contextmanager
 def kept_files(options: Options) -> Iterator[None]:
-    """Has the files to keep while the run lasts. OSError: one cannot be written."""
+    """Has the files to keep while the run lasts. OSError: one cannot be written, or another run has it."""
     with ExitStack() as stack:
-        for path in filter(None, (options.flash, options.eeprom, options.servo_eeprom)):
+        for path in options.kept():
             stack.enter_context(begun(path))
         yield
 

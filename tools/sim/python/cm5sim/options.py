@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from collections.abc import Callable
 from typing import Any, NamedTuple, NoReturn
 
@@ -65,6 +66,10 @@ class Options(argparse.Namespace):
     trace: str | None
     plot: str | None
     summary: bool
+
+    def kept(self) -> list[str]:
+        """The files that are kept from run to run."""
+        return [path for path in (self.flash, self.eeprom, self.servo_eeprom) if path]
 
 
 def checked(parse: Callable[[str], Any], what: str) -> Callable[[str], Any]:
@@ -196,6 +201,8 @@ def parse(arguments: list[str]) -> Options:
         parser.error("no image given (for example play-cm5.hex); --help shows examples")
     if (options.body and options.bus_pty is not None) or (options.view and not options.body):
         parser.error("--view shows the --body, and --body needs a board (no --bus-pty)")
+    if len({os.path.realpath(path) for path in options.kept()}) < len(options.kept()):
+        parser.error("--flash, --eeprom and --servo-eeprom need a file each")
     if options.no_stdio and not on_console and not options.script and options.bus_pty is None and options.time == NEVER:
         parser.error("--no-stdio without --pty, --tcp, --script or --time would run for ever, unseen")
     return options
