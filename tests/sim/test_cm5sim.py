@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: MIT
 """The command cm5sim with a small robot (robot/robot.c): interfaces, exit codes, wrong usage."""
 
+import fcntl
 import io
 import os
 import pathlib
 import re
 import signal
 import socket
+import subprocess
+import termios
 import time
 
 import pexpect
@@ -51,6 +54,53 @@ def test_pty_session(tmp_path):
             assert port.read_until(b"servo 3: 00\r\n").endswith(b"servo 3: 00\r\n")
         assert robot.stop() == 0
     assert not link.exists() and not link.is_symlink()
+
+
+KINDS = pytest.mark.parametrize("option, kind", [("--pty", [ROBOT, "--no-stdio"]), ("--bus-pty", [])])
+
+
+@KINDS
+def test_link_of_a_running_program_is_refused_and_that_of_a_dead_one_is_replaced(tmp_path, option, kind):
+    link = tmp_path / "robot"
+    with Running(*kind, f"{option}={link}") as robot:
+        port = robot.message(r"(/dev/pts/\d+)")
+        second = run(*kind, f"{option}={link}", "--time", "100ms")
+        assert second.returncode == 4 and f"{link}: in use by another program" in second.stderr.decode()
+        assert os.readlink(link) == port
+        robot.stop(signal.SIGKILL)
+    others = [os.openpty()]  # a terminal of this computer gets the number of the dead program's port
+    while os.ttyname(others[-1][1]) != port and len(others) < 50:
+        others.append(os.openpty())
+    with Running(*kind, f"{option}={link}") as robot:
+        assert robot.message(r"(/dev/pts/\d+)") == os.readlink(link)
+        assert robot.stop() == 0 and not os.path.lexists(link)
+    for end in sum(others, ()):
+        os.close(end)
+
+
+@KINDS
+def test_link_that_is_not_its_own_is_left_alone(tmp_path, option, kind):
+    link = tmp_path / "robot"
+    with Running(*kind, f"{option}={link}") as robot:
+        robot.message(r"(/dev/pts/\d+)")
+        link.unlink()
+        link.symlink_to("elsewhere")
+        assert robot.stop() == 0 and os.readlink(link) == "elsewhere"
+    done = run(*kind, f"{option}={link}", "--time", "100ms")
+    assert done.returncode == 4 and f"{link}: File exists" in done.stderr.decode()
+    assert os.readlink(link) == "elsewhere"
+
+
+def test_port_that_its_client_has_for_itself_is_in_use(tmp_path):
+    """The system lets nobody but a superuser open such a port."""
+    link = tmp_path / "bus"
+    drop = ["setpriv", "--bounding-set=-sys_admin"] if os.geteuid() == 0 else []
+    with Running(f"--bus-pty={link}") as bus:
+        bus.message(r"(/dev/pts/\d+)")
+        with open(link, "rb", buffering=0) as client:
+            fcntl.ioctl(client, termios.TIOCEXCL)
+            second = subprocess.run([*drop, CM5SIM, f"--bus-pty={link}", "--time", "100ms"], capture_output=True, timeout=60, check=False)
+        assert second.returncode == 4 and b"in use by another program" in second.stderr
 
 
 def test_pty_at_a_wrong_rate_is_garbage_as_on_a_cable():
