@@ -9,7 +9,7 @@
 #define TOSS_BUFFER_BYTES 64u   /* a power of two */
 
 /* toss.c: connects the PC to the servos. Forwards packets from the console to the bus, and all bytes from the bus to the
- * console, unchanged. Blocks until three ESC arrive outside a packet; kicks the watchdog. */
+ * console, unchanged. Blocks until three ESC arrive after a silence; kicks the watchdog. */
 void toss_run(uint8_t buffer[TOSS_BUFFER_BYTES]);
 
 /* monitor.c: prints the prompt, runs a line. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * toss.c - the bridge between PC and servos. Forwards packets from the console to the bus, and all bytes from the bus to the
  * console, unchanged. Silence or a lost byte drops an incomplete packet, so that it swallows no bytes of the next.
- * Three ESC outside a packet end the bridge. */
+ * Three ESC end the bridge, the first after a silence: the rest of a damaged packet may have three in a row. */
 #include "monitor.h"
 
 #include <string.h>
@@ -16,7 +16,8 @@ enum { SILENCE_TICKS = 3 };   /* 16 to 23 ms: longer than a USB adapter delays b
 
 typedef struct {
     uint8_t count;     /* bytes of the PC's packet so far */
-    uint8_t escapes;   /* consecutive ESCs outside a packet */
+    uint8_t escapes;   /* consecutive ESCs, the first after a silence */
+    bool was_silent;   /* silence before the next byte */
     uint16_t since;    /* the tick of the last byte */
     uint8_t packet[BUS_PACKET_BYTES];
 } toss_t;
@@ -26,7 +27,7 @@ static bool collect(toss_t *toss, uint8_t byte)
 {
     if (toss->count < 2 && byte != 0xFF) {
         toss->count = 0;
-        toss->escapes = byte == ESC ? toss->escapes + 1u : 0;
+        toss->escapes = byte == ESC && (toss->was_silent || toss->escapes > 0) ? toss->escapes + 1u : 0;
         return false;
     }
     if (toss->count == 2 && byte == 0xFF) {
@@ -48,6 +49,7 @@ static bool listen(toss_t *toss)
     uint8_t byte;
     if ((uint16_t)(tick_now16() - toss->since) >= SILENCE_TICKS) {
         toss->count = 0;
+        toss->was_silent = true;
     }
     if (!console_get(&byte)) {
         return false;
@@ -55,8 +57,11 @@ static bool listen(toss_t *toss)
     toss->since = tick_now16();
     if (console_lost() != 0) {
         toss->count = 0;
+        toss->was_silent = false;
     }
-    return collect(toss, byte);
+    const bool is_whole = collect(toss, byte);
+    toss->was_silent = false;
+    return is_whole;
 }
 
 static void pass_on(ring_t *heard)
@@ -80,7 +85,7 @@ static void send(toss_t *toss, ring_t *heard)
 
 void toss_run(uint8_t buffer[TOSS_BUFFER_BYTES])
 {
-    toss_t toss = { 0, 0, tick_now16(), { 0 } };
+    toss_t toss = { 0, 0, true, tick_now16(), { 0 } };
     ring_t heard;
     ring_init(&heard, buffer, TOSS_BUFFER_BYTES);
     bus_set_tap(&heard);

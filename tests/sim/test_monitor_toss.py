@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """TOSS, the bridge of Monitor: bytes from the PC become packets on the servo bus, answers of servos become bytes on the console, and three
-ESC outside a packet end it. The test builds packets from the Dynamixel protocol, without our code."""
+ESC after a silence end it. The test builds packets from the Dynamixel protocol, without our code."""
 
 import pytest
 
@@ -35,6 +35,7 @@ def r(shared):
     assert b"Three ESC end it" in shared.take()
     shared.clear_trace()
     yield shared
+    shared.run(ms=25)  # silence
     shared.send(b"\x1b\x1b\x1b")
     shared.run(ms=60)
     assert shared.take().endswith(b" [CID:001(0X01)] ")
@@ -90,6 +91,30 @@ def test_escapes_inside_a_packet_are_data(r):
     assert ask(r, packet(6, WRITE, 30, 0x1B, 0, 0x1B, 0)) == status(6)
     assert ask(r, packet(0x1B, PING) + packet(6, WRITE, 26, 0x1B, 0x1B, 0x1B)) == status(6)
     assert ask(r, packet(6, READ, 30, 1)) == status(6, 0x1B)
+
+
+@pytest.mark.parametrize("damage", ["lost", "length"])
+def test_escapes_of_a_damaged_packet_do_not_end_it(r, damage):
+    """The rest of a packet with a missing or false byte counts as outside a packet."""
+    whole = packet(ALL, SYNC_WRITE, 26, 4, *(byte for ident in (1, 2, 3) for byte in (ident, 0x1B, 0x1B, 0x1B, 0x1B)))
+    ask(r, whole[1:] if damage == "lost" else whole[:3] + b"\x09" + whole[4:], ms=60)
+    assert ask(r, packet(2, PING)) == status(2)
+
+
+def test_escapes_end_it_typed_or_sent_at_once(r):
+    """The bridge begins as if after a silence: a program may send all at once."""
+    for sent, pause in ((b"\x1b\x1b\x1b", 0), (b"\x1b", 100)):
+        for _ in range(3 // len(sent)):
+            r.send(sent)
+            r.run(ms=pause + 5)
+        r.run(ms=60)
+        assert r.take().endswith(b" [CID:001(0X01)] ")
+        r.send(b"toss\r\x1b\x1b\x1b")
+        r.run(ms=100)
+        assert r.take().endswith(b" [CID:001(0X01)] ")
+        r.send(b"toss\r")
+        r.run(ms=60)
+        r.take()
 
 
 def test_broadcasts_have_no_answer(r):
