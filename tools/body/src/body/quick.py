@@ -64,8 +64,8 @@ class Quick:
     """A robot that plays pages of an image in a body. models: {servo: "ax12" | "ax18" | "dx117"}; the others are AX-12."""
 
     def __init__(self, image, physics, models=None):
+        self._pointer = None  # first, because __del__ also runs when there is no library
         self._lib = library()
-        self._pointer = None
         if len(image) != IMAGE_BYTES:
             raise ValueError(f"a motion image has {IMAGE_BYTES} bytes, not {len(image)}")
         self._pointer = self._lib.quick_new(bytes(image))
@@ -73,8 +73,15 @@ class Quick:
             raise MemoryError("no memory for a robot")
         self.physics, self._bus = physics, self._lib.quick_bus(self._pointer)
         self.servos = physics.robot.servos
+        models = models or {}
+        for servo in models:
+            if servo not in self.servos:
+                raise ValueError(f"this body has no servo {servo}")
         for servo in self.servos:
-            model = self._lib.servo_api_model((models or {}).get(servo, "ax12").encode())
+            name = models.get(servo, "ax12")
+            model = self._lib.servo_api_model(name.encode())
+            if model < 0:
+                raise ValueError(f"no servo model is called {name!r}: ax12, ax18, dx117")
             self._lib.servo_bus_add(self._bus, servo, model, 1_000_000)
         self._lib.servo_bus_supply(self._bus, 0, physics.variation.volts)
         self._body = self._lib.servo_mujoco_body(ctypes.addressof(physics.seam))
