@@ -8,6 +8,7 @@ import json
 import os
 import random
 import re
+from types import SimpleNamespace
 
 import pytest
 from block_peer import BlockPeer, BlockPtyPeer
@@ -17,13 +18,14 @@ from hex_files import hex_file
 from virtual_peer import VirtualLink
 
 from m512 import ui
-from m512.board import backup, factory_flash, memory
+from m512.board import backup, factory_flash, kept, memory
 from m512.board.block import frame
+from m512.board.client import Client
 from m512.board.factory import FactoryLoader
 from m512.board.factory_flash import LAST_START
 from m512.board.memory import APP, BOOT, RECORD_AT, Record
 from m512.crc16 import crc16
-from m512.errors import RefusedError
+from m512.errors import BoardError, RefusedError
 from m512.files.image import Image
 from m512.files.page import EMPTY
 from m512.files.text import read_text
@@ -232,6 +234,133 @@ def test_cable_pulled_during_flash(m512, peer, motions, when):
     assert peer.flash[0xE200:0x1E000] == motion_area()[512:]
     assert not changed_outside(peer, peer.before, 0xE200, 0x1E000)
     assert not getattr(peer, "hurt", [])
+
+
+# A change of pages on a board that breaks off. A repetition is another command: `renumber --swap` would exchange them again.
+
+TWO_MOTIONS = (
+    "motion512 1\npage 8 mymotion\n"
+    + "".join(f"  step 50 | 1..18:{400 + k}\n" for k in range(7))
+    + "page 9 other\n  next 8\n"
+    + "".join(f"  step 50 | 1..18:{600 + k}\n" for k in range(7))
+)
+
+
+def board_with_two_motions(started, kind):
+    """(its end of the cable, its flash)"""
+    if kind == "edit":
+        edit = started("boot-cm5.hex", "edit-cm5.hex", text=TWO_MOTIONS, applied=True)
+        return edit, edit.board.flash
+    flash = old_flash()[:0xE000] + read_text(TWO_MOTIONS).to_bytes() + old_flash()[0x1E000:]
+    peer = (BlockPeer if kind == "ours" else FactoryPeer)(flash)
+    return peer, peer.flash
+
+
+def break_off(board, how, at):
+    """At this byte of the line."""
+    if how == "cut":
+        board.cut_after = at
+        return
+    pressed = []
+
+    def press(_, index, byte):
+        if index >= at and not pressed:
+            pressed.append(index)
+            raise KeyboardInterrupt
+        return byte
+
+    board.garble = press
+
+
+@pytest.mark.parametrize("how", ["cut", "Ctrl-C"])
+@pytest.mark.parametrize("words", [["8", "120"], ["8", "9", "--swap"]], ids=" ".join)
+@pytest.mark.parametrize("kind, last", [("edit", 6000), ("ours", 2200), ("factory", 12000)])
+def test_a_renumber_that_breaks_off_names_the_command_that_puts_the_pages_back(m512, started, monkeypatch, tmp_path, kind, last, words, how):
+    monkeypatch.chdir(tmp_path)
+    board, flash = board_with_two_motions(started, kind)
+    before, begun, named = bytes(flash[0xE000:0x1E000]), board.moved, 0
+    command = ["renumber", *words, "--yes"]
+    assert m512("pages", "--board", "cm5", board.path, *command).exit_code == 0 and not os.listdir()
+    after, total = bytes(flash[0xE000:0x1E000]), board.moved - begun
+    for back in random.Random(f"{kind} {words} {how}").sample(range(last), 5):
+        board, flash = board_with_two_motions(started, kind)
+        break_off(board, how, board.moved + total - back)
+        result = m512("pages", "--board", "cm5", board.path, *command)
+        now, put_back = bytes(flash[0xE000:0x1E000]), re.search("`m512 (flash [^`]*)` puts ", result.stderr)
+        if put_back is None:  # before the first page was written, or after the last one
+            assert now in (before, after) and (now == before or "epeat the command" not in result.stderr) and not os.listdir(), result.stderr
+            continue
+        named += 1
+        told = result.stderr
+        assert result.exit_code in (6, 7, 130) and "epeat the command" not in told and told.count(put_back[0]) == len(os.listdir()) == 1, told
+        board.garble, old = None, board.path
+        board.pass_time(0.5)  # the factory loader detects the silence
+        board.plug()
+        again = m512(*put_back.group(1).replace(old, board.path).split())
+        assert again.exit_code == 0 and bytes(flash[0xE000:0x1E000]) == before, (result.stderr, again.stderr)
+        os.remove(os.listdir()[0])
+    assert named
+
+
+@pytest.mark.parametrize("kind", ["ours", "factory"])
+def test_trim_erased_and_damaged_pages_are_put_back_as_they_were(m512, monkeypatch, tmp_path, kind):
+    """SIGTERM behind the first pages. Page 0 is the trim, page 5 is damaged, and page 7 erased."""
+    peer, flash = board_with_two_motions(None, kind)
+    motions = read_text(TWO_MOTIONS + "page 0\n  offset 3:-5\n").to_bytes()
+    flash[0xE000:0x1E000] = motions[: 512 * 5] + bytes(range(256)) * 2 + motions[512 * 6 : 512 * 7] + b"\xff" * 512 + motions[512 * 8 :]
+    before = bytes(flash[0xE000:0x1E000])
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "new.m512").write_text(TWO_MOTIONS.replace("page 8", "page 7").replace("page 9", "page 5"))
+
+    def press(direction, index, byte):
+        if flash[0xE000 + 512 * 5 :][:512] != before[512 * 5 :][:512]:
+            raise SystemExit(143)  # cli/__init__.py
+        return byte
+
+    for words in (["delete", "0", "5", "8"], ["merge", "new.m512", "5", "7", "--replace"]):
+        peer.garble = press
+        result = m512("pages", "--board", "cm5", peer.path, *words, "--yes")
+        named = re.search("m512: ended. `m512 (flash [^`]*)` puts back what pages ", result.stderr)
+        assert result.exit_code == 143 and named and flash[0xE000:0x1E000] != before, result.stderr
+        peer.garble = None
+        peer.pass_time(0.5)
+        again = m512(*named[1].split())
+        assert again.exit_code == 0 and bytes(flash[0xE000:0x1E000]) == before, (named[1], again.stderr)
+
+
+def test_on_an_adapter_the_pages_are_put_back_by_put_and_delete(m512, started, monkeypatch, tmp_path):
+    """A board with Edit stands for the program of an adapter, which has no boot loader either."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(kept, "bus", SimpleNamespace(is_bus=lambda url: True))
+    edit, flash = board_with_two_motions(started, "edit")
+    save = Client.save_page
+
+    def only_page_100(client, number, page):
+        if number == 8:
+            raise BoardError("no")
+        save(client, number, page)
+
+    monkeypatch.setattr(Client, "save_page", only_page_100)
+    result = m512("pages", edit.path, "renumber", "8", "100", "--yes")
+    found = re.search("`m512 (put [^`]*)` puts back what pages 8 and 9 held; page 100 held nothing: `m512 (pages [^`]*)`$", result.stderr.strip())
+    assert result.exit_code == 8 and found, result.stderr
+    monkeypatch.setattr(Client, "save_page", save)
+    for command in found.groups():
+        done = m512(*command.split())
+        assert done.exit_code == 0, done.stderr
+    assert bytes(flash[0xE200:0x1E000]) == read_text(TWO_MOTIONS).to_bytes()[512:]
+
+
+@pytest.mark.parametrize("kind", ["edit", "ours", "factory"])
+def test_without_a_file_that_keeps_them_no_pages_are_changed(m512, started, monkeypatch, tmp_path, kind):
+    board, flash = board_with_two_motions(started, kind)
+    before = bytes(flash[0xE000:0x1E000])
+    (tmp_path / "gone").mkdir()
+    monkeypatch.chdir(tmp_path / "gone")
+    (tmp_path / "gone").rmdir()
+    result = m512("pages", "--board", "cm5", board.path, "renumber", "8", "9", "--swap", "--yes")
+    assert result.exit_code == 4 and "so nothing was written" in result.stderr, result.stderr
+    assert bytes(flash[0xE000:0x1E000]) == before
 
 
 # Our loader

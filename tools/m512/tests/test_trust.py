@@ -573,7 +573,7 @@ def test_a_page_that_a_person_saves_in_edit_during_the_question_is_not_replaced(
     assert bytes(edit.board.flash[0xE000 + 512 * 20 :][:512]) in (EMPTY, b"\xff" * 512)
 
 
-def test_a_change_that_ends_half_way_says_what_was_written(m512, monkeypatch, started):
+def test_a_change_that_ends_half_way_says_what_was_written(m512, monkeypatch, tmp_path, started):
     """A page is moved: the first save works, the second is refused, as when a person begins to edit."""
     edit, saves = started("boot-cm5.hex", "edit-cm5.hex", text=TEXT, applied=True), []
     save = Client.save_page
@@ -584,11 +584,32 @@ def test_a_change_that_ends_half_way_says_what_was_written(m512, monkeypatch, st
             raise BoardError("Edits would be lost", 12)
         save(client, number, page)
 
+    monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(Client, "save_page", second_fails)
     result = m512("pages", edit.path, "renumber", "3", "20", "--yes")
     assert result.exit_code == 8 and "Only page 20 had been written" in result.stderr and saves == [20, 3], result.stderr
     flash = bytes(edit.board.flash)
     assert all(flash[0xE000 + 512 * number :][:4] == b"walk" for number in (3, 20))
+
+
+def test_a_page_that_a_person_saves_in_edit_during_the_writing_is_not_put_back(m512, monkeypatch, tmp_path, started):
+    """Page 20 is written; then page 3 is another."""
+    edit = started("boot-cm5.hex", "edit-cm5.hex", text=TEXT, applied=True)
+    save = Client.save_page
+
+    def somebody_saves_too(client, number, page):
+        save(client, number, page)
+        save(client, 3, with_page(3, "run"))
+
+    monkeypatch.setattr(Client, "save_page", somebody_saves_too)
+    monkeypatch.chdir(tmp_path)
+    result = m512("pages", edit.path, "renumber", "3", "20", "--yes")
+    told = 'page 3 "run": changed on the board after m512 had read it, and stays as it is there. Only page 20 had been written by then. '
+    assert result.exit_code == 5 and told in result.stderr and "epeat" not in result.stderr, result.stderr
+    command = re.search("`m512 (flash .*)` puts back what page 20 held$", result.stderr.strip())
+    assert m512(*command[1].split()).exit_code == 0
+    assert bytes(edit.board.flash[0xE000 + 512 * 3 :][:512]) == bytes(with_page(3, "run"))
+    assert bytes(edit.board.flash[0xE000 + 512 * 20 :][:512]) == EMPTY
 
 
 @pytest.mark.parametrize("number, code", [(7, 0), (3, 5)])

@@ -23,12 +23,12 @@ HELLO, RATE, READ, WRITE, SUMS, EE_WRITE, LEAVE = range(1, 8)
 OK, EQUAL, REFUSED, BROKEN, BAD_FRAME, BAD_COMMAND = range(6)
 STATUS = {
     REFUSED: "refused (outside of what may be written)",
-    BROKEN: "the flash does not take the data. Repeat the command; if that does not help, the flash is worn out",
+    BROKEN: "the flash does not take the data. If a second try does not help either, it is worn out",
     BAD_FRAME: "damaged on the line",
     BAD_COMMAND: "not known to this loader",
 }
 APP_STATES = {0: "none", 1: "unknown kind", 2: "good", 3: "damaged"}
-SILENT = "the boot loader does not answer any more. Check the cable, then repeat the command"
+SILENT = "the boot loader does not answer any more. Check the cable, then "
 WINDOW = 2  # outstanding writes
 TRIES = 4
 ANSWER_SECONDS = 1.5
@@ -126,7 +126,7 @@ class BlockLoader:
             if status != BAD_FRAME:
                 raise BoardError(f"the loader says: {STATUS.get(status, status)}", status)
         if status is None:
-            raise NoAnswerError(SILENT)
+            raise NoAnswerError(SILENT + self.link.remedy)
         raise BoardError(f"the loader says: {STATUS[BAD_FRAME]}, {tries} times. Is the cable good?", status)
 
     # Rate
@@ -206,7 +206,7 @@ class BlockLoader:
                     failures[page] = failures.get(page, 0) + 1
                     if failures[page] > TRIES:
                         if answer is None:
-                            raise NoAnswerError(SILENT)
+                            raise NoAnswerError(SILENT + self.link.remedy)
                         raise BoardError("the line damages too much: no page comes through. Is the cable good?")
                 self.retries += 1
                 waiting.extendleft(sorted(under_way.values(), reverse=True))

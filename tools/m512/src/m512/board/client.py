@@ -36,7 +36,7 @@ CAUSE = re.compile(r"Servo \d+ (does not|reports (?!no error)|has lost).*")
 SAID_BYTES = 4096  # more than the sentences of one end
 LISTED = r' (\d+):(\d+|!):"([^"]*)"'  # an entry of @list
 DAMAGED = "{} came damaged, " + f"{TRIES} times. Is the cable good?"
-CHECK = "Check the cable, then repeat the command"
+CHECK = "Check the cable, then "
 BEGIN, FLOW = b"\x1e", b"\x11\x13"
 NOBODY = "neither Play nor Edit answers"
 OLDER = (
@@ -100,7 +100,7 @@ class Client:
                 if int(match.group(1)) == ERR_LINE:  # the board did not execute it
                     continue
                 raise self._error(request, int(match.group(1)), match.group(2))
-        raise NoAnswerError(f"no answer to {word}. {CHECK}")
+        raise NoAnswerError(f"no answer to {word}. {CHECK}{self.link.remedy}")
 
     def _error(self, request: str, number: int, text: str) -> BoardError:
         word, *rest = f"@{request}".split()
@@ -111,7 +111,7 @@ class Client:
             if other and self.version.get("board") != "pc":  # the programs for an adapter cannot be flashed
                 text += f": m512 run {self.file_of(other)}"
         if self.version.get("board") == "pc":  # each command starts the program anew, and that searches
-            text = text.replace("then search again", "then repeat the command")
+            text = text.replace("then search again", f"then {self.link.remedy}")
         error = BoardError(text or f"error {number}", number)
         if number == ERR_EMPTY and rest:
             error = BoardError(f"page {rest[0]} has no action: there is nothing to play", number)
@@ -286,7 +286,7 @@ class Client:
             except NoAnswerError:
                 if stood and self.where()["state"] != "idle":
                     return
-        raise NoAnswerError(f"no answer to @{request.split()[0]}. {CHECK}")
+        raise NoAnswerError(f"no answer to @{request.split()[0]}. {CHECK}{self.link.remedy}")
 
 
 def shape_in_words(found: dict[str, str]) -> dict[str, str]:

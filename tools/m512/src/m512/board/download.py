@@ -13,6 +13,7 @@ from typing import Callable
 from m512.board.block import START, STAY, BlockLoader
 from m512.board.factory import FactoryLoader
 from m512.board.factory_line import BOOT_MODE, Unsure
+from m512.board.link import REPEAT
 from m512.board.loaders import Loader
 from m512.board.memory import FLASH_PAGE, Plan, Record, app_bytes
 from m512.errors import BoardError, CancelledError, NoAnswerError, PortError, RefusedError
@@ -69,7 +70,7 @@ def download(loader: Loader, plan: Plan, phase: PhaseMaker, todo: list[int] | No
             raise BoardError(
                 "read back wrong at "
                 + ", ".join(f"0x{n * FLASH_PAGE:05X}" for n in wrong[:8])
-                + ". Repeat the command; if that does not help the flash is worn out"
+                + ". If a second try does not help either, the flash is worn out"
             )
     if isinstance(loader, BlockLoader) and _lacks_record(plan) and loader.read_eeprom(APP_MARK, APP_MARK + 1)[0] == INCOMPLETE:
         loader.write_eeprom({APP_MARK: COMPLETE})
@@ -87,6 +88,8 @@ def _to_ours(loader: BlockLoader, pages: dict[int, bytes], progress: Callable[[i
             loader.write_eeprom({APP_MARK: INCOMPLETE})
         loader.write(pages, progress)
     except PortError as error:
+        if loader.link.remedy != REPEAT:
+            raise
         raise PortError(f"{error}: it goes on where it stopped") from None
 
 
@@ -97,7 +100,7 @@ def _to_factory(loader: FactoryLoader, pages: dict[int, bytes], progress: Callab
     except KeyboardInterrupt:
         raise CancelledError("stopped. " + loader.how_it_stands()) from None
     except PortError as error:
-        raise PortError(f"{error}. {loader.how_it_stands()}") from None
+        raise PortError(f"{error}. {loader.how_it_stands(str(error))}") from None
     except Unsure:  # says itself what to do
         raise
     except (BoardError, NoAnswerError) as error:

@@ -76,7 +76,7 @@ class FactoryLoader(FactoryLine):
         raise BoardError(
             "read back wrong at "
             + ", ".join(f"0x{n * FLASH_PAGE:05X}" for n in sorted(todo)[:8])
-            + f", {TRIES} times. If repeating the command does not help, the flash is worn out"
+            + f", {TRIES} times. If a second try does not help either, the flash is worn out"
         )
 
 

@@ -93,7 +93,7 @@ def _download(loader: FactoryLine, address: int, data: bytes) -> str:
     if not ready:
         raise Unsure(loader.how_it_stands())
     if b"Write Address : %08X" % address not in answer:
-        raise Unsure(WRONG_ADDRESS)
+        raise Unsure(WRONG_ADDRESS + loader.link.remedy)
     if _OVER.search(loader.link.drain(0)):  # the end of the line arrived twice: the download ended before it began
         loader.open_at = None
         return "the line doubles bytes"

@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterator
 
 from m512.board.block import RESET, START, STAY, Progress, pieces
-from m512.board.link import Link
+from m512.board.link import REPEAT, Link
 from m512.errors import BoardError, NoAnswerError
 
 PROMPT = b"\r\n - "
@@ -31,8 +31,7 @@ BOOT_MODE = 0xFFF  # EEPROM cell: 0xFF when the controller stays in the loader
 _DUMP_LINE = re.compile(rb"\r\n ([0-9A-F]{8}) : ((?:[0-9A-F]{2} ){16})([\x20-\x7f]{16})")
 
 WRONG_ADDRESS = (
-    "the boot loader took another address than it was given. It has written nothing and waits for data: "
-    "press MODE before anything else, then repeat the command"
+    "the boot loader took another address than it was given. It has written nothing and waits for data: press MODE before anything else, then "
 )
 
 
@@ -66,17 +65,19 @@ class FactoryLine:
                 return
         raise NoAnswerError("the boot loader does not answer any more. " + self.how_it_stands())
 
-    def how_it_stands(self) -> str:
-        """The board's state after an error, and what is safe to do."""
+    def how_it_stands(self, told: str = "") -> str:
+        """The board's state after an error, and what is safe to do. `told`: what the error says already."""
         state = ""
         if self.open_at is not None:
             state = (
                 f"The board may still wait for the rest of a download to 0x{self.open_at:05X}; only pages that this command "
                 "writes can change by it. Type nothing into a terminal now. "
             )
-        again = "Wait a second and repeat the command: it goes on where it stopped. Its boot loader is unharmed"
+        again = "Wait a second and repeat the command: it goes on where it stopped. "
+        if self.link.remedy != REPEAT:
+            again = "" if self.link.remedy in told else f"Wait a second, then {self.link.remedy}. "
         stays = "; until that has worked the controller stays in it at every start" if self.stays else "; MODE may be pressed as well"
-        return state + again + stays
+        return state + again + "Its boot loader is unharmed" + stays
 
     def type_line(self, line: str) -> None:
         """Types a line without its end until the echo shows that it arrived unchanged. NoAnswerError: it never does."""
@@ -172,7 +173,7 @@ class FactoryLine:
         if not ready:
             return False
         if b"Write Address : %08X" % at not in answer:
-            raise Unsure(WRONG_ADDRESS)
+            raise Unsure(WRONG_ADDRESS + self.link.remedy)
         self.link.write(data)
         return self.link.look_for(PROMPT, self.patience(len(data) + 20) + EEPROM_SECONDS * len(data))[1]
 

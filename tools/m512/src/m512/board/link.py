@@ -17,10 +17,12 @@ if TYPE_CHECKING:
     from m512.board.bus import Program
 
 BAUD = 57600
+REPEAT = "repeat the command"
 
 
 class Link:
     program: Program | None = None  # of a bus: word
+    remedy = REPEAT  # what helps after an error, for its message; a command that cannot be repeated has another (kept.py)
 
     def __init__(self, url: str, image: str = "play"):
         """image: the program to run for a bus: word (bus.py)."""
@@ -54,7 +56,7 @@ class Link:
         if program and program.was_unplugged and (kind is None or issubclass(kind, M512Error)):
             raise PortError(
                 f"the servo adapter of {self.url} was unplugged, and what played was broken off. Check its plug and cable, then "
-                f"`m512 torque on -p {self.url}`, then repeat the command"
+                f"`m512 torque on -p {self.url}`, then {self.remedy}"
             ) from None
 
     def close(self) -> None:
@@ -78,7 +80,7 @@ class Link:
         time.sleep(seconds)
 
     def _lost(self, error: Exception) -> PortError:
-        return PortError(f"the line to {self.url} broke ({error}). Check the cable; then repeat the command")
+        return PortError(f"the line to {self.url} broke ({error}). Check the cable; then {self.remedy}")
 
     def set_rate(self, rate: int) -> None:
         try:

@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
+from contextlib import ExitStack
 
 from m512 import ui
 from m512.board.block import STAY
 from m512.board.client import Client
+from m512.board.kept import kept
 from m512.board.link import Link
 from m512.board.memory import FLASH_PAGE, MOTIONS, Plan, motion_area, motion_page_of
 from m512.errors import BoardError, NoAnswerError, PortError, RefusedError
@@ -57,40 +59,51 @@ def write_motions(url: str, found: Image, image: Image, board: str = "") -> None
         except NoAnswerError:
             client = None
         if client is not None and client.can_save:
-            _must_be_as_found(numbers, found, client.page)
-            for done, number in enumerate(numbers):
-                _must_be_as_found([number], found, client.page, numbers[:done])
-                try:
-                    client.save_page(number, image[number])
-                except (BoardError, NoAnswerError, PortError) as error:
-                    if not done:
-                        raise
-                    raise type(error)(f"{error}. Only {pages_text(numbers[:done])} had been written before that. Repeat the command") from None
+            _save(link, client, numbers, found, image, board)
             return
         from m512.board import download, loaders
 
         loader = loaders.enter(link, ui.say, board=board)
-        with loaders.as_found(loader):
-            with ui.phase("Comparing") as progress:
-                other = loader.different(_flash_pages(numbers, found), progress)
-            _must_be_as_found(sorted({motion_page_of(page) for page in other}), found, lambda number: Page(loader.read(*motion_area(number))))
-        ui.say(str(download.download(loader, Plan(_flash_pages(numbers, image), has_motions=True), ui.phase)))
+        with ExitStack() as keeping:
+            with loaders.as_found(loader):
+                with ui.phase("Comparing") as progress:
+                    other = loader.different(_flash_pages(numbers, found), progress)
+                _must_be_as_found(sorted({motion_page_of(page) for page in other}), found, lambda number: Page(loader.read(*motion_area(number))))
+                keeping.enter_context(kept(link, found, numbers, board))
+            report = download.download(loader, Plan(_flash_pages(numbers, image), has_motions=True), ui.phase)
+        ui.say(str(report))
         ui.say(loaders.give_back(loader))
 
 
-def _must_be_as_found(numbers: list[int], found: Image, read: Callable[[int], Page], written: Sequence[int] = ()) -> None:
+def _save(link: Link, client: Client, numbers: list[int], found: Image, image: Image, board: str) -> None:
+    """Writes these pages, through Edit."""
+    _must_be_as_found(numbers[1:] + numbers[:1], found, client.page)  # the page that is written first is looked at last
+    with kept(link, found, numbers, board) as keep:
+        for done, number in enumerate(numbers):
+            before = f". Only {pages_text(numbers[:done])} had been written by then" if done else ""
+            try:
+                if done:
+                    _must_be_as_found([number], found, client.page, before)
+                client.save_page(number, image[number])
+            except RefusedError:  # somebody else's page, which is not to be put back
+                keep(numbers[:done])
+                raise
+            except (BoardError, NoAnswerError, PortError) as error:
+                raise type(error)(f"{error}{before}") from None
+
+
+def _must_be_as_found(numbers: list[int], found: Image, read: Callable[[int], Page], before: str = "") -> None:
     """RefusedError if the board no longer holds what was found on these pages, for example because a person saved one meanwhile.
-    `read` reads a page of the board. `written`: pages that were written before."""
+    `read` reads a page of the board. `before`: says which pages were written before."""
     changed = {}
     for number in numbers:
         there = read(number)
         if there != found[number] and not all(_is_nothing(number, page) for page in (there, found[number])):
             changed[number] = there.title
     if changed:
-        done = f"Only {pages_text(written)} had been written before that" if written else "Nothing was written"
         raise RefusedError(
-            f"{named_pages_text(changed)}: changed on the board after m512 had read it, and stays as it is there. {done}. "
-            "Repeat the command: it reads the board again"
+            f"{named_pages_text(changed)}: changed on the board after m512 had read it, and stays as it is there"
+            + (before or ". Nothing was written. Repeat the command: it reads the board again")
         )
 
 
