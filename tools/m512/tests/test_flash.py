@@ -303,6 +303,16 @@ def test_a_renumber_that_breaks_off_names_the_command_that_puts_the_pages_back(m
 
 
 @pytest.mark.parametrize("kind", ["ours", "factory"])
+def test_the_loaders_write_the_new_place_of_a_page_before_the_old_one_is_emptied(m512, monkeypatch, tmp_path, kind):
+    monkeypatch.chdir(tmp_path)
+    peer, _ = board_with_two_motions(None, kind)
+    assert m512("pages", "--board", "cm5", peer.path, "renumber", "8", "100", "--yes").exit_code == 0
+    written = [page * 256 for page in peer.writes] if kind == "ours" else [address for address, _ in peer.downloads]
+    pages = list(dict.fromkeys((address - 0xE000) // 512 for address in written))
+    assert pages == [9, 100, 8]
+
+
+@pytest.mark.parametrize("kind", ["ours", "factory"])
 def test_trim_erased_and_damaged_pages_are_put_back_as_they_were(m512, monkeypatch, tmp_path, kind):
     """SIGTERM behind the first pages. Page 0 is the trim, page 5 is damaged, and page 7 erased."""
     peer, flash = board_with_two_motions(None, kind)

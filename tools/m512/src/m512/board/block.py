@@ -187,8 +187,8 @@ class BlockLoader:
         return [number for number in sorted(pages) if sums[number] != page_sum(pages[number])]
 
     def write(self, pages: dict[int, bytes], progress: Progress | None = None) -> None:
-        """Writes these pages; the loader reads each back."""
-        waiting = deque(sorted(pages))
+        """Writes these pages, in this order; the loader reads each back."""
+        waiting = deque(pages)
         under_way: dict[int, int] = {}
         failures: dict[int, int] = {}
         done = 0

@@ -51,14 +51,15 @@ def check_board(plan: Plan, loader: Loader) -> None:
 
 
 def download(loader: Loader, plan: Plan, phase: PhaseMaker, todo: list[int] | None = None) -> Report:
-    """Writes the plan and reads it back. `todo`: the pages that differ, if known."""
+    """Writes the plan, in its order, and reads it back. `todo`: the pages that differ, if known."""
     check_board(plan, loader)
     begun = loader.link.now()
     if todo is None:
         with phase("Comparing") as progress:
             todo = loader.different(plan.pages, progress)
     if todo:
-        pages = {number: plan.pages[number] for number in todo}
+        differ = set(todo)
+        pages = {number: data for number, data in plan.pages.items() if number in differ}
         with phase("Writing") as progress:
             if isinstance(loader, FactoryLoader):
                 _to_factory(loader, pages, progress, plan.pages)  # reads back page by page

@@ -36,11 +36,12 @@ class FactoryLoader(FactoryLine):
     # Writing flash
 
     def write(self, pages: dict[int, bytes], progress: Progress | None = None, around: dict[int, bytes] | None = None) -> None:
-        """Writes these pages and reads them back. `around`: pages known to be on the board, which may be rewritten."""
+        """Writes these pages, in this order, and reads them back. `around`: pages known to be on the board, which may be rewritten."""
         if any(page * FLASH_PAGE < APP[1] for page in pages):
             self.stay()  # a partly written program must not be started
         known, done = {**(around or {}), **pages}, 0
-        for unit in factory_flash.units(set(known)):
+        order = {page: k for k, page in enumerate(pages)}
+        for unit in sorted(factory_flash.units(set(known)), key=lambda unit: min(order.get(page, len(order)) for page in unit)):
             todo = {page for page in unit if page in pages}
             if todo:
                 whole = self._with_neighbour({page: known[page] for page in unit})
