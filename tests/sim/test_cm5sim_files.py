@@ -108,12 +108,24 @@ def test_plot_is_a_picture(tmp_path):
     assert png.read_bytes().startswith(b"\x89PNG")
 
 
+def test_a_full_disk_is_told_with_the_name_of_the_trace(tmp_path):
+    for script in (MOVE, "at 10s quit\n"):  # told at the end, and in the middle of the run
+        done = play(tmp_path, script, "--trace", "/dev/full")
+        assert done.returncode == 4 and b"cm5sim: /dev/full: No space left on device" in done.stderr, done.stderr
+
+
+def test_a_plot_that_cannot_be_made_is_refused_before_the_run(tmp_path):
+    for name, says in (("x.pdf", b"x.pdf: the name must end in .svg or .png"), ("nodir/x.svg", b"nodir/x.svg: No such file or directory")):
+        done = play(tmp_path, MOVE, "--plot", tmp_path / name)
+        assert done.returncode == 4 and says in done.stderr and b"ready" not in done.stdout, done
+
+
 def test_plot_without_matplotlib_says_so(tmp_path):
     (tmp_path / "script.txt").write_text(MOVE)
     bare = [sys.executable, "-S", TOP / "tools" / "sim" / "python" / "start.py"]  # no site-packages
     done = subprocess.run([*bare, ROBOT, "--script", tmp_path / "script.txt", "--plot", tmp_path / "move.svg"], capture_output=True, check=False)
     assert done.returncode == 4
-    assert b"no picture without matplotlib" in done.stderr
+    assert b"no picture without matplotlib" in done.stderr and not done.stdout
 
 
 def free_port():

@@ -5,6 +5,7 @@ below. Needs matplotlib."""
 from __future__ import annotations
 
 import csv
+import importlib.util
 import pathlib
 
 COLUMNS = 3
@@ -32,14 +33,20 @@ def is_active(goals: list[float | None], presents: list[float]) -> bool:
     return any(goal is not None for goal in goals) or max(presents) > min(presents)
 
 
-def draw(path: str, out: str) -> None:
-    """OSError: no picture was made; its text says why."""
+def check(out: str) -> None:
+    """OSError: no picture of this name can be made; its text says why."""
     if pathlib.Path(out).suffix not in (".svg", ".png"):
         raise OSError(f"{out}: the name must end in .svg or .png")
-    try:
-        import matplotlib
-    except ImportError:
-        raise OSError("no picture without matplotlib (pip install matplotlib)") from None
+    if not importlib.util.find_spec("matplotlib"):
+        raise OSError("no picture without matplotlib (pip install matplotlib)")
+    with open(out, "ab"):  # keeps an older picture until the new one is drawn
+        pass
+
+
+def draw(path: str, out: str) -> None:
+    """Draws the trace `path` as the picture `out`, which check() has passed. OSError: it cannot be written."""
+    import matplotlib
+
     matplotlib.use("Agg")
     from matplotlib import pyplot
 

@@ -6,16 +6,30 @@ from __future__ import annotations
 
 import os
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 
+from . import plot
 from .library import CYCLES_PER_MS
 from .servo import Servos
+
+
+@contextmanager
+def naming(path: str) -> Iterator[None]:
+    """Gives an OSError of writing the name of the file."""
+    try:
+        yield
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, path) from None
 
 
 class Trace:
     """path: the file; None: a temporary file, only to be drawn."""
 
     def __init__(self, servos: Servos, path: str | None, picture: str | None) -> None:
-        """OSError: the file cannot be written."""
+        """OSError: the file cannot be written, or no picture can be made."""
+        if picture:
+            plot.check(picture)
         self._servos, self._picture = servos, picture
         self._temporary = not path
         self._file = open(path, "w", encoding="ascii") if path else tempfile.NamedTemporaryFile("w", suffix=".csv", delete=False)
@@ -24,15 +38,15 @@ class Trace:
 
     def row(self, tick: int, now: int) -> None:
         cells = [f",{goal:.0f},{present:.0f}" if goal >= 0 else f",,{present:.0f}" for goal, present in self._servos.row(self._count)]
-        self._file.write(f"{tick},{now / CYCLES_PER_MS:.3f}{''.join(cells)}\n")
+        with naming(self._file.name):
+            self._file.write(f"{tick},{now / CYCLES_PER_MS:.3f}{''.join(cells)}\n")
 
     def close(self) -> None:
         """Draws the picture. OSError: the trace could not be written, or no picture was made."""
-        self._file.close()
         try:
+            with naming(self._file.name):
+                self._file.close()
             if self._picture:
-                from . import plot
-
                 plot.draw(self._file.name, self._picture)
         finally:
             if self._temporary:
