@@ -9,8 +9,10 @@
 
 import { pageOf } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
+import { PAGE_COUNT } from '../model/motion.ts';
 import type { PageFormat } from '../model/page-format.ts';
 import { readPages } from '../robot/page-read.ts';
+import { askPageCrcs } from '../robot/page-requests.ts';
 import { PageWrite } from '../robot/page-write.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { Requests } from '../robot/requests.ts';
@@ -32,6 +34,13 @@ export interface TransferParts {
     backUp(pages: readonly Uint8Array[]): Promise<void>;
 }
 
+/** A write that has begun. */
+interface Begun {
+    readonly write: PageWrite;
+    /** Of each page the CRCs that it may have: as in the backup, and as written. */
+    readonly crcs: readonly (readonly number[])[];
+}
+
 const BUSY: TransferEnd = { isDone: false, error: new RobotError('transfer-busy') };
 const IDLE: TransferState = { phase: 'idle', done: 0, total: 0, account: new Map(), trouble: null };
 
@@ -41,7 +50,7 @@ export class RobotTransfer implements Transfer {
     private stop = new AbortController();
     /** Aborted when another robot is used. Each transfer holds the signal of the robot that it began with. */
     private robot = new AbortController();
-    private under: PageWrite | null = null;
+    private under: Begun | null = null;
     private reading = Promise.resolve(BUSY);
     private goesOn: () => Promise<TransferEnd> = () => this.read();
 
@@ -82,10 +91,10 @@ export class RobotTransfer implements Transfer {
         this.goesOn = () =>
             this.during('writing', async left => {
                 await this.orStopped(this.parts.becomeEdit());
-                const write = this.under ?? (await this.begin(document, pages, seen, left));
+                const under = (await this.stopped(left)) ?? (await this.begin(document, pages, seen, left));
                 left.throwIfAborted();
-                this.under = write;
-                await this.run(write, left);
+                this.under = under;
+                await this.run(under.write, left);
                 this.tell(left, { phase: 'written' });
             });
         return this.goesOn();
@@ -119,13 +128,26 @@ export class RobotTransfer implements Transfer {
         if (!left.aborted) this.state.set(change);
     }
 
+    /** The write that was stopped; null: none, or the cable leads to another robot by now, or somebody has saved pages in this one. The
+     *  backup and what was compared are not of those pages. */
+    private async stopped(left: AbortSignal): Promise<Begun | null> {
+        const { under } = this;
+        if (!under) return null;
+        const crcs = await askPageCrcs(this.parts.requests(), 0, PAGE_COUNT - 1, { signal: this.stop.signal });
+        left.throwIfAborted();
+        if (crcs.every((crc, page) => under.crcs[page]?.includes(crc))) return under;
+        this.under = null;
+        return null;
+    }
+
     private async begin(
         document: MotionDocument,
         pages: readonly number[],
         seen: readonly (Uint8Array | null)[],
         left: AbortSignal,
-    ): Promise<PageWrite> {
+    ): Promise<Begun> {
         const { format, backUp } = this.parts;
+        this.tell(left, { account: new Map() });
         const robot = await this.readRobot(left);
         await backUp(robot);
         const wanted = pages.flatMap(page => {
@@ -134,7 +156,11 @@ export class RobotTransfer implements Transfer {
         });
         const changed = wanted.find(({ page, before }) => !format.isSame(seen[page] ?? before, before));
         if (changed) throw new RobotError('page-changed', String(changed.page));
-        return new PageWrite(wanted, format);
+        const crcs = robot.map((bytes, page) => {
+            const written = wanted.find(one => one.page === page)?.after ?? bytes;
+            return [format.crc(bytes), format.crc(written)];
+        });
+        return { write: new PageWrite(wanted, format), crcs };
     }
 
     /** Records the written pages as the robot's, even if the rest failed. */

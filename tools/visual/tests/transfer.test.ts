@@ -300,6 +300,51 @@ test('the page: a backup before the first write, a cable pulled in mid-write, "t
     expect(kept).toHaveLength(1);
 });
 
+/** The cable is pulled at the second page of a write, and then leads to another robot, which differs at these pages. */
+async function otherRobot(seed: number, differing: readonly number[]) {
+    const { bench, connection } = await ready('edit', seed);
+    const pages = twenty(bench, 4);
+    const { transfer, kept, robot, before } = transferOn(bench, connection, pages);
+    const pull = pullAt(bench, '@save', 2);
+    const written = transfer.write(
+        pages.map(({ page }) => page),
+        before,
+    );
+    expect(await bench.until(written, 60_000)).toMatchObject({ isDone: false, error: { code: 'port-lost' } });
+    pull.restore();
+    await bench.run(200); // the board finishes what it began
+    const other = before.map((bytes, page) => (differing.includes(page) ? pageOf(library, 5) : bytes));
+    for (const [page, bytes] of other.entries()) bench.board.writeFlash(MOTIONS_ADDRESS + 512 * page, bytes);
+    await untilReady(bench, connection);
+    return { bench, transfer, pages, kept, robot, before, other };
+}
+
+test('the page: "try again" meets another robot: it is read and backed up before anything is written, and what is known of it is right', async () => {
+    const { bench, transfer, pages, kept, robot, before, other } = await otherRobot(64, [9, 61, 100]);
+    const keptAtOpen: number[] = [];
+    onTheLine(bench, line => {
+        if (line.includes('@open')) keptAtOpen.push(kept.length);
+        return line;
+    });
+    expect(await bench.until(transfer.tryAgain(), 60_000)).toEqual({ isDone: true });
+    expect(kept).toEqual([before, other]);
+    expect(keptAtOpen).toEqual(pages.map(() => 2));
+    const wanted = other.map((bytes, page) => pages.find(one => one.page === page)?.after ?? bytes);
+    expect(Array.from({ length: 128 }, (_, page) => flashPage(bench, page))).toEqual(wanted);
+    expect(robot()).toEqual(wanted);
+});
+
+test('the page: "try again" meets another robot, which has another motion than the one that was compared: nothing is written', async () => {
+    const { bench, transfer, kept, robot, before, other } = await otherRobot(65, [13]);
+    for (const _ of ['at once', 'once more']) {
+        expect(await bench.until(transfer.tryAgain(), 60_000)).toMatchObject({ error: { code: 'page-changed', words: '13' } });
+        expect(transfer.state.get().account.size).toBe(0); // of the robot before
+    }
+    expect(kept.slice(0, 2)).toEqual([before, other]);
+    expect(robot()).toEqual(other);
+    expect(Array.from({ length: 128 }, (_, page) => flashPage(bench, page))).toEqual(other);
+});
+
 test('the page: Play cannot save, and a robot that cannot be kept is not written', async () => {
     const { bench, connection } = await ready('play', 48);
     const { transfer, kept } = transferOn(bench, connection, twenty(bench));

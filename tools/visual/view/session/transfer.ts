@@ -26,7 +26,7 @@ export interface Transfer {
     /** Backs up the robot, then writes these pages of the document. seen: the robot's pages that the person has compared; if one of them is
      *  another one by now (another board is on the cable, or somebody has saved it), nothing is written. */
     write(pages: readonly number[], seen?: readonly (Uint8Array | null)[]): Promise<TransferEnd>;
-    /** Continues a stopped transfer. */
+    /** Continues a stopped transfer. A write begins anew if the robot is another one by now: it is read, backed up and compared. */
     tryAgain(): Promise<TransferEnd>;
     /** Stops at once or between two pages. */
     cancel(): void;
