@@ -64,9 +64,9 @@ export class Connection {
         return this.port.name;
     }
 
-    /** Requests of the open line. Throws RobotError not-connected if there is none. */
+    /** Requests of the open line. Throws RobotError if there is none: port-lost while the cable is waited for, else not-connected. */
     get requests(): Requests {
-        if (!this.asked) throw new RobotError('not-connected');
+        if (!this.asked) throw this.noLine();
         return this.asked;
     }
 
@@ -93,7 +93,7 @@ export class Connection {
 
     /** Sends typed characters. Rejects if there is no line. */
     async write(bytes: Uint8Array): Promise<void> {
-        if (!this.typed) throw new RobotError('not-connected');
+        if (!this.typed || this.current === 'waiting') throw this.noLine();
         this.typedAtMs = bytes.at(-1) === CR ? -Infinity : this.clock.now();
         await this.typed.write(bytes);
     }
@@ -101,6 +101,11 @@ export class Connection {
     /** Drops what is left of a pasted text. */
     dropText(): void {
         this.typed?.drop();
+    }
+
+    private noLine(): RobotError {
+        const isLost = this.error?.code === 'port-lost' && (this.current === 'waiting' || this.current === 'opening');
+        return new RobotError(isLost ? 'port-lost' : 'not-connected');
     }
 
     private on(event: ConnectionEvent): void {

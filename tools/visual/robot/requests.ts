@@ -47,7 +47,8 @@ export class Requests {
     private current: Request | null = null;
     private abandoned: Request | null = null;
     private cancelTimer: () => void = () => undefined;
-    private isEnded = false;
+    /** Why nothing can be asked any more. */
+    private ended: 'port-lost' | 'not-connected' | null = null;
     /** A request that moves was given up. now: `@stop` is sent next; later: it was sent, and is due again when another
      *  request is answered first. A newer request that moves takes the place of the old one and is not stopped. */
     private stopDue: 'no' | 'now' | 'later' = 'no';
@@ -67,7 +68,7 @@ export class Requests {
      *  no-answer, not-connected, port-lost, cancelled. */
     ask(text: string, options: RequestOptions = {}): Promise<string> {
         return new Promise((resolve, reject) => {
-            if (this.isEnded) return reject(new RobotError('not-connected'));
+            if (this.ended) return reject(new RobotError(this.ended));
             const { timeoutMs = ANSWER_MS, moves = false, stops = false } = options;
             const request = { text, timeoutMs, moves, stops, resolve, reject };
             options.signal?.addEventListener('abort', () => this.cancel(request), { once: true });
@@ -124,7 +125,7 @@ export class Requests {
 
     /** The line is lost. Rejects all waiting and all later requests. */
     end(code: 'port-lost' | 'not-connected'): void {
-        this.isEnded = true;
+        this.ended = code;
         this.cancelTimer();
         this.endSilence();
         const all = this.current ? [this.current, ...this.queue] : [...this.queue];

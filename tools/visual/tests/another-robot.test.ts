@@ -218,6 +218,8 @@ test('a port that another program has is said to be busy; one whose cable was pu
     await vi.waitFor(() => expect(refuse).toHaveBeenCalled());
     await vi.waitFor(() => expect(session.state.get().connection).toBe('waiting'));
     expect(says()).toMatch(/unplugged/);
+    await session.command('stop');
+    expect(session.state.get().message?.text).toMatch(/cable was pulled/);
     await session.connectYours(); // its port is the right one: the browser does not ask for another, which it could not here
     expect(session.state.get().message?.text ?? '').not.toMatch(/other program/);
 });

@@ -27,6 +27,7 @@ import {
 } from '../robot/protocol.ts';
 import { remotePacket } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
+import { BytePort } from '../sim/byte-port.ts';
 import { makeFormat } from './motion-bench.ts';
 import { RobotBench, robotImages, settle } from './robot-bench.ts';
 
@@ -198,6 +199,15 @@ test('the cable is pulled with a question under way, and put back', async () => 
     bench.port.unplug();
     await expect(bench.until(asked)).rejects.toMatchObject({ code: 'port-lost' });
     expect(connection.state).toBe('waiting');
+    const { port } = bench;
+    const lost = { code: 'port-lost' }; // also for what is asked meanwhile, before and after the first try to open the port
+    await expect(command(connection.requests, 'stop')).rejects.toMatchObject(lost);
+    await expect(connection.write(new Uint8Array(1))).rejects.toMatchObject(lost);
+    port.open = () => Promise.reject(new DOMException('Failed to open serial port.', 'NetworkError'));
+    await bench.run(1000);
+    expect(() => connection.requests).toThrow(expect.objectContaining(lost));
+    await expect(connection.write(new Uint8Array(1))).rejects.toMatchObject(lost);
+    port.open = BytePort.prototype.open;
     await bench.run(3000);
     expect(connection.state).toBe('ready');
     expect(states.slice(-4)).toEqual(['waiting', 'opening', 'asking', 'ready']);
@@ -205,6 +215,10 @@ test('the cable is pulled with a question under way, and put back', async () => 
     expect((await bench.until(askWhere(connection.requests))).state).toBe('idle');
     connection.askAgain(); // an answer was late: a key that is held is sent meanwhile, and let go
     expect([connection.state, connection.version?.image]).toEqual(['asking', 'play']);
+    bench.port.unplug();
+    await settle();
+    await connection.close(); // nobody waits for the cable any more
+    expect(() => connection.requests).toThrow(expect.objectContaining({ code: 'not-connected' }));
 });
 
 test('a board without power is silent, and found when it is switched on', async () => {
