@@ -4,7 +4,7 @@
 // steps from 0.
 
 const LINE_MAX = 200;
-const TELLS_TROUBLE = /damaged|does not answer|no servo|overload|hot|voltage|fault|lost|cannot|bad|not /i;
+const TELLS_TROUBLE = /damaged|does not answer|no servo|overload|hot|voltage|is low|fault|lost|cannot|bad|not /i;
 
 /** Play prints this after a servo fault. The line alone does not name the servo. */
 const ENDED_BY_SERVO = /^Ended for the fault of a servo/;

@@ -101,3 +101,9 @@ test('what is kept: the board takes it away by a trouble alone, the page by what
     hear('Servo 3 does not answer');
     expect(message()).not.toBe(kept.text);
 });
+
+test.each(['Battery is low: 6.5 V', 'Servo 3 is hot: 85 C', 'Servo 5 does not answer'])('"%s" from the board is a trouble', line => {
+    const { robot, messages } = session();
+    messages.hear(new TextEncoder().encode(`${line}\r\n] `));
+    expect(robot.get().message).toEqual({ text: line, tone: 'bad' });
+});

@@ -44,6 +44,8 @@ export class LinksPane extends HTMLElement {
             this.pulled = pageAt(event);
             this.chart.setPointerCapture(event.pointerId); // a release outside the chart ends the drag, too
         });
+        // A finger that begins on a motion links it; elsewhere it scrolls. Browsers do not take `touch-action` of a part of an SVG.
+        this.chart.addEventListener('touchmove', event => void (this.pulled !== 0 && event.preventDefault()), { passive: false });
         this.chart.addEventListener('pointermove', event => this.pull(event));
         this.chart.addEventListener('pointerup', event => void this.drop(event));
         this.chart.addEventListener('pointercancel', () => this.letGo());
