@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from m512.board.bus import wrong_file
 from m512.files.image import Image
 from tests.host.pc_robot import GOAL, SYNC_WRITE, until
 from tests.sim.made_page import page
@@ -89,6 +90,21 @@ def test_a_port_that_is_not_there_is_named(m512):
     assert "say bus:DEVICE" in m512("pose", "-p", "BUS", code=6, bus="bus:")
     assert "@5: the rate is 9600.." in m512("pose", "-p", "BUS", code=6, bus=f"bus:{m512.robot.port}@5")
     assert all(packet[4] != SYNC_WRITE or packet[5] != GOAL for packet in m512.robot.packets())
+
+
+def test_a_file_of_the_robot_that_is_none_is_the_error(m512, tmp_path, monkeypatch):
+    (tmp_path / "robot").mkdir()
+    (tmp_path / "robot" / "pages.bin").write_bytes(bytes(65536))
+    sentence = f"{tmp_path}/robot/pages.bin: not a file of 131072 bytes. Move it away, and a new one is made"
+    for words in (("pose",), ("torque", "off"), ("pages", "BUS", "list")):
+        said = m512(*words, *(() if "BUS" in words else ("-p", "BUS")), code=4)
+        assert said.count(sentence) == 1 and "plugged in" not in said, said
+    found = m512("doctor", "-p", "BUS", code=3, bus="bus:/dev/nowhere")  # examines the folder all the same
+    assert f"{tmp_path}/robot/pages.bin: not a file of 131072 bytes" in found and "-> Move it away" in found
+    (tmp_path / "robot" / "pages.bin").unlink()
+    m512("pose", "-p", "BUS")
+    monkeypatch.setenv("M512_ROBOT", str(tmp_path / "robot"))
+    assert (tmp_path / "robot" / "pages.bin").exists() and wrong_file() is None
 
 
 @pytest.mark.parametrize("words", [("aim", "1:650"), ("swing", 1, 512, 60, "2s"), ("layer", 2), ("shape", "--rate", 200), ("shape", "--reset")])

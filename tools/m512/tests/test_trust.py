@@ -7,6 +7,7 @@ import re
 import signal
 import subprocess
 import sys
+import termios
 import time
 
 import pytest
@@ -1200,10 +1201,25 @@ def test_what_a_program_refuses_is_told_in_words_of_m512(m512, says, text, ours)
     assert m512("pose", "-p", "bus:/dev/ttyX@3").stderr == f"m512: {ours}\n"
 
 
+def test_the_reason_of_a_program_that_ends_while_its_console_is_opened_is_the_error(m512, says, monkeypatch):
+    """pyserial lets termios.error through when the console ends in the middle of its opening."""
+
+    def ends(*_, **__):
+        raise termios.error(5, "Input/output error")
+
+    says("pages.bin: not a file of 131072 bytes")
+    monkeypatch.setenv("START", "echo serial port: /dev/pts/0 >&2")
+    monkeypatch.setattr("serial.serial_for_url", ends)
+    done = m512("pose", "-p", "bus:/dev/ttyX")
+    assert done.stderr == "m512: pages.bin: not a file of 131072 bytes\n" and done.exit_code == 4
+
+
 def test_what_a_program_says_at_its_end_is_told_in_words_of_m512(says, monkeypatch, capsys):
     says("ended. To make them limp: --off, or m512 torque off")
     monkeypatch.setenv("START", "trap end INT; echo serial port: /dev/pts/0 >&2; while :; do sleep 0.1; done")
-    bus.Program("bus:/dev/ttyX", "play").close()
+    program = bus.Program("bus:/dev/ttyX", "play")
+    program.tell()
+    program.close()
     assert capsys.readouterr().err == "note: ended. To make them limp: m512 torque off -p bus:/dev/ttyX\n"
 
 

@@ -29,6 +29,8 @@ from m512.places import build_folder
 PREFIX = "bus:"
 START_SECONDS = 120.0  # the search for servos takes up to 10 s; a busy computer needs more
 END_SECONDS = 30.0
+LAST_SECONDS = 2.0  # from the end of a program's console to the end of the program
+FILE_BYTES = {"pages.bin": 131072, "journal.bin": 8192, "eeprom.bin": 4096}  # of the robot's folder (hal/host/README.md)
 NO_LOADER = (
     "servos on an adapter have no board with a boot loader. Motions go there with `m512 put FILE all -p bus:...`; "
     "what the robot keeps are the files of its folder (hal/host/README.md)"
@@ -77,6 +79,18 @@ def find_program(image: str) -> Path:
     )
 
 
+def wrong_file() -> Path | None:
+    """The file of the robot's folder that the programs refuse for its size, if there is one."""
+    data, home = os.environ.get("XDG_DATA_HOME", ""), os.environ.get("HOME", "")
+    data = data if data.startswith("/") else f"{home}/.local/share"
+    folder = os.environ.get("M512_ROBOT") or f"{data}/motion512"
+    for name, size in FILE_BYTES.items():
+        path = os.path.join(folder, name)
+        if os.path.isfile(path) and os.path.getsize(path) != size:
+            return Path(path)
+    return None
+
+
 def _holder(path: str) -> str:
     """The program that has locked a file or folder, as " (NAME, process PID)", where Linux tells it, else an empty text."""
     try:
@@ -114,6 +128,9 @@ class Program:
         except BaseException:  # Ctrl-C as well: a program left behind would keep the adapter and the robot's folder
             self.close()
             raise
+
+    def tell(self) -> None:
+        """Shows from now on what the program writes. Before, it may be the reason why the program ends."""
         self.reader = threading.Thread(target=self._tell, daemon=True)
         self.reader.start()
 
@@ -131,8 +148,17 @@ class Program:
                     break
         raise self._refusal()
 
+    def refusal(self, error: PortError) -> M512Error:
+        """The reason of a program that has ended since it opened its console, else `error`. Not after tell()."""
+        try:
+            self.process.wait(LAST_SECONDS)
+        except subprocess.TimeoutExpired:
+            return error
+        self.said += self.errors.read().decode("utf-8", "replace")
+        return self._refusal()
+
     def _refusal(self) -> M512Error:
-        """The error for a program that ended instead of opening its console."""
+        """The error for a program that ended by itself."""
         self.close()
         text = self._in_our_words(self.said.strip().splitlines()[-1]) if self.said.strip() else "the program did not start"
         in_use = re.match(r"(.+): in use by another program", text)

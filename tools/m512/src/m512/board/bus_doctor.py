@@ -48,6 +48,7 @@ def examine(word: str, tell: Callable[[Finding], None], mend: bool = False) -> l
         tell(out[-1])
 
     _programs(add)
+    _folder(add)
     try:
         with servos.Bus(word) as line:
             _adapter(line, add)
@@ -62,6 +63,12 @@ def _programs(add: Add) -> None:
         add("programs", OK, " ".join(str(bus.find_program(image)) for image in ("play", "edit")))
     except M512Error as error:
         add("programs", BAD, "Play and Edit for this computer are missing", str(error).partition(": ")[2])
+
+
+def _folder(add: Add) -> None:
+    wrong = bus.wrong_file()
+    if wrong:
+        add("folder", BAD, f"{wrong}: not a file of {bus.FILE_BYTES[wrong.name]} bytes", "Move it away, and a new one is made")
 
 
 def _adapter(line: servos.Bus, add: Add) -> None:

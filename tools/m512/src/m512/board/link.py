@@ -35,13 +35,19 @@ class Link:
         try:
             self.port = serial.serial_for_url(device, baudrate=BAUD, timeout=0, write_timeout=20, exclusive=True)
             _keep_others_out(self.port)
-        except (serial.SerialException, OSError, ValueError) as error:
+        except Exception as error:  # a lost port raises SerialException, OSError, termios.error, ...
+            refusal = self._refusal(PortError(explain(url, error)))
             self._end_program()
-            raise PortError(explain(url, error)) from None
+            raise refusal from None
         self.held = b""  # bytes read and put back
         if self.program:
             try:
                 self.held = self._receive(4096, bus.START_SECONDS)  # the program has found its servos and sends its greeting
+                self.program.tell()
+            except PortError as error:
+                refusal = self._refusal(error)
+                self.close()
+                raise refusal from None
             except BaseException:  # Ctrl-C as well
                 self.close()
                 raise
@@ -66,6 +72,9 @@ class Link:
         except Exception:  # a lost port may fail to close in many ways, and nothing can be done
             pass
         self._end_program()
+
+    def _refusal(self, error: PortError) -> M512Error:
+        return self.program.refusal(error) if self.program else error
 
     def _end_program(self) -> None:
         if self.program:
