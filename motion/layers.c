@@ -25,6 +25,9 @@ void layers_bind(layers_t *layers, player_t *main_play)
 {
     layers->main = main_play;
     layers->holds = false;
+    if (main_play != NULL && player_is_moving(main_play) && layers->code.joints != 0) {
+        player_is_there(main_play, layers->code.joints);
+    }
     mux_forget(&layers->mux, ~layers->code.joints);
     init_play(layers);
 }

@@ -49,6 +49,17 @@ void player_goals(const player_t *player, uint32_t joints, uint16_t goal_pos[PAG
 
 /* --- start, from step to step ------------------------------------------------------------------------------------- */
 
+/* All joints rest on their targets. */
+static void rest(player_t *player)
+{
+    player->carry_q5_11 = STEP_TICKS_CARRY_START;
+    if (player->law == PLAYER_LAW_CLASSIC) {
+        classic_start(player);
+    } else {
+        exact_start(player);
+    }
+}
+
 /* A play begins: all joints rest at pose_pos. */
 static void begin_play(player_t *player, player_law_t law, const uint16_t pose_pos[PAGE_JOINTS], uint32_t present)
 {
@@ -58,15 +69,10 @@ static void begin_play(player_t *player, player_law_t law, const uint16_t pose_p
     player->state = STATE_PLAYING;
     player->wish = WISH_GO;
     player->is_planned = false;
-    player->carry_q5_11 = STEP_TICKS_CARRY_START;
     for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
         player->joint[i].target_pos = pose_pos[i];
     }
-    if (law == PLAYER_LAW_CLASSIC) {
-        classic_start(player);
-    } else {
-        exact_start(player);
-    }
+    rest(player);
 }
 
 player_status_t player_start(player_t *player, link_t *link, uint8_t page, player_law_t law,
@@ -90,6 +96,17 @@ player_status_t player_start(player_t *player, link_t *link, uint8_t page, playe
         exact_measure_next(player);
     }
     return PLAYER_OK;
+}
+
+void player_is_there(player_t *player, uint32_t joints)
+{
+    FOR_JOINTS(player, joints, i, joint) {
+        joint->target_pos = player->next_pos[i];
+    }
+    rest(player);
+    if (player->law == PLAYER_LAW_EXACT) {
+        exact_measure_next(player);
+    }
 }
 
 uint32_t player_first_pose(const page_source_t *source, const shape_t *shape, uint8_t page, uint16_t pose_pos[PAGE_JOINTS])

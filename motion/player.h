@@ -33,6 +33,10 @@ void player_init(player_t *player, const page_source_t *source, player_joint_t j
 MUST_CHECK player_status_t player_start(player_t *player, link_t *link, uint8_t page, player_law_t law,
                                         const uint16_t pose_pos[PAGE_JOINTS], uint32_t present);
 
+/* Call right after player_start: takes `joints` for being at their first positions, wherever they are, because a layer has
+ * them. So they neither make the first step longer nor, given back during it, have a fast way to go. */
+void player_is_there(player_t *player, uint32_t joints);
+
 /* For player_move to the first pose of a page: fills pose_pos with the positions of step 1 of `page`, shaped, and returns
  * the bits of the joints that have one. */
 uint32_t player_first_pose(const page_source_t *source, const shape_t *shape, uint8_t page, uint16_t pose_pos[PAGE_JOINTS]);

@@ -20,11 +20,11 @@ void layers_stage_start(uint8_t page, player_law_t law)
 {
     uint16_t pose[PAGE_JOINTS];
     for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
-        pose[i] = 512;
         goal_pos[i] = (layers.code.joints >> i & 1u) != 0 ? goal_pos[i] : 512;
+        pose[i] = goal_pos[i];
     }
     player_init(&player, &sparse_source, joints);
-    layers_bind(&layers, &player);
     link_init(&l, LINK_LATCH);
     TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, page, law, pose, ALL));
+    layers_bind(&layers, &player);
 }

@@ -358,6 +358,28 @@ static void test_layers_aim_works_while_nothing_plays(void)
     TEST_ASSERT_EQUAL_UINT16(592, goal_pos[19]);
 }
 
+/* Code had the joint far from the page's first pose when the play began: the play must not lead it there in one step. */
+static void test_layers_joint_freed_in_the_first_step_of_a_play_is_slow(void)
+{
+    for (uint8_t law = PLAYER_LAW_EXACT; law <= PLAYER_LAW_CLASSIC; law++) {
+        for (uint16_t freed = 0; freed < 20; freed++) {
+            layers_stage_reset();
+            sparse_pages[SHORT].accel = 10;   /* a slow beginning: the play's goal takes the joint along */
+            goal_pos[2] = 560;                /* the only pose has 640 */
+            TEST_ASSERT_EQUAL(LAYERS_OK, layers_aim(&layers, 2, 560, 0));
+            layers_stage_start(SHORT, (player_law_t)law);
+            for (uint16_t t = 0; t < 20; t++) {
+                const uint16_t before = goal_pos[2];
+                if (t == freed) {
+                    layers_free(&layers, 4);
+                }
+                (void)tick();
+                TEST_ASSERT_LESS_OR_EQUAL(HAND_OVER_MOST, size((int)goal_pos[2] - (int)before));
+            }
+        }
+    }
+}
+
 /* 512 + 200 sin: known values at every twelfth of a turn. */
 static void test_layers_swing_is_a_sine(void)
 {
@@ -491,6 +513,7 @@ int main(void)
     RUN_TEST(test_layers_default_joints_are_those_of_the_first_step);
     RUN_TEST(test_layers_refuse_and_change_nothing);
     RUN_TEST(test_layers_aim_works_while_nothing_plays);
+    RUN_TEST(test_layers_joint_freed_in_the_first_step_of_a_play_is_slow);
     RUN_TEST(test_layers_swing_is_a_sine);
     RUN_TEST(test_layers_swing_over_a_walk_and_free);
     RUN_TEST(test_layers_break_and_pause_hold_for_both);
