@@ -51,9 +51,9 @@ void layers_init(layers_t *layers, uint16_t goal_pos[PAGE_JOINTS]);
 /* The speed of hand-overs, degrees/s, 1..360 (0: LAYERS_SPEED_DEFAULT_DEG_S). On the robot it is that of the approach. */
 void layers_set_speed(layers_t *layers, uint16_t deg_s);
 
-/* Sets the main play: call it after player_init or right after player_start, and with NULL before the memory of the main play
- * gets another use (an approach). Ends a page layer at once, without slowing down; code-made motion goes on, and a play that
- * has just started takes its joints for being at their first positions. */
+/* Sets the main play: call it after player_init or right after player_start, and with NULL before the memory of the main
+ * play gets another use (an approach). Ends a page layer at once, without slowing down; code-made motion goes on, and a play
+ * that has just started takes its joints for being at their first positions. */
 void layers_bind(layers_t *layers, player_t *main_play);
 
 /* Plays a page, 1..PAGE_COUNT - 1, on `joints` (0: those that its first step uses), as far as the main play has them and
