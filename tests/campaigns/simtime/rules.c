@@ -484,7 +484,7 @@ void rules_printed(const char *line)
     if (strncmp(line, "Busy", 4) == 0) {
         rules.is_searching = rules.searches_again = false;   /* refused */
     }
-    if (strstr(line, " servos: ") != NULL) {
+    if (strstr(line, " servos: ") != NULL || strncmp(line, "1 servo: ", 9) == 0) {
         servos_are_listed(rules.is_searching);
         rules.searched_tick = rules.is_searching ? session.tick : rules.searched_tick;
         rules.is_searching = rules.searches_again;
