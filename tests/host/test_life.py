@@ -94,10 +94,10 @@ def test_a_file_is_not_replaced_by_a_link_to_the_console(make, files):
     assert files.read_bytes() == mine
 
 
-def linked_elsewhere(tmp_path, link):
+def linked_elsewhere(tmp_path, link, prefix=()):
     """A second program, on a port of its own, that is asked for the same link."""
     master, slave = pty.openpty()
-    command = [program("edit"), "--robot", tmp_path / "other", f"--pty={link}", os.ttyname(slave)]
+    command = [*prefix, program("edit"), "--robot", tmp_path / "other", f"--pty={link}", os.ttyname(slave)]
     asked = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=30)
     os.close(master)
     os.close(slave)
@@ -123,6 +123,21 @@ def test_the_link_of_a_running_program_is_refused_and_that_of_a_dead_one_is_repl
     assert robot.stop() == 0 and not os.path.lexists(link)
     for one in sum(others, ()):
         os.close(one)
+
+
+def test_the_link_of_a_program_whose_client_has_the_port_for_itself_is_refused(make, files, tmp_path):
+    """The system lets nobody but a superuser open such a port."""
+    link = tmp_path / "console"
+    robot = make(motions=files, arguments=[f"--pty={link}"]).run()
+    robot.expect("] ")
+    port = os.readlink(link)
+    drop = ["setpriv", "--bounding-set=-sys_admin"] if os.geteuid() == 0 else []
+    with open(link, "rb", buffering=0) as client:
+        fcntl.ioctl(client, termios.TIOCEXCL)
+        asked = linked_elsewhere(tmp_path, link, drop)
+        fcntl.ioctl(client, termios.TIOCNXCL)
+    assert asked.returncode == 6 and f"{link}: in use by another program" in asked.stderr
+    assert os.readlink(link) == port and robot.stop() == 0
 
 
 def test_a_link_that_is_no_longer_its_own_is_left_alone(make, files, tmp_path):

@@ -73,10 +73,11 @@ static bool is_served(const char *path)
 {
     struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     const int pty = open(path, O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
-    const bool is_locked = pty >= 0 && fcntl(pty, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
-    if (pty >= 0) {
-        close(pty);
+    if (pty < 0) {
+        return errno == EBUSY;   /* a client has it for itself (TIOCEXCL), so somebody serves it */
     }
+    const bool is_locked = fcntl(pty, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
+    close(pty);
     return is_locked;
 }
 
