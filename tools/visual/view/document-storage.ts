@@ -5,7 +5,7 @@
 import type { StepsChange } from '../model/history-log.ts';
 import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
 import { LastPuts } from './last-puts.ts';
-import { openedDatabase } from './opened-database.ts';
+import { LastingDatabase } from './lasting-database.ts';
 import { TEXTS } from './texts/texts.ts';
 
 /** A stored document. */
@@ -64,6 +64,15 @@ const BACKUPS = 'backups';
 const STEPS = 'steps';
 const KEYS = { [DOCUMENTS]: 'id', [BACKUPS]: 'id', [STEPS]: ['document', 'number'] };
 
+function ask(): IDBOpenDBRequest {
+    const asked = indexedDB.open(DATABASE, 2);
+    asked.onupgradeneeded = () => {
+        const there = asked.result.objectStoreNames;
+        for (const [store, keyPath] of Object.entries(KEYS)) if (!there.contains(store)) asked.result.createObjectStore(store, { keyPath });
+    };
+    return asked;
+}
+
 function isImage(value: unknown): value is Uint8Array {
     return value instanceof Uint8Array && value.length === PAGE_BYTES * PAGE_COUNT;
 }
@@ -95,42 +104,36 @@ export function sortKept(documents: readonly unknown[], backups: readonly unknow
 }
 
 export class BrowserStorage implements DocumentStorage {
-    private readonly database: IDBDatabase;
+    private readonly database: LastingDatabase;
     private readonly last: LastPuts<Put>;
     /** Not stored yet, oldest first. */
     private readonly waiting = new Set<Put>();
 
-    private constructor(database: IDBDatabase, last: LastPuts<Put>) {
+    private constructor(database: LastingDatabase, last: LastPuts<Put>) {
         this.database = database;
         this.last = last;
     }
 
     /** Rejects when the browser stores nothing (private window, full disk). */
     static async open(): Promise<BrowserStorage> {
-        const asked = indexedDB.open(DATABASE, 2);
-        asked.onupgradeneeded = () => {
-            const there = asked.result.objectStoreNames;
-            for (const [store, keyPath] of Object.entries(KEYS))
-                if (!there.contains(store)) asked.result.createObjectStore(store, { keyPath });
-        };
-        const database = await openedDatabase(asked);
-        database.onversionchange = () => database.close(); // a newer page needs it; this one can store nothing more and says so
-        return new BrowserStorage(database, await LastPuts.open());
+        return new BrowserStorage(await LastingDatabase.open(ask), await LastPuts.open());
     }
 
     async load(): Promise<Kept> {
         await this.recover();
-        const transaction = this.database.transaction([DOCUMENTS, BACKUPS]);
-        const [documents, backups] = await Promise.all(
-            [DOCUMENTS, BACKUPS].map(store => done(transaction.objectStore(store).getAll() as IDBRequest<unknown[]>)),
-        );
+        const [documents, backups] = await this.database.use(database => {
+            const transaction = database.transaction([DOCUMENTS, BACKUPS]);
+            return Promise.all([DOCUMENTS, BACKUPS].map(store => done(transaction.objectStore(store).getAll() as IDBRequest<unknown[]>)));
+        });
         return sortKept(documents ?? [], backups ?? []);
     }
 
     async readDocument(id: string): Promise<KeptDocument | undefined> {
         await this.recover(); // another tab may have been closed meanwhile
-        const asked = this.database.transaction(DOCUMENTS).objectStore(DOCUMENTS).get(id) as IDBRequest<unknown>;
-        return sortKept([await done(asked)], []).documents[0];
+        const found = await this.database.use(database =>
+            done(database.transaction(DOCUMENTS).objectStore(DOCUMENTS).get(id) as IDBRequest<unknown>),
+        );
+        return sortKept([found], []).documents[0];
     }
 
     async putDocument(document: KeptDocument, steps: StepsChange): Promise<void> {
@@ -169,11 +172,13 @@ export class BrowserStorage implements DocumentStorage {
     }
 
     readSteps(id: string): Promise<readonly unknown[]> {
-        return done(
-            this.database
-                .transaction(STEPS)
-                .objectStore(STEPS)
-                .getAll(stepsIn(id, 0, Infinity)) as IDBRequest<unknown[]>,
+        return this.database.use(database =>
+            done(
+                database
+                    .transaction(STEPS)
+                    .objectStore(STEPS)
+                    .getAll(stepsIn(id, 0, Infinity)) as IDBRequest<unknown[]>,
+            ),
         );
     }
 
@@ -190,13 +195,15 @@ export class BrowserStorage implements DocumentStorage {
 
     /** isAll: nothing is added when the first answers come. */
     private write(action: (store: Stores) => unknown, isAll = true): Promise<void> {
-        return new Promise((resolve, reject) => {
-            const transaction = this.database.transaction(Object.keys(KEYS), 'readwrite');
-            transaction.oncomplete = () => resolve();
-            transaction.onabort = transaction.onerror = () => reject(transaction.error ?? new Error('nothing was kept'));
-            action(name => transaction.objectStore(name));
-            if (isAll) transaction.commit();
-        });
+        const written = (database: IDBDatabase): Promise<void> =>
+            new Promise((resolve, reject) => {
+                const transaction = database.transaction(Object.keys(KEYS), 'readwrite');
+                transaction.oncomplete = () => resolve();
+                transaction.onabort = transaction.onerror = () => reject(transaction.error ?? new Error('nothing was kept'));
+                action(name => transaction.objectStore(name));
+                if (isAll) transaction.commit();
+            });
+        return this.database.use(written);
     }
 }
 

@@ -2,10 +2,16 @@
 // What was not stored yet when a page was left. The browser drops a transaction with the page if it still waits for another one, so this has
 // a database of its own, in which none waits.
 
-import { openedDatabase } from './opened-database.ts';
+import { LastingDatabase } from './lasting-database.ts';
 
 const DATABASE = 'motion512-last';
 const STORE = 'pages';
+
+function ask(): IDBOpenDBRequest {
+    const asked = indexedDB.open(DATABASE, 1);
+    asked.onupgradeneeded = () => asked.result.createObjectStore(STORE, { keyPath: 'page' });
+    return asked;
+}
 
 /** What one page has left. */
 export interface Left<Put> {
@@ -16,18 +22,16 @@ export interface Left<Put> {
 
 export class LastPuts<Put> {
     private readonly page = `${Date.now()} ${Math.random()}`;
-    private readonly database: IDBDatabase;
+    private readonly database: LastingDatabase;
     private hasKept = false;
 
-    private constructor(database: IDBDatabase) {
+    private constructor(database: LastingDatabase) {
         this.database = database;
     }
 
     /** Rejects when the browser stores nothing. */
     static async open<Put>(): Promise<LastPuts<Put>> {
-        const asked = indexedDB.open(DATABASE, 1);
-        asked.onupgradeneeded = () => asked.result.createObjectStore(STORE, { keyPath: 'page' });
-        return new LastPuts(await openedDatabase(asked));
+        return new LastPuts(await LastingDatabase.open(ask));
     }
 
     /** Keeps what this page has not stored yet, instead of what it has kept before. */
@@ -51,16 +55,20 @@ export class LastPuts<Put> {
 
     /** Of all pages, open ones too. */
     all(): Promise<readonly Left<Put>[]> {
-        return new Promise((resolve, reject) => {
-            const asked = this.database.transaction(STORE).objectStore(STORE).getAll() as IDBRequest<Left<Put>[]>;
-            asked.onsuccess = () => resolve(asked.result);
-            asked.onerror = () => reject(asked.error);
-        });
+        const read = (database: IDBDatabase): Promise<readonly Left<Put>[]> =>
+            new Promise((resolve, reject) => {
+                const asked = database.transaction(STORE).objectStore(STORE).getAll() as IDBRequest<Left<Put>[]>;
+                asked.onsuccess = () => resolve(asked.result);
+                asked.onerror = () => reject(asked.error);
+            });
+        return this.database.use(read);
     }
 
     private write(action: (store: IDBObjectStore) => unknown): void {
-        const transaction = this.database.transaction(STORE, 'readwrite');
-        action(transaction.objectStore(STORE));
-        transaction.commit();
+        void this.database.use(async database => {
+            const transaction = database.transaction(STORE, 'readwrite');
+            action(transaction.objectStore(STORE));
+            transaction.commit();
+        });
     }
 }

@@ -136,6 +136,34 @@ test('edits that still wait for the disk when the page is left are there the nex
     await person.leave();
 });
 
+test('the data of the page is deleted in the browser while the page is open: it stores and writes the robot as before', async () => {
+    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
+    const { page } = person;
+    await person.untilStanding();
+    await person.open('Steps');
+    const name = page.getByRole('textbox', { name: 'Name of the motion' });
+    const saving = page.getByRole('status', { name: 'Autosave' });
+    const rename = async (to: string): Promise<void> => {
+        await name.fill(to);
+        await name.press('Enter');
+        await saving.filter({ hasText: /saved$/ }).waitFor();
+    };
+    await rename('before');
+    const tools = await page.context().newCDPSession(page);
+    await tools.send('Storage.clearDataForOrigin', { origin: new URL(suite.address).origin, storageTypes: 'all' });
+
+    await person.button('To the robot (1) …').click(); // a backup comes first
+    const dialog = page.getByRole('dialog', { name: 'Compare and write' });
+    await dialog.getByRole('button', { name: /^Write 1 motion/ }).click();
+    await dialog.getByRole('status', { name: 'Transfer' }).filter({ hasText: 'Written and verified' }).waitFor();
+    await dialog.getByRole('button', { name: 'Close' }).click();
+    await rename('after');
+    await page.reload();
+    await person.open('Steps');
+    expect(await name.inputValue()).toBe('after');
+    await person.leave();
+});
+
 test('whoever leaves is asked exactly when the browser keeps nothing', async () => {
     for (const storage of ['works', 'denied', 'hangs'] as const) {
         const isKept = storage === 'works';
