@@ -260,7 +260,3 @@ void setUp(void)
     run_ms(2000);
     clear_sent();
 }
-
-void tearDown(void)
-{
-}

@@ -12,6 +12,3 @@ foreach(test test_servo_link test_servo_link_goals test_servo_link_health)
         firmware/common/servo_link.c firmware/common/servo_link_masks.c firmware/common/servo_link_setup.c hal/bus_call.c
         hal/dxl_packet.c tests/fake/fake_bus.c tests/fake/fake_system.c tests/fake/fake_time.c)
 endforeach()
-m512_unit_test(test_fakes SOURCES hal/bus_call.c hal/debounce.c hal/dxl_packet.c tests/fake/fake_bus.c
-    tests/fake/fake_console.c tests/fake/fake_eeprom.c tests/fake/fake_panel.c tests/fake/fake_system.c
-    tests/fake/fake_time.c)

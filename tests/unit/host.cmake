@@ -4,8 +4,9 @@
 if(NOT M512_AVR)
     function(m512_host_unit_test name)
         m512_unity()
+        m512_test_main(${name})
         list(TRANSFORM ARGN PREPEND ${CMAKE_SOURCE_DIR}/)
-        add_executable(${name} ${name}.c ${CMAKE_SOURCE_DIR}/tests/fake/fake_machine.c ${ARGN})
+        add_executable(${name} ${CMAKE_CURRENT_BINARY_DIR}/${name}_main.c ${CMAKE_SOURCE_DIR}/tests/fake/fake_machine.c ${ARGN})
         target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/hal/host ${CMAKE_SOURCE_DIR}/hal
             ${CMAKE_SOURCE_DIR}/motion ${CMAKE_SOURCE_DIR}/linker ${CMAKE_SOURCE_DIR}/firmware/common ${CMAKE_SOURCE_DIR}/tests/fake)
         target_compile_options(${name} PRIVATE ${M512_WARNINGS} ${M512_SANITIZE})

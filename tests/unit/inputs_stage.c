@@ -97,8 +97,6 @@ void setUp(void)
     ticks(INPUTS_SILENCE_TICKS);   /* no button is held at the start */
 }
 
-void tearDown(void) {}
-
 void remote(uint16_t buttons)
 {
     const uint8_t low = (uint8_t)buttons, high = (uint8_t)(buttons >> 8);

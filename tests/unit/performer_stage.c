@@ -54,8 +54,6 @@ void setUp(void)
     performer_set_layers(&performer, &layers);
 }
 
-void tearDown(void) {}
-
 void ticks(uint16_t count)
 {
     while (count-- > 0) {

@@ -18,10 +18,6 @@ void setUp(void)
     link_init(&l, LINK_LATCH);
 }
 
-void tearDown(void)
-{
-}
-
 void start_law(uint8_t page, player_law_t law)
 {
     TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, page, law, pose, ALL));

@@ -20,10 +20,6 @@ void setUp(void)
     }
 }
 
-void tearDown(void)
-{
-}
-
 void robot(uint8_t count)
 {
     for (uint8_t id = 1; id <= count; id++) {

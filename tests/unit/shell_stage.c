@@ -41,8 +41,6 @@ void setUp(void)
     clear_out();
 }
 
-void tearDown(void) {}
-
 shell_event_t keys(const char *bytes)
 {
     shell_event_t event = SHELL_TYPING;

@@ -15,8 +15,6 @@ void setUp(void)
     frame_init(&frame, bytes);
 }
 
-void tearDown(void) {}
-
 /* Feeds `count` bytes and returns the last status. All earlier ones must ask for more. */
 static frame_status_t feed(const uint8_t *from, unsigned count)
 {
@@ -109,16 +107,4 @@ static void test_a_lost_byte_costs_at_most_the_frames_it_swallows(void)
         }
     }
     TEST_ASSERT_GREATER_OR_EQUAL_UINT(2, good);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_hello_of_the_manual);
-    RUN_TEST(test_every_length_up_to_the_largest);
-    RUN_TEST(test_longer_counts_are_bad_at_once);
-    RUN_TEST(test_every_single_bit_error_is_found);
-    RUN_TEST(test_bytes_before_a_frame_are_skipped);
-    RUN_TEST(test_a_lost_byte_costs_at_most_the_frames_it_swallows);
-    return UNITY_END();
 }

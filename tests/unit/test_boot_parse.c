@@ -15,7 +15,6 @@ static parse_status_t parse(const char *text)
     return parse_line(line, &parsed);
 }
 
-void setUp(void) {}
 void tearDown(void) {}
 
 static void test_word_alone_in_upper_case(void)
@@ -107,20 +106,4 @@ static void test_the_longest_line(void)
     TEST_ASSERT_EQUAL(PARSE_OK, parse_line(line, &parsed));
     TEST_ASSERT_EQUAL_UINT(79, strlen(parsed.word));
     TEST_ASSERT_EQUAL_CHAR('Z', parsed.word[78]);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_word_alone_in_upper_case);
-    RUN_TEST(test_arguments_are_hexadecimal_with_or_without_0x);
-    RUN_TEST(test_a_missing_address_is_0_and_a_missing_length_1);
-    RUN_TEST(test_every_character_from_space_to_slash_and_tab_separates);
-    RUN_TEST(test_hashes_before_a_word_are_blanks);
-    RUN_TEST(test_a_leading_sign_makes_the_line_empty);
-    RUN_TEST(test_what_is_not_hexadecimal_is_refused);
-    RUN_TEST(test_numbers_above_20_bits_are_refused_leading_zeros_are_not);
-    RUN_TEST(test_a_third_argument_is_too_many);
-    RUN_TEST(test_the_longest_line);
-    return UNITY_END();
 }

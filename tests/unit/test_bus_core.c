@@ -39,10 +39,6 @@ void setUp(void)
     memset(&answer, 0xEE, sizeof answer);
 }
 
-void tearDown(void)
-{
-}
-
 static bus_status_t poll_after_us(uint16_t us)
 {
     now = (uint16_t)(now + 2u * us);
@@ -387,31 +383,4 @@ static void test_longest_answer_with_noise_before_it_fits(void)
     for (uint8_t i = 0; i < DXL_ANSWER_PARAMS; i++) {
         TEST_ASSERT_EQUAL(i, answer.params[i]);
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_submit_sends_the_whole_packet_once);
-    RUN_TEST(test_line_is_turned_on_transmit_complete_only);
-    RUN_TEST(test_answer_is_delivered);
-    RUN_TEST(test_no_answer_expected_ends_with_transmit_complete);
-    RUN_TEST(test_silence_is_a_timeout_after_the_longest_return_delay);
-    RUN_TEST(test_answer_that_stops_half_way_is_a_timeout);
-    RUN_TEST(test_retries_are_bounded);
-    RUN_TEST(test_retry_waits_until_the_line_is_quiet);
-    RUN_TEST(test_retry_after_half_an_answer_starts_afresh);
-    RUN_TEST(test_retry_forgets_what_spoilt_the_try_before);
-    RUN_TEST(test_wrong_id_and_wrong_length_are_named);
-    RUN_TEST(test_rejected_write_is_a_failed_try);
-    RUN_TEST(test_write_to_a_servo_in_trouble_is_done);
-    RUN_TEST(test_glitch_before_the_answer_does_no_harm);
-    RUN_TEST(test_broken_bytes_name_framing_or_overrun);
-    RUN_TEST(test_endless_noise_ends_the_try);
-    RUN_TEST(test_bytes_when_nobody_was_asked_are_strays_or_go_to_the_tap);
-    RUN_TEST(test_news_are_what_poll_has_not_seen);
-    RUN_TEST(test_slow_rate_waits_longer);
-    RUN_TEST(test_transmit_complete_after_the_clock_was_read_is_no_timeout);
-    RUN_TEST(test_longest_answer_with_noise_before_it_fits);
-    return UNITY_END();
 }

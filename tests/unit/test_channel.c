@@ -39,10 +39,6 @@ void setUp(void)
     channel_init();
 }
 
-void tearDown(void)
-{
-}
-
 /* Feeds all bytes and returns the event of the last one. */
 static channel_event_t give(const char *bytes)
 {
@@ -144,18 +140,4 @@ static void test_what_is_printed_begins_with_the_byte(void)
     channel_print_end();
     TEST_ASSERT_FALSE(channel_is_printing());
     TEST_ASSERT_EQUAL_STRING("\x1e", out);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_persons_bytes_are_not_taken);
-    RUN_TEST(test_what_is_no_text_is_left_out);
-    RUN_TEST(test_a_whole_request_is_run);
-    RUN_TEST(test_a_changed_or_short_request_is_refused);
-    RUN_TEST(test_a_request_behind_one_that_has_lost_its_end_is_refused_with_it);
-    RUN_TEST(test_a_request_without_an_end_is_cut_off_after_250_ms);
-    RUN_TEST(test_a_line_that_is_too_long_is_refused);
-    RUN_TEST(test_what_is_printed_begins_with_the_byte);
-    return UNITY_END();
 }

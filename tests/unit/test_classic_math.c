@@ -8,14 +8,6 @@
 #define SPEED_MAX 1023
 #define DISTANCE_MAX 5916
 
-void setUp(void)
-{
-}
-
-void tearDown(void)
-{
-}
-
 /* ((speed * c * 144 / 15) >> 9), the inner quotient toward zero, the shift down */
 static int32_t plain_ramp_distance(int32_t speed, int32_t c)
 {
@@ -86,15 +78,4 @@ static void test_speed_for_every_kind_of_divisor(void)
         check_speed(size, 4);
         check_speed(size, 1);
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_distance_of_a_ramp_for_every_speed_and_tick);
-    RUN_TEST(test_share_of_every_distance_over_few_ticks);
-    RUN_TEST(test_share_over_many_ticks);
-    RUN_TEST(test_speed_units_of_every_distance);
-    RUN_TEST(test_speed_for_every_kind_of_divisor);
-    return UNITY_END();
 }

@@ -14,10 +14,6 @@ void setUp(void)
     memset(packet, 0xEE, sizeof packet);
 }
 
-void tearDown(void)
-{
-}
-
 /* Feeds the bytes one by one and returns the last result. There must be none before it. */
 static dxl_result_t feed(const uint8_t *bytes, uint8_t count)
 {
@@ -114,20 +110,4 @@ static void test_longest_answer_is_found(void)
     }
     wire[sizeof head + count] = (uint8_t)~sum;
     TEST_ASSERT_EQUAL(DXL_GOOD, feed(wire, DXL_ANSWER_PARAMS + 6u));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_build_ping_of_id_1_is_the_manuals_example);
-    RUN_TEST(test_build_read_of_temperature_is_the_manuals_example);
-    RUN_TEST(test_build_sync_write_by_hand_is_the_manuals_example);
-    RUN_TEST(test_status_without_parameters_is_found);
-    RUN_TEST(test_status_with_parameters_and_error_is_found);
-    RUN_TEST(test_noise_and_extra_header_bytes_are_skipped);
-    RUN_TEST(test_ff_inside_a_packet_is_data);
-    RUN_TEST(test_wrong_checksum_is_named);
-    RUN_TEST(test_lengths_that_no_answer_has_are_refused);
-    RUN_TEST(test_longest_answer_is_found);
-    return UNITY_END();
 }

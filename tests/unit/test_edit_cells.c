@@ -3,14 +3,6 @@
 #include "cells.h"
 #include "unity.h"
 
-void setUp(void)
-{
-}
-
-void tearDown(void)
-{
-}
-
 static void test_cells_addresses_are_those_of_the_original(void)
 {
     TEST_ASSERT_EQUAL_UINT16(512, cell_address(0, 0));
@@ -99,16 +91,4 @@ static void test_cells_limits(void)
     TEST_ASSERT_EQUAL_UINT16(255, cell_max(CELL_BYTE, 9, 5));
     TEST_ASSERT_EQUAL_UINT16(255, cell_max(CELL_BYTE, 9, 4));
     TEST_ASSERT_EQUAL_UINT16(255, cell_max(CELL_BYTE, 8, 14));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_cells_addresses_are_those_of_the_original);
-    RUN_TEST(test_cells_exist_where_the_original_has_them);
-    RUN_TEST(test_cells_every_shown_byte_finds_its_cell);
-    RUN_TEST(test_cells_words_show_as_the_original_shows_them);
-    RUN_TEST(test_cells_bytes_and_offsets);
-    RUN_TEST(test_cells_limits);
-    return UNITY_END();
 }

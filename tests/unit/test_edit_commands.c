@@ -220,24 +220,3 @@ static void test_what_is_harmless_is_allowed_while_something_moves(void)
         TEST_ASSERT_EQUAL_MESSAGE(is_harmless(word), (commands_table_P[i].args & SHELL_STILL) == 0, word);
     }
 }
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_every_word_of_the_original_is_there);
-    RUN_TEST(test_what_was_asked_for_is_there_too);
-    RUN_TEST(test_word_must_be_whole_or_its_abbreviation);
-    RUN_TEST(test_no_word_has_two_meanings);
-    RUN_TEST(test_case_does_not_matter_and_five_characters_part_words);
-    RUN_TEST(test_number_out_of_range_is_told_with_its_range);
-    RUN_TEST(test_number_counts_only_as_a_whole_word);
-    RUN_TEST(test_numbers_may_be_hexadecimal);
-    RUN_TEST(test_wrong_count_of_words_is_an_invalid_parameter);
-    RUN_TEST(test_count_is_looked_at_before_the_range);
-    RUN_TEST(test_empty_line_does_nothing);
-    RUN_TEST(test_help_of_one_command_is_its_line);
-    RUN_TEST(test_help_of_each_command_fits_into_the_row);
-    RUN_TEST(test_while_something_moves_every_other_word_is_refused);
-    RUN_TEST(test_what_is_harmless_is_allowed_while_something_moves);
-    return UNITY_END();
-}

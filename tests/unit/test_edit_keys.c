@@ -9,10 +9,6 @@ void setUp(void)
     keys_init(&keys);
 }
 
-void tearDown(void)
-{
-}
-
 /* Returns the key that the last byte of `text` completes. Earlier bytes must complete none. */
 static uint8_t type(const char *text)
 {
@@ -79,16 +75,4 @@ static void test_keys_lone_escape_shows_when_quiet(void)
     TEST_ASSERT_EQUAL_UINT8(KEY_NONE, type("\033["));
     TEST_ASSERT_EQUAL_UINT8(KEY_NONE, keys_quiet(&keys));
     TEST_ASSERT_EQUAL_UINT8('A', type("A"));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_keys_plain_bytes_pass);
-    RUN_TEST(test_keys_arrows_in_both_forms);
-    RUN_TEST(test_keys_size_report);
-    RUN_TEST(test_keys_unknown_sequences_vanish_whole);
-    RUN_TEST(test_keys_home_end_and_pages_as_terminals_send_them);
-    RUN_TEST(test_keys_lone_escape_shows_when_quiet);
-    return UNITY_END();
 }

@@ -201,23 +201,3 @@ static void test_short_terminal_has_rows_for_joints_that_are_there(void)
         TEST_ASSERT_EQUAL_STRING("    ", shown(row, 1, 4));
     }
 }
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_frame_stands_cell_by_cell_where_the_original_has_it);
-    RUN_TEST(test_values_of_the_header_stand_behind_their_labels);
-    RUN_TEST(test_marker_stands_behind_the_last_step);
-    RUN_TEST(test_cursor_rests_on_its_cell);
-    RUN_TEST(test_page_change_sends_the_cells_that_differ_and_no_other);
-    RUN_TEST(test_cell_that_is_set_is_sent_alone);
-    RUN_TEST(test_unsaved_mark_goes_with_the_change);
-    RUN_TEST(test_nothing_is_sent_while_nothing_changes);
-    RUN_TEST(test_re_sends_everything_again);
-    RUN_TEST(test_limp_joint_shows_where_it_is_moved_by_hand);
-    RUN_TEST(test_keys_do_not_wait_for_the_screen);
-    RUN_TEST(test_line_is_cut_at_the_end_of_its_row);
-    RUN_TEST(test_message_stays_behind_the_line_and_goes_with_the_next);
-    RUN_TEST(test_short_terminal_has_rows_for_joints_that_are_there);
-    return UNITY_END();
-}

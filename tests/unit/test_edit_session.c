@@ -7,8 +7,6 @@
 
 #include <string.h>
 
-
-
 static uint8_t *flash_page(uint8_t page)
 {
     return fake_flash_bytes() + MEM_MOTION_START + 512u * page;
@@ -36,10 +34,6 @@ void setUp(void)
     store(1, 1);
     store(2, 2);
     session_init();
-}
-
-void tearDown(void)
-{
 }
 
 static void take_marks(void)
@@ -276,22 +270,4 @@ static void test_session_cursor_moves_as_in_the_original(void)
     go(SESSION_RIGHT, 7, 31);
     go(SESSION_DOWN, 7, 32);
     go(SESSION_DOWN, 7, 32);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_session_starts_with_page_1);
-    RUN_TEST(test_session_erased_page_opens_as_a_new_one);
-    RUN_TEST(test_session_opening_marks_only_what_differs);
-    RUN_TEST(test_session_change_is_seen_and_undone_exactly);
-    RUN_TEST(test_session_turns_move_whole_steps_and_come_back);
-    RUN_TEST(test_session_copy_and_new_can_be_undone);
-    RUN_TEST(test_session_new_on_the_largest_page_is_undone_from_flash);
-    RUN_TEST(test_session_new_on_the_largest_edited_page_is_undone_from_the_spare_page);
-    RUN_TEST(test_session_damaged_page_is_shown_and_named);
-    RUN_TEST(test_session_empty_pages);
-    RUN_TEST(test_session_trim_follows_master_and_slave);
-    RUN_TEST(test_session_cursor_moves_as_in_the_original);
-    return UNITY_END();
 }

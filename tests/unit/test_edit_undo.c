@@ -43,10 +43,6 @@ void setUp(void)
     undo_clear(&undo);
 }
 
-void tearDown(void)
-{
-}
-
 static void test_undo_nothing_to_undo_or_redo_at_first(void)
 {
     TEST_ASSERT_FALSE(undo_back(&undo, &target));
@@ -282,22 +278,4 @@ static void test_undo_random_commands_come_back_in_order(void)
         TEST_ASSERT_EQUAL_UINT8(0, back);
         TEST_ASSERT_EQUAL_UINT16(last, sum());
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_undo_nothing_to_undo_or_redo_at_first);
-    RUN_TEST(test_undo_takes_one_command_back_and_forth);
-    RUN_TEST(test_undo_command_without_change_keeps_what_can_be_redone);
-    RUN_TEST(test_undo_new_command_ends_redo);
-    RUN_TEST(test_undo_a_byte_changed_twice_comes_back);
-    RUN_TEST(test_undo_turn_alone_is_a_command);
-    RUN_TEST(test_undo_too_large_a_command_ends_the_history);
-    RUN_TEST(test_undo_full_page_of_18_joints_fits);
-    RUN_TEST(test_undo_long_run_of_neighbours_comes_back);
-    RUN_TEST(test_undo_scattered_bytes_fit);
-    RUN_TEST(test_undo_eight_steps_of_18_joints_are_kept);
-    RUN_TEST(test_undo_random_commands_come_back_in_order);
-    return UNITY_END();
 }

@@ -4,14 +4,6 @@
 #include "fix.h"
 #include "unity.h"
 
-void setUp(void)
-{
-}
-
-void tearDown(void)
-{
-}
-
 static void test_reciprocal_of_every_number_of_ticks(void)
 {
     for (uint32_t ticks = 1; ticks <= UINT16_MAX; ticks++) {
@@ -55,14 +47,4 @@ static void test_ratio_by_chance(void)
             check_ratio(part, whole);
         }
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_reciprocal_of_every_number_of_ticks);
-    RUN_TEST(test_ratio_of_every_small_pair);
-    RUN_TEST(test_ratio_of_large_pairs);
-    RUN_TEST(test_ratio_by_chance);
-    return UNITY_END();
 }

@@ -46,10 +46,6 @@ void setUp(void)
     is_silent = false;
 }
 
-void tearDown(void)
-{
-}
-
 static void start(uint32_t latency, bool echoes)
 {
     fake_machine_set_latency(latency);
@@ -275,22 +271,4 @@ static void test_no_answer_is_false_however_late_the_computer_is(void)
         }
     }
     TEST_ASSERT_GREATER_THAN(1000, answers);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_answers_are_waited_for_however_late_they_come);
-    RUN_TEST(test_silent_servo_costs_what_the_port_has_been_seen_to_take);
-    RUN_TEST(test_answer_after_the_limit_makes_the_limit_longer);
-    RUN_TEST(test_computer_may_look_as_late_as_it_says_however_fast_answers_were);
-    RUN_TEST(test_goals_leave_while_an_answer_is_awaited);
-    RUN_TEST(test_answer_that_nobody_has_fetched_outlives_the_goals);
-    RUN_TEST(test_voltage_error_is_no_echo);
-    RUN_TEST(test_echo_is_found_out_and_dropped);
-    RUN_TEST(test_port_that_goes_fails_at_once_and_says_so_once);
-    RUN_TEST(test_packet_is_news_when_it_has_left);
-    RUN_TEST(test_no_answer_is_false_however_late_the_computer_is);
-    RUN_TEST(test_rates_are_those_of_the_divisors);
-    return UNITY_END();
 }

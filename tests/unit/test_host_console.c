@@ -81,13 +81,3 @@ static void test_a_program_does_not_rest_while_its_output_waits(void)
     TEST_ASSERT_FALSE(has_rested());
     TEST_ASSERT_TRUE(has_rested());
 }
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_no_more_is_fetched_at_once_than_comes_behind_an_xoff);
-    RUN_TEST(test_nothing_is_fetched_between_xoff_and_xon);
-    RUN_TEST(test_a_program_rests_once_its_input_is_taken_and_until_more_comes);
-    RUN_TEST(test_a_program_does_not_rest_while_its_output_waits);
-    return UNITY_END();
-}

@@ -17,10 +17,6 @@ void setUp(void)
     count = 0;
 }
 
-void tearDown(void)
-{
-}
-
 static void hear(const uint8_t *bytes, uint16_t size)
 {
     for (uint16_t i = 0; i < size; i++) {
@@ -85,15 +81,4 @@ static void test_packets_that_never_come_back_are_forgotten(void)
     hear(ping, sizeof ping);
     TEST_ASSERT_EQUAL(0, count);
     TEST_ASSERT_EQUAL(0, echo.count);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_echo_is_dropped_and_the_answer_passes);
-    RUN_TEST(test_answer_between_two_echoes_passes);
-    RUN_TEST(test_damaged_echo_is_noise_and_hides_nothing);
-    RUN_TEST(test_begun_echo_is_given_up_when_the_line_is_quiet);
-    RUN_TEST(test_packets_that_never_come_back_are_forgotten);
-    return UNITY_END();
 }

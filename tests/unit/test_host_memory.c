@@ -30,10 +30,6 @@ void setUp(void)
     }
 }
 
-void tearDown(void)
-{
-}
-
 /* Starts the program as firmware/host/main.c does. */
 static journal_result_t begin(void)
 {
@@ -165,16 +161,4 @@ static void test_what_is_no_page_is_not_written(void)
     TEST_ASSERT_EQUAL(FLASH_ERR_RANGE, flash_write(TARGET_FLASH_END / FLASH_PAGE_BYTES, bytes, sizeof bytes));
     TEST_ASSERT_EQUAL(FLASH_ERR_RANGE, flash_write(0, bytes, sizeof bytes));
     TEST_ASSERT_EQUAL(0, fake_machine_writes());
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_new_robot_has_empty_pages);
-    RUN_TEST(test_what_is_saved_is_there_the_next_time);
-    RUN_TEST(test_a_power_cut_at_any_write_leaves_the_old_page_or_the_new_one);
-    RUN_TEST(test_a_power_cut_at_any_byte_leaves_the_old_settings_or_the_new_ones);
-    RUN_TEST(test_a_power_cut_after_two_saves_in_one_motion_leaves_one_of_them);
-    RUN_TEST(test_what_is_no_page_is_not_written);
-    return UNITY_END();
 }

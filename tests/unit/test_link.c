@@ -24,10 +24,6 @@ void setUp(void)
     link_call(&l, CODE_U);
 }
 
-void tearDown(void)
-{
-}
-
 static void expect(uint8_t page, link_taken_t how)
 {
     TEST_ASSERT_EQUAL_UINT8(page, link_decide(&l, 1, header, &taken));
@@ -228,34 +224,4 @@ static void test_link_button_that_called_does_not_undo_a_stop_that_comes_at_once
     link_code(&l, LINK_CODE_STOP);
     link_code(&l, CODE_U);   /* the second packet of the press */
     expect(EXIT, LINK_EXIT);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_link_own_code_follows_next);
-    RUN_TEST(test_link_called_by_number_follows_next);
-    RUN_TEST(test_link_other_code_without_link_follows_next);
-    RUN_TEST(test_link_code_of_linked_page_1_is_followed);
-    RUN_TEST(test_link_code_of_linked_page_2_is_followed);
-    RUN_TEST(test_link_page_1_wins_over_page_2_and_over_next);
-    RUN_TEST(test_link_code_0_in_a_page_is_an_unused_link);
-    RUN_TEST(test_link_stop_wins_over_everything);
-    RUN_TEST(test_link_0_ends_the_play);
-    RUN_TEST(test_link_latch_keeps_the_last_code_after_release);
-    RUN_TEST(test_link_latch_keeps_a_code_until_another_one_comes);
-    RUN_TEST(test_link_hold_release_is_stop);
-    RUN_TEST(test_link_hold_played_by_number_goes_on_without_any_remote);
-    RUN_TEST(test_link_stop_stays_in_force_on_the_exit_page);
-    RUN_TEST(test_link_exit_chain_that_comes_back_ends);
-    RUN_TEST(test_link_exit_to_itself_ends);
-    RUN_TEST(test_link_exit_chain_of_127_pages_is_followed_to_its_end);
-    RUN_TEST(test_link_another_code_replaces_a_stop);
-    RUN_TEST(test_link_repeated_packets_of_a_held_button_do_not_undo_a_stop);
-    RUN_TEST(test_link_serial_stop_stays_until_a_new_call);
-    RUN_TEST(test_link_second_stop_starts_with_fresh_exits);
-    RUN_TEST(test_link_end_follows_no_link_until_a_new_call);
-    RUN_TEST(test_link_of_stop_and_end_the_last_one_counts);
-    RUN_TEST(test_link_button_that_called_does_not_undo_a_stop_that_comes_at_once);
-    return UNITY_END();
 }

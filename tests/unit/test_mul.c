@@ -8,14 +8,6 @@ static const uint16_t words[] = {0, 1, 2, 0x7F, 0x80, 0xFF, 0x100, 0x101, 0x3FF,
 static const uint32_t longs[] = {0, 1, 0xFF, 0x100, 0xFFFF, 0x10000, 0x12345678, 0x7FFFFFF, 0xFFFFFFFF};
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
-void setUp(void)
-{
-}
-
-void tearDown(void)
-{
-}
-
 static void test_two_words(void)
 {
     for (uint8_t i = 0; i < COUNT(words); i++) {
@@ -35,12 +27,4 @@ static void test_long_and_word(void)
             TEST_ASSERT_EQUAL_HEX32(product, mul_u32_u16_shift16(longs[i], words[k]));
         }
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_two_words);
-    RUN_TEST(test_long_and_word);
-    return UNITY_END();
 }

@@ -15,10 +15,6 @@ void setUp(void)
     mux_change(&mux, BIT);
 }
 
-void tearDown(void)
-{
-}
-
 static uint16_t goal(uint16_t from_pos, uint16_t asked_pos)
 {
     return mux_goal(&mux, JOINT, from_pos, asked_pos, MOST, true);
@@ -91,18 +87,4 @@ static void test_mux_speed_keeps_the_fraction(void)
         units = (uint16_t)(units + mux_allow(&speed));
     }
     TEST_ASSERT_UINT16_WITHIN(1, 160, units);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_mux_goes_at_its_speed_until_it_is_there);
-    RUN_TEST(test_mux_meets_a_source_that_passes_it);
-    RUN_TEST(test_mux_does_not_meet_a_source_that_is_on_the_other_side_from_the_beginning);
-    RUN_TEST(test_mux_waits_for_a_source_that_may_not_be_met);
-    RUN_TEST(test_mux_moves_nothing_in_a_pause);
-    RUN_TEST(test_mux_leads_a_joint_back_from_outside_the_range);
-    RUN_TEST(test_mux_forgets);
-    RUN_TEST(test_mux_speed_keeps_the_fraction);
-    return UNITY_END();
 }

@@ -9,10 +9,6 @@ void setUp(void)
     page_clear(page);
 }
 
-void tearDown(void)
-{
-}
-
 /* The empty page of PAGE_FORMAT.md, field by field. Its sum without byte 31: 1 + 0x0A + 32 + 32 + 31 * 0x55 +
  * 7 * 31 * 0x40 = 75 + 2635 + 13888 = 16598 = 0x40D6; so byte 31 is 0xFF - 0xD6 = 0x29. */
 static void test_page_clear_makes_the_documented_empty_page(void)
@@ -123,19 +119,4 @@ static void test_page_is_playable_needs_steps_and_a_count(void)
     TEST_ASSERT_TRUE(page_is_playable(page));
     page[PAGE_AT_PLAY_COUNT] = 0;
     TEST_ASSERT_FALSE(page_is_playable(page));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_page_clear_makes_the_documented_empty_page);
-    RUN_TEST(test_page_sum_adds_modulo_256_and_continues);
-    RUN_TEST(test_page_check_finds_a_changed_byte);
-    RUN_TEST(test_page_check_reports_the_first_fault_in_documented_order);
-    RUN_TEST(test_page_check_takes_a_link_above_127_for_none);
-    RUN_TEST(test_page_check_ignores_positions_of_steps_not_used);
-    RUN_TEST(test_page_position_flags_release_the_joint_whatever_is_below);
-    RUN_TEST(test_page_words_are_little_endian_at_documented_places);
-    RUN_TEST(test_page_is_playable_needs_steps_and_a_count);
-    return UNITY_END();
 }

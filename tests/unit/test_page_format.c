@@ -41,10 +41,6 @@ void setUp(void)
     read_dump();
 }
 
-void tearDown(void)
-{
-}
-
 static void test_page_format_dump_is_a_good_page(void)
 {
     TEST_ASSERT_EQUAL(PAGE_OK, page_check(dump));
@@ -70,12 +66,4 @@ static void test_page_format_dump_is_what_page_c_builds(void)
     page[PAGE_AT_STEP0 + PAGE_STEP_BYTES + PAGE_STEP_AT_SPEED] = 64;
     page_seal(page);
     TEST_ASSERT_EQUAL_HEX8_ARRAY(page, dump, PAGE_BYTES);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_page_format_dump_is_a_good_page);
-    RUN_TEST(test_page_format_dump_is_what_page_c_builds);
-    return UNITY_END();
 }

@@ -26,8 +26,6 @@ void setUp(void)
     }
 }
 
-void tearDown(void) {}
-
 static uint8_t *boot(void)
 {
     return fake_boot_call_flash() + MEM_BOOT_START;
@@ -205,23 +203,4 @@ static void test_what_became_of_a_mailbox_is_told_once(void)
         TEST_ASSERT_EQUAL(cases[i].mail, page_service_mail());
         TEST_ASSERT_EQUAL(PAGE_SERVICE_MAIL_NONE, page_service_mail());
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_an_empty_boot_section_is_nobody);
-    RUN_TEST(test_our_signature_is_our_loader);
-    RUN_TEST(test_a_later_version_of_the_table_is_still_ours);
-    RUN_TEST(test_a_table_without_the_service_is_not);
-    RUN_TEST(test_the_factory_loader_is_known_by_its_sums);
-    RUN_TEST(test_one_bit_off_is_not_the_factory_loader);
-    RUN_TEST(test_swapped_bytes_are_not_the_factory_loader);
-    RUN_TEST(test_ranges_are_checked_before_anyone_is_called);
-    RUN_TEST(test_results_are_translated);
-    RUN_TEST(test_the_mailbox_is_filled_as_section_7a_says);
-    RUN_TEST(test_pages_above_127_are_not_posted);
-    RUN_TEST(test_a_cut_before_the_end_posts_nothing);
-    RUN_TEST(test_what_became_of_a_mailbox_is_told_once);
-    return UNITY_END();
 }

@@ -34,10 +34,6 @@ void setUp(void)
     memset(&store, 0xEE, sizeof store);
 }
 
-void tearDown(void)
-{
-}
-
 static void test_good_pages_are_found_at_the_ends_and_across_64_KiB(void)
 {
     put(0, "Offset", 0, 0);
@@ -189,20 +185,4 @@ static void test_source_serves_the_player(void)
     TEST_ASSERT_EQUAL(3, bytes[0]);
     TEST_ASSERT_EQUAL(PAGE_OK, store.source.check(store.source.context, 16));
     TEST_ASSERT_EQUAL(PAGE_ERR_CHECKSUM, store.source.check(store.source.context, 17));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_good_pages_are_found_at_the_ends_and_across_64_KiB);
-    RUN_TEST(test_watchdog_is_kicked_while_pages_are_checked);
-    RUN_TEST(test_check_names_the_fault_as_page_check_does);
-    RUN_TEST(test_refresh_follows_a_save);
-    RUN_TEST(test_erased_is_not_damaged);
-    RUN_TEST(test_names_end_at_the_first_odd_byte);
-    RUN_TEST(test_find_by_name_skips_bad_pages_and_goes_on);
-    RUN_TEST(test_find_by_code_takes_the_lowest_playable_good_page);
-    RUN_TEST(test_trim_is_signed_and_unused_words_are_none);
-    RUN_TEST(test_source_serves_the_player);
-    return UNITY_END();
 }

@@ -20,14 +20,6 @@ typedef struct {
 
 #include "page_vectors.h"
 
-void setUp(void)
-{
-}
-
-void tearDown(void)
-{
-}
-
 static void test_page_check_names_the_fault_of_every_vector(void)
 {
     for (unsigned i = 0; i < sizeof page_vectors / sizeof page_vectors[0]; i++) {
@@ -52,13 +44,4 @@ static void test_page_words_read_as_every_vector_says(void)
             TEST_ASSERT_EQUAL_MESSAGE(expect->used, page_pos_is_used(word), page_vectors[i].name);
         }
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_page_check_names_the_fault_of_every_vector);
-    RUN_TEST(test_page_playable_as_every_vector_says);
-    RUN_TEST(test_page_words_read_as_every_vector_says);
-    return UNITY_END();
 }

@@ -268,28 +268,3 @@ static void test_performer_move_goes_there_and_touches_nobody_else(void)
     TEST_ASSERT_EQUAL_UINT16(512, fake_servo_link.pose_pos[1]);
     TEST_ASSERT_EQUAL_UINT8(PERFORMER_END_THERE, end_reason());
 }
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_performer_start_refuses_what_cannot_be_played);
-    RUN_TEST(test_performer_start_refuses_without_servos);
-    RUN_TEST(test_performer_start_refuses_a_second_play);
-    RUN_TEST(test_performer_asks_one_servo_at_a_time_and_moves_nobody_meanwhile);
-    RUN_TEST(test_performer_approach_keeps_to_the_speed_limit);
-    RUN_TEST(test_performer_approach_begins_outside_the_range);
-    RUN_TEST(test_performer_needs_no_approach_when_it_is_there);
-    RUN_TEST(test_performer_without_approach_plays_from_the_present_pose);
-    RUN_TEST(test_performer_drives_only_who_is_there_and_used);
-    RUN_TEST(test_performer_leaves_alone_who_was_switched_off);
-    RUN_TEST(test_performer_sends_the_compliance_of_the_page);
-    RUN_TEST(test_performer_tells_steps_links_and_the_end);
-    RUN_TEST(test_performer_counts_repetitions);
-    RUN_TEST(test_performer_names_the_damaged_page_a_link_leads_to);
-    RUN_TEST(test_performer_full_queue_keeps_the_end);
-    RUN_TEST(test_performer_queue_full_of_faults_keeps_the_end);
-    RUN_TEST(test_performer_off_takes_a_joint_out_of_the_play);
-    RUN_TEST(test_performer_on_waits_for_the_end_of_a_play);
-    RUN_TEST(test_performer_move_goes_there_and_touches_nobody_else);
-    return UNITY_END();
-}

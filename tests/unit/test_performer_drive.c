@@ -143,20 +143,3 @@ static void test_joint_is_not_taken_for_code_while_a_break_slows_down(void)
     reach(PERFORMER_IDLE);
     TEST_ASSERT_EQUAL(LAYERS_OK, performer_take_for_code(&performer, 2));
 }
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_drive_sets_all_three);
-    RUN_TEST(test_drive_that_falls_silent_ends_through_the_exit_page);
-    RUN_TEST(test_drive_again_and_again_goes_on);
-    RUN_TEST(test_drive_without_watchdog_goes_on);
-    RUN_TEST(test_drive_lost_on_the_way_to_the_first_pose_breaks);
-    RUN_TEST(test_what_drive_has_set_ends_with_the_play);
-    RUN_TEST(test_drive_that_falls_silent_before_a_play_is_over);
-    RUN_TEST(test_rate_set_by_hand_outlives_the_play);
-    RUN_TEST(test_limit_follows_the_voltage);
-    RUN_TEST(test_centre_page_is_that_of_the_settings);
-    RUN_TEST(test_joint_is_not_taken_for_code_while_a_break_slows_down);
-    return UNITY_END();
-}

@@ -270,27 +270,3 @@ static void test_performer_asked_to_end_comes_to_a_stand_first(void)
     TEST_ASSERT_TRUE(ticks_to_end > 1);
     TEST_ASSERT_NOT_EQUAL(0, servos.torque);
 }
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_performer_fault_hold_slows_down_and_holds);
-    RUN_TEST(test_performer_fault_hold_sends_the_faulty_joint_nothing_more);
-    RUN_TEST(test_performer_fault_is_over_when_errors_go_or_torque_comes_back);
-    RUN_TEST(test_performer_fault_limp_goes_on_without_the_joint);
-    RUN_TEST(test_performer_fault_limp_switches_one_joint_off_a_turn);
-    RUN_TEST(test_performer_fault_exit_leaves_through_the_exit_page);
-    RUN_TEST(test_performer_fault_exit_in_a_pause_moves_nothing);
-    RUN_TEST(test_performer_voltage_error_is_told_and_ends_nothing);
-    RUN_TEST(test_performer_fault_of_a_joint_out_of_the_play_ends_nothing);
-    RUN_TEST(test_performer_silent_servo_at_the_start_is_named);
-    RUN_TEST(test_performer_silent_servo_at_the_start_may_be_left_out);
-    RUN_TEST(test_performer_low_battery_is_told_once_a_play);
-    RUN_TEST(test_performer_hot_servo_is_named);
-    RUN_TEST(test_performer_ticks_late_by_less_than_a_tenth_of_a_second_are_only_counted);
-    RUN_TEST(test_performer_tick_late_by_a_tenth_of_a_second_breaks_softly_and_says_so);
-    RUN_TEST(test_performer_late_tick_of_a_robot_that_stands_is_nothing);
-    RUN_TEST(test_performer_bus_that_goes_ends_the_play_and_nobody_is_driven_before_on);
-    RUN_TEST(test_performer_asked_to_end_comes_to_a_stand_first);
-    return UNITY_END();
-}

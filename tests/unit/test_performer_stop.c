@@ -222,24 +222,3 @@ static void test_performer_stop_code_twice_is_a_break(void)
     ticks(40);
     TEST_ASSERT_EQUAL_UINT8(PERFORMER_END_BROKEN, end_reason());
 }
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_performer_stop_goes_through_the_exit_page);
-    RUN_TEST(test_performer_second_stop_within_a_second_is_a_break);
-    RUN_TEST(test_performer_second_stop_after_a_second_is_a_stop);
-    RUN_TEST(test_performer_break_slows_down_and_holds);
-    RUN_TEST(test_performer_stop_during_the_approach_ends_there);
-    RUN_TEST(test_performer_break_while_getting_ready_moves_nothing);
-    RUN_TEST(test_performer_pause_holds_and_resume_goes_on);
-    RUN_TEST(test_performer_pause_during_the_approach);
-    RUN_TEST(test_performer_stop_ends_a_pause);
-    RUN_TEST(test_performer_idle_has_nothing_to_stop);
-    RUN_TEST(test_performer_end_follows_no_link);
-    RUN_TEST(test_performer_code_takes_the_linked_page);
-    RUN_TEST(test_performer_hold_mode_stops_when_the_hand_lets_go);
-    RUN_TEST(test_performer_hold_mode_let_go_during_the_approach);
-    RUN_TEST(test_performer_stop_code_twice_is_a_break);
-    return UNITY_END();
-}

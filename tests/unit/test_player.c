@@ -192,19 +192,3 @@ static void test_player_classic_speed_wraps_before_it_is_limited(void)
     int32_t way = ((carried + (change >> 1)) * 1 * 144 / 15) >> 9;
     TEST_ASSERT_EQUAL_UINT16(900 + way, player_goal(&player, 0));
 }
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_player_exact_time_base_takes_time_ticks_and_ends_with_the_last_output);
-    RUN_TEST(test_player_exact_speed_base_takes_the_time_of_the_longest_way);
-    RUN_TEST(test_player_exact_carries_fractions_of_ticks);
-    RUN_TEST(test_player_exact_plays_steps_of_one_and_two_ticks);
-    RUN_TEST(test_player_pause_scales_with_the_schedule);
-    RUN_TEST(test_player_exact_runs_through_a_way_point_on_its_way);
-    RUN_TEST(test_player_exact_stands_at_a_turning_point_a_pause_and_the_end);
-    RUN_TEST(test_player_exact_joins_repetitions_and_pages_like_steps);
-    RUN_TEST(test_player_exact_mirrors_and_never_overshoots_whatever_the_page);
-    RUN_TEST(test_player_classic_speed_wraps_before_it_is_limited);
-    return UNITY_END();
-}

@@ -31,10 +31,6 @@ void setUp(void)
     link_init(&l, LINK_LATCH);
 }
 
-void tearDown(void)
-{
-}
-
 static void play_to(player_law_t law, uint8_t tick)
 {
     setUp();
@@ -340,22 +336,4 @@ static void test_player_from_outside_the_range_begins_there(void)
 {
     play_from_outside(PLAYER_LAW_EXACT);
     play_from_outside(PLAYER_LAW_CLASSIC);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_player_breaks_at_any_tick_of_exact_without_turning_back);
-    RUN_TEST(test_player_breaks_at_any_tick_of_classic_without_turning_back);
-    RUN_TEST(test_player_exact_goes_on_after_a_pause_in_the_time_left);
-    RUN_TEST(test_player_classic_goes_on_after_a_pause_to_its_end);
-    RUN_TEST(test_player_exact_goes_on_from_any_tick_of_short_steps);
-    RUN_TEST(test_player_classic_without_ramps_ends_after_a_pause_at_any_tick);
-    RUN_TEST(test_player_resume_while_slowing_down_is_not_lost);
-    RUN_TEST(test_player_pause_takes_back_a_resume);
-    RUN_TEST(test_player_break_while_paused_ends_the_play_where_it_stands);
-    RUN_TEST(test_player_break_stops_on_half_the_way_that_its_speed_would_take);
-    RUN_TEST(test_player_break_near_the_end_of_the_range_stays_in_range);
-    RUN_TEST(test_player_from_outside_the_range_begins_there);
-    return UNITY_END();
 }

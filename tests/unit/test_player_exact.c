@@ -30,10 +30,6 @@ void setUp(void)
     link_init(&l, LINK_LATCH);
 }
 
-void tearDown(void)
-{
-}
-
 static unsigned any(unsigned from, unsigned to)
 {
     return from + (unsigned)rand() % (to - from + 1);
@@ -148,11 +144,4 @@ static void test_player_exact_is_what_its_definition_says(void)
         }
         TEST_ASSERT_FALSE(player_is_moving(&player));
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_player_exact_is_what_its_definition_says);
-    return UNITY_END();
 }

@@ -64,10 +64,6 @@ void setUp(void)
     link_init(&l, LINK_LATCH);
 }
 
-void tearDown(void)
-{
-}
-
 /* --- the ideal, from the page's bytes ---------------------------------------------------------------------------- */
 
 static double ideal_step_ticks(const uint8_t *page, unsigned step, unsigned longest_way)
@@ -257,6 +253,8 @@ static void test_player_plays_every_valid_page_of_our_set_by_both_laws(void)
 {
     data_dir = SOURCE_DIR "/tests/samples";
     TEST_ASSERT_TRUE_MESSAGE(load_set(&our_set), SOURCE_DIR "/tests/samples is not whole");
+    printf("%-20s %-8s %5s %8s %8s %6s %10s %8s %9s %8s\n", "set", "law", "plays", "refused", "ticks", "idle", "overshoot",
+           "off goal", "duration", "change");
     play_by_both_laws(&our_set);
 }
 
@@ -276,14 +274,4 @@ static void test_player_plays_every_valid_page_of_real_sets_by_both_laws(void)
     if (found == 0) {
         TEST_IGNORE_MESSAGE("no motion sets of others: M512_SHARED names the folder that has them in data");
     }
-}
-
-int main(void)
-{
-    printf("%-20s %-8s %5s %8s %8s %6s %10s %8s %9s %8s\n", "set", "law", "plays", "refused", "ticks", "idle", "overshoot",
-           "off goal", "duration", "change");
-    UNITY_BEGIN();
-    RUN_TEST(test_player_plays_every_valid_page_of_our_set_by_both_laws);
-    RUN_TEST(test_player_plays_every_valid_page_of_real_sets_by_both_laws);
-    return UNITY_END();
 }

@@ -279,22 +279,3 @@ static void test_player_link_above_127_counts_as_none(void)
     }
     link_to(PLAYER_LAW_EXACT, 127, 127, PAGE_ERR_CHECKSUM);
 }
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_player_unused_joint_keeps_its_target_and_starts_from_there);
-    RUN_TEST(test_player_absent_joint_is_never_touched_nor_timed);
-    RUN_TEST(test_player_does_not_move_an_absent_joint);
-    RUN_TEST(test_player_dropped_joint_keeps_its_goal);
-    RUN_TEST(test_player_dropped_joint_does_not_move_on);
-    RUN_TEST(test_player_first_pose_tells_the_joints_of_step_1);
-    RUN_TEST(test_player_refuses_what_cannot_be_played);
-    RUN_TEST(test_player_plays_a_page_play_count_times_before_its_link);
-    RUN_TEST(test_player_stop_ends_the_repetitions_through_the_exit_page);
-    RUN_TEST(test_player_code_that_comes_during_the_step_before_the_last_counts);
-    RUN_TEST(test_player_passes_pages_with_play_count_0);
-    RUN_TEST(test_player_link_above_127_counts_as_none);
-    RUN_TEST(test_player_ends_standing_before_a_page_that_cannot_be_played);
-    return UNITY_END();
-}

@@ -23,8 +23,6 @@ void setUp(void)
     }
 }
 
-void tearDown(void) {}
-
 static uint16_t start(uint16_t limit_deg_s)
 {
     return player_move(&player, from, ALL_JOINTS, limit_deg_s);
@@ -249,21 +247,4 @@ static void test_player_move_from_outside_the_range_begins_there(void)
             }
         }
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_player_move_takes_the_time_of_the_longest_way);
-    RUN_TEST(test_player_move_of_all_joints_ends_together_and_exactly);
-    RUN_TEST(test_player_move_is_slow_at_both_ends);
-    RUN_TEST(test_player_move_mirrored_motion_is_mirrored);
-    RUN_TEST(test_player_move_needs_no_time_when_it_is_near);
-    RUN_TEST(test_player_move_leaves_other_joints_alone);
-    RUN_TEST(test_player_move_at_the_slowest_and_the_fastest);
-    RUN_TEST(test_player_move_break_slows_down_without_turning_back);
-    RUN_TEST(test_player_move_break_near_the_end_goes_on_to_it);
-    RUN_TEST(test_player_move_pause_anywhere_keeps_limit_and_target);
-    RUN_TEST(test_player_move_from_outside_the_range_begins_there);
-    return UNITY_END();
 }

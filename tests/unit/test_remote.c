@@ -19,8 +19,6 @@ void setUp(void)
     packets = 0;
 }
 
-void tearDown(void) {}
-
 static void take(remote_event_t event)
 {
     if (event == REMOTE_PACKET) {
@@ -215,27 +213,4 @@ static void test_remote_act_follows_the_code_table(void)
     for (uint16_t chord = 0; chord < 512; chord++) {
         TEST_ASSERT_EQUAL_UINT8(REMOTE_ACT_STOP, remote_act(REMOTE_BUTTON6 | chord, &code));
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_remote_good_packet_gives_buttons);
-    RUN_TEST(test_remote_high_byte_holds_buttons_5_and_6);
-    RUN_TEST(test_remote_release_is_a_packet_of_0);
-    RUN_TEST(test_remote_text_passes);
-    RUN_TEST(test_remote_packet_in_the_middle_of_a_word_splits_nothing);
-    RUN_TEST(test_remote_text_may_hold_0x55);
-    RUN_TEST(test_remote_wrong_complement_is_dropped);
-    RUN_TEST(test_remote_torn_packet_does_not_cost_the_next);
-    RUN_TEST(test_remote_lost_byte_does_not_cost_the_next);
-    RUN_TEST(test_remote_u_typed_right_behind_a_packet_is_text);
-    RUN_TEST(test_remote_text_behind_a_packet_that_ends_without_ff);
-    RUN_TEST(test_remote_bytes_above_0x7f_outside_packets_are_typed_as_question_marks);
-    RUN_TEST(test_remote_run_of_ff_before_packet);
-    RUN_TEST(test_remote_lone_ff_costs_no_text);
-    RUN_TEST(test_remote_quiet_gives_up_an_unfinished_packet);
-    RUN_TEST(test_remote_every_word_is_heard);
-    RUN_TEST(test_remote_act_follows_the_code_table);
-    return UNITY_END();
 }

@@ -14,10 +14,6 @@ void setUp(void)
     memset(storage, 0xEE, sizeof storage);
 }
 
-void tearDown(void)
-{
-}
-
 static void test_small_ring_holds_all_its_bytes_and_refuses_the_next(void)
 {
     uint8_t byte = 0x77;
@@ -105,16 +101,4 @@ static void test_ring_peek_shows_the_next_byte_and_leaves_it(void)
     TEST_ASSERT_TRUE(ring_peek(&own, &byte));
     TEST_ASSERT_EQUAL_UINT8(1, byte);
     TEST_ASSERT_EQUAL_UINT8(2, ring_count(&own));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_small_ring_holds_all_its_bytes_and_refuses_the_next);
-    RUN_TEST(test_ring_of_256_holds_255);
-    RUN_TEST(test_bytes_keep_their_order_over_many_turns);
-    RUN_TEST(test_clear_drops_what_waits);
-    RUN_TEST(test_contact_counts_after_enough_equal_samples);
-    RUN_TEST(test_ring_peek_shows_the_next_byte_and_leaves_it);
-    return UNITY_END();
 }

@@ -250,26 +250,3 @@ static void test_servo_lock_leaves_only_24_to_35_open(void)
     TEST_ASSERT_EQUAL_HEX8(0, put(SERVO_GOAL, 600, 2));
     TEST_ASSERT_EQUAL_HEX8(0, put(SERVO_TORQUE_LIMIT, 900, 2));
 }
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_servo_nothing_moves_at_power_on);
-    RUN_TEST(test_servo_moves_at_the_moving_speed);
-    RUN_TEST(test_servo_speed_0_is_as_fast_as_the_supply_allows);
-    RUN_TEST(test_servo_lags_behind_a_ramp_by_slope_times_speed);
-    RUN_TEST(test_servo_result_does_not_depend_on_who_looks);
-    RUN_TEST(test_servo_without_torque_goes_where_the_hand_puts_it);
-    RUN_TEST(test_servo_a_goal_switches_torque_on);
-    RUN_TEST(test_servo_goal_outside_the_angle_limits_is_an_error_and_ends_at_the_limit);
-    RUN_TEST(test_servo_both_limits_0_is_endless_turn);
-    RUN_TEST(test_servo_blocked_for_a_second_is_overload_and_shuts_down);
-    RUN_TEST(test_servo_after_overload_torque_limit_and_enable_must_be_written);
-    RUN_TEST(test_servo_load_makes_it_droop_and_shows);
-    RUN_TEST(test_servo_each_direction_has_its_own_slope);
-    RUN_TEST(test_servo_long_stall_heats);
-    RUN_TEST(test_servo_voltage_is_shown_in_tenths_and_watched);
-    RUN_TEST(test_servo_power_cycle_keeps_eeprom_and_loses_ram);
-    RUN_TEST(test_servo_lock_leaves_only_24_to_35_open);
-    return UNITY_END();
-}

@@ -344,35 +344,3 @@ static void test_servo_bus_packet_at_once_is_the_same_as_byte_by_byte(void)
     wire_close(&whole);
     wire_close(&bytes);
 }
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_servo_bus_ping_is_answered);
-    RUN_TEST(test_servo_bus_answer_starts_after_the_return_delay);
-    RUN_TEST(test_servo_bus_return_delay_0_answers_within_20_us);
-    RUN_TEST(test_servo_bus_next_event_is_the_end_of_the_next_byte);
-    RUN_TEST(test_servo_bus_read_temperature);
-    RUN_TEST(test_servo_bus_read_of_model_and_whole_table);
-    RUN_TEST(test_servo_bus_read_past_the_table_is_a_range_error);
-    RUN_TEST(test_servo_bus_write_goal_and_speed);
-    RUN_TEST(test_servo_bus_write_of_a_wrong_value_changes_nothing);
-    RUN_TEST(test_servo_bus_wrong_checksum_is_reported);
-    RUN_TEST(test_servo_bus_unknown_instruction_and_action_alone_are_instruction_errors);
-    RUN_TEST(test_servo_bus_registered_write_waits_for_action);
-    RUN_TEST(test_servo_bus_broadcast_is_never_answered_but_ping);
-    RUN_TEST(test_servo_bus_new_id_holds_after_the_answer);
-    RUN_TEST(test_servo_bus_reset_restores_what_was_shipped);
-    RUN_TEST(test_servo_bus_return_level_1_answers_reads_and_0_only_ping);
-    RUN_TEST(test_servo_bus_sync_write_reaches_each_servo);
-    RUN_TEST(test_servo_bus_packet_of_143_bytes_is_taken_and_a_longer_one_lost);
-    RUN_TEST(test_servo_bus_dx117_ignores_sync_write_and_takes_registered_writes);
-    RUN_TEST(test_servo_bus_wrong_rate_is_garbage);
-    RUN_TEST(test_servo_bus_baud_change_holds_after_the_answer);
-    RUN_TEST(test_servo_bus_a_gap_of_100_us_is_borne_and_a_longer_one_drops_the_packet);
-    RUN_TEST(test_servo_bus_noise_before_the_header_is_skipped);
-    RUN_TEST(test_servo_bus_controller_talking_into_an_answer_spoils_both);
-    RUN_TEST(test_servo_bus_reports_each_good_packet_of_the_controller);
-    RUN_TEST(test_servo_bus_packet_at_once_is_the_same_as_byte_by_byte);
-    return UNITY_END();
-}

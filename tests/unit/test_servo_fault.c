@@ -154,20 +154,3 @@ static void test_servo_fault_names_are_found(void)
     TEST_ASSERT_EQUAL_INT(SERVO_FAULTS, servo_fault_by_name("tired"));
     TEST_ASSERT_EQUAL_INT(SERVO_FAULTS, servo_fault_by_name("silen"));
 }
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_servo_fault_silent_obeys_without_answering_for_so_many_answers);
-    RUN_TEST(test_servo_fault_dead_is_unplugged_and_comes_back_limp);
-    RUN_TEST(test_servo_fault_duplicate_spoils_the_answer_until_cleared);
-    RUN_TEST(test_servo_fault_checksum_is_wrong_once);
-    RUN_TEST(test_servo_fault_noise_goes_before_the_answer);
-    RUN_TEST(test_servo_fault_late_answers_after_20_ms_more);
-    RUN_TEST(test_servo_fault_short_ends_in_the_middle);
-    RUN_TEST(test_servo_fault_two_talkers_spoil_the_answer_of_another);
-    RUN_TEST(test_servo_fault_alarms_show_in_the_error_byte_and_cut_torque);
-    RUN_TEST(test_servo_fault_stray_bytes_in_the_middle_of_an_answer_spoil_it);
-    RUN_TEST(test_servo_fault_names_are_found);
-    return UNITY_END();
-}

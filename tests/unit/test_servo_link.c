@@ -250,27 +250,3 @@ static void test_torque_off_and_engage_name_who_did_not_obey(void)
     TEST_ASSERT_FALSE(servo_link_engage(&servos, 1, &pos));
     (void)engaged_at(2);
 }
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_scan_tells_fast_slow_and_absent_apart);
-    RUN_TEST(test_scan_changes_nothing_in_a_servo);
-    RUN_TEST(test_scan_finds_the_deaf_and_the_taciturn);
-    RUN_TEST(test_servo_in_endless_turn_is_named_and_left_alone);
-    RUN_TEST(test_slow_servos_are_named_and_left_alone);
-    RUN_TEST(test_torque_on_makes_the_present_pose_the_goal_first);
-    RUN_TEST(test_torque_on_leaves_those_alone_that_hold_already);
-    RUN_TEST(test_servo_that_does_not_tell_its_pose_stays_off);
-    RUN_TEST(test_torque_off_reaches_the_deaf_too);
-    RUN_TEST(test_engage_knows_where_a_trimmed_servo_stands);
-    RUN_TEST(test_engage_takes_back_a_speed_limit);
-    RUN_TEST(test_engage_stops_a_servo_that_a_single_move_still_drives);
-    RUN_TEST(test_engage_leaves_a_servo_without_a_speed_limit_where_it_is);
-    RUN_TEST(test_engage_begins_at_the_goal_of_a_servo_that_lags_behind);
-    RUN_TEST(test_torque_stays_off_when_the_goal_cannot_be_set);
-    RUN_TEST(test_goal_that_arrives_at_the_second_try_is_enough);
-    RUN_TEST(test_servo_that_answers_no_write_is_read_back);
-    RUN_TEST(test_torque_off_and_engage_name_who_did_not_obey);
-    return UNITY_END();
-}

@@ -175,18 +175,3 @@ static void test_deaf_servos_that_do_not_fit_into_a_tick_go_on_in_the_next(void)
         TEST_ASSERT_EQUAL(300 + id, fake_bus_word(id, DXL_AT_GOAL));
     }
 }
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_tick_is_one_sync_write_of_the_joints_asked_for);
-    RUN_TEST(test_31_joints_fit_into_one_packet_of_101_bytes);
-    RUN_TEST(test_joints_without_torque_or_presence_are_never_driven);
-    RUN_TEST(test_trim_is_added_and_limited);
-    RUN_TEST(test_slopes_follow_the_goals_once);
-    RUN_TEST(test_only_slopes_that_change_are_sent_and_only_to_joints_with_goals);
-    RUN_TEST(test_slopes_of_31_joints_are_one_packet_in_the_tick_of_their_goals);
-    RUN_TEST(test_deaf_servos_get_reg_write_and_one_action);
-    RUN_TEST(test_deaf_servos_that_do_not_fit_into_a_tick_go_on_in_the_next);
-    return UNITY_END();
-}

@@ -265,26 +265,3 @@ static void test_quiet_keeps_the_bus_free_until_the_next_tick(void)
     idle_ticks(1);
     TEST_ASSERT_EQUAL(1, fake_bus_sent());
 }
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_one_servo_a_tick_is_asked_in_turn);
-    RUN_TEST(test_silent_servo_is_named_once_within_a_second_and_when_it_is_back);
-    RUN_TEST(test_two_lost_answers_are_no_fault);
-    RUN_TEST(test_third_lost_answer_in_a_row_is_a_fault);
-    RUN_TEST(test_joint_that_does_not_tell_its_pose_is_silent_until_it_is_heard);
-    RUN_TEST(test_joint_lost_while_it_is_asked_again_does_not_keep_the_others_waiting);
-    RUN_TEST(test_late_answers_keep_neither_goals_nor_servos_back);
-    RUN_TEST(test_servo_that_is_silent_behind_late_answers_is_named);
-    RUN_TEST(test_servo_that_is_back_gets_its_slopes_again);
-    RUN_TEST(test_servo_that_forgot_its_slopes_before_it_was_missed_gets_them_again);
-    RUN_TEST(test_servo_that_a_command_has_found_again_gets_its_slopes);
-    RUN_TEST(test_servo_with_wrong_checksums_counts_as_silent);
-    RUN_TEST(test_errors_are_named_when_they_come_when_they_go_and_when_they_come_again);
-    RUN_TEST(test_torque_that_goes_off_by_itself_is_named_and_not_driven);
-    RUN_TEST(test_voltage_and_temperature_are_those_of_the_last_round);
-    RUN_TEST(test_live_poses_come_with_the_polls);
-    RUN_TEST(test_quiet_keeps_the_bus_free_until_the_next_tick);
-    return UNITY_END();
-}

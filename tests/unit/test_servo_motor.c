@@ -204,21 +204,3 @@ static void test_without_its_body_a_servo_goes_on_from_where_it_stands(void)
     wire_wait(&wire, 1000 * MS);
     TEST_ASSERT_UINT16_WITHIN(1, 700, register_of(&wire, servo, SERVO_PRESENT, 2));
 }
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_ax12_stalls_at_1_5_nm_and_turns_at_59_rpm_at_12_v);
-    RUN_TEST(test_ax12_goes_with_the_supply);
-    RUN_TEST(test_ax18_stalls_at_1_8_nm_and_turns_at_97_rpm_at_12_v);
-    RUN_TEST(test_torque_limit_bounds_the_torque);
-    RUN_TEST(test_slope_margin_and_punch_make_the_torque_of_an_error);
-    RUN_TEST(test_on_target_it_brakes_and_limp_it_does_not);
-    RUN_TEST(test_moving_speed_holds_against_a_load);
-    RUN_TEST(test_heat_goes_with_the_square_of_the_torque);
-    RUN_TEST(test_full_duty_without_motion_for_a_second_is_overload);
-    RUN_TEST(test_body_is_stepped_1024_times_a_second_and_shows_in_the_registers);
-    RUN_TEST(test_blocked_in_a_body_the_shaft_is_held_as_by_a_hand);
-    RUN_TEST(test_without_its_body_a_servo_goes_on_from_where_it_stands);
-    return UNITY_END();
-}

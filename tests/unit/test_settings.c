@@ -21,10 +21,6 @@ void setUp(void)
     settings_defaults(&settings);
 }
 
-void tearDown(void)
-{
-}
-
 static void save(settings_store_t *to, const settings_t *what)
 {
     settings_save_start(to);
@@ -313,27 +309,4 @@ static void test_pairs_stay_symmetric(void)
     settings_pair(&settings, 1, 1);
     TEST_ASSERT_EQUAL(SETTINGS_NO_PARTNER, settings.pair[1]);
     TEST_ASSERT_EQUAL(SETTINGS_NO_PARTNER, settings.pair[4]);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_crc_of_the_record_has_the_known_answer);
-    RUN_TEST(test_defaults_are_the_documented_ones);
-    RUN_TEST(test_erased_eeprom_gives_defaults);
-    RUN_TEST(test_garbage_gives_defaults_and_says_so);
-    RUN_TEST(test_saved_settings_come_back);
-    RUN_TEST(test_sequence_goes_on_over_its_wrap);
-    RUN_TEST(test_only_the_settings_area_is_written);
-    RUN_TEST(test_damaged_newer_copy_falls_back_to_the_older);
-    RUN_TEST(test_field_out_of_range_is_damage);
-    RUN_TEST(test_record_of_an_older_program_keeps_its_settings);
-    RUN_TEST(test_saving_in_steps_never_blocks_and_ends);
-    RUN_TEST(test_power_cut_at_every_write_leaves_old_or_new);
-    RUN_TEST(test_power_cut_after_a_save_that_followed_at_once_keeps_one_of_them);
-    RUN_TEST(test_first_save_that_is_cut_off_is_no_damage);
-    RUN_TEST(test_copy_under_way_has_no_magic);
-    RUN_TEST(test_items_are_set_within_their_range_only);
-    RUN_TEST(test_pairs_stay_symmetric);
-    return UNITY_END();
 }

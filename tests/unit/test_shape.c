@@ -73,10 +73,6 @@ void setUp(void)
     shape_init(&shape);
 }
 
-void tearDown(void)
-{
-}
-
 /* Joint 0..3 of the shaped step. */
 static uint16_t shaped(uint8_t joint)
 {
@@ -319,23 +315,4 @@ static void test_shape_of_a_step_is_one_however_short_it_is(void)
         expect_one_shape_a_step(PLAYER_LAW_EXACT, ticks, 0);
         expect_one_shape_a_step(PLAYER_LAW_CLASSIC, ticks, 4);
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_shape_neutral_changes_nothing);
-    RUN_TEST(test_shape_amplitude_scales_about_the_centre_pose);
-    RUN_TEST(test_shape_blend_goes_to_the_partner);
-    RUN_TEST(test_shape_blend_and_amplitude_together);
-    RUN_TEST(test_shape_partner_of_another_length_or_damaged_is_not_blended);
-    RUN_TEST(test_shape_without_a_centre_nothing_is_scaled);
-    RUN_TEST(test_shape_clamps_to_the_servos_range);
-    RUN_TEST(test_shape_mirrored_motions_stay_mirrored);
-    RUN_TEST(test_shape_reset_keeps_centre_and_voltage);
-    RUN_TEST(test_shape_rate_is_that_of_both_laws);
-    RUN_TEST(test_shape_limit_stretches_a_step_that_is_too_fast);
-    RUN_TEST(test_shape_rate_never_makes_classic_skip_a_step);
-    RUN_TEST(test_shape_of_a_step_is_one_however_short_it_is);
-    return UNITY_END();
 }

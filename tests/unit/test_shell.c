@@ -235,24 +235,3 @@ static void test_text_prints_numbers(void)
     text_line_end();
     TEST_ASSERT_EQUAL_STRING("0 65535 4294967295 0071023  12 BEEF0A\r\n", out);
 }
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_shell_words_are_separated_by_any_of_five);
-    RUN_TEST(test_shell_line_of_separators_has_no_word);
-    RUN_TEST(test_shell_word_is_ignores_case);
-    RUN_TEST(test_shell_parse_takes_whole_words_only);
-    RUN_TEST(test_shell_run_finds_word_and_abbreviation_in_any_case);
-    RUN_TEST(test_shell_run_wants_the_whole_word);
-    RUN_TEST(test_shell_run_counts_the_arguments);
-    RUN_TEST(test_shell_run_of_an_empty_line_is_ok);
-    RUN_TEST(test_shell_run_takes_the_numbers_that_the_table_names);
-    RUN_TEST(test_shell_take_of_a_word_out_of_range_leaves_the_value_and_names_the_range);
-    RUN_TEST(test_shell_take_of_a_range_below_zero);
-    RUN_TEST(test_shell_take_in_hex_mode_names_the_range_so);
-    RUN_TEST(test_shell_run_keeps_back_what_must_not_be_while_something_moves);
-    RUN_TEST(test_shell_help_prints_one_line);
-    RUN_TEST(test_text_prints_numbers);
-    return UNITY_END();
-}

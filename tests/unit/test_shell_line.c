@@ -167,28 +167,3 @@ static void test_shell_history_keeps_words_whole_and_repeats_once(void)
     keys("\x01\r");
     TEST_ASSERT_EQUAL_STRING("off 1,2", line);
 }
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_shell_echoes_what_is_typed);
-    RUN_TEST(test_shell_cr_lf_and_crlf_each_end_a_line_once);
-    RUN_TEST(test_shell_bs_and_del_delete);
-    RUN_TEST(test_shell_delete_at_the_start_does_nothing);
-    RUN_TEST(test_shell_line_of_full_length_is_taken);
-    RUN_TEST(test_shell_too_long_line_is_refused_not_cut);
-    RUN_TEST(test_shell_ctrl_c_and_ctrl_u_empty_the_line);
-    RUN_TEST(test_shell_escape_sequences_leave_no_trace);
-    RUN_TEST(test_shell_a_lone_escape_takes_no_key_with_it);
-    RUN_TEST(test_shell_a_bracket_typed_after_a_lone_escape_is_a_character);
-    RUN_TEST(test_shell_line_end_breaks_off_an_escape_sequence);
-    RUN_TEST(test_shell_other_controls_and_8_bit_are_ignored);
-    RUN_TEST(test_shell_ctrl_a_recalls_several_lines);
-    RUN_TEST(test_shell_arrows_walk_through_the_history);
-    RUN_TEST(test_shell_recall_stops_at_the_oldest);
-    RUN_TEST(test_shell_recall_without_history_does_nothing);
-    RUN_TEST(test_shell_history_drops_whole_oldest_lines_when_full);
-    RUN_TEST(test_shell_recall_stops_at_the_oldest_of_a_full_history);
-    RUN_TEST(test_shell_history_keeps_words_whole_and_repeats_once);
-    return UNITY_END();
-}

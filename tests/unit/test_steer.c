@@ -71,14 +71,3 @@ static void test_steer_nobody_steers_leaves_the_blend_alone(void)
     hold(REMOTE_UP, 64);
     TEST_ASSERT_EQUAL_INT8(40, performer.shape.blend_percent);
 }
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_steer_left_and_right_steer_to_the_full_in_a_second_and_back);
-    RUN_TEST(test_steer_what_steers_is_no_part_of_the_code);
-    RUN_TEST(test_steer_page_without_partners_is_not_steered);
-    RUN_TEST(test_steer_only_the_setting_drive_steers);
-    RUN_TEST(test_steer_nobody_steers_leaves_the_blend_alone);
-    return UNITY_END();
-}

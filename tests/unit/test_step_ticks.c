@@ -48,10 +48,6 @@ void setUp(void)
     shape_init(&shape);
 }
 
-void tearDown(void)
-{
-}
-
 static uint16_t step_ticks(const length_t *length, const player_step_t *step)
 {
     uint16_t carry = STEP_TICKS_CARRY_START;
@@ -107,12 +103,4 @@ static void test_step_ticks_longest_steps_are_played_whole(void)
         const uint32_t ticks = (uint32_t)length->step_ticks + length->pause_ticks;
         TEST_ASSERT_EQUAL_UINT32_MESSAGE(ticks, play_first_step(length), "ticks");
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_step_ticks_lengths_by_hand);
-    RUN_TEST(test_step_ticks_longest_steps_are_played_whole);
-    return UNITY_END();
 }

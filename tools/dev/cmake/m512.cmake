@@ -148,8 +148,16 @@ function(m512_checked variable)
     set(${variable} ${objects} PARENT_SCOPE)
 endfunction()
 
+# m512_test_main(<test_name>): makes <test_name>_main.c from <test_name>.c in the current folder, the program that runs its tests.
+set(M512_TEST_MAIN ${CMAKE_CURRENT_LIST_DIR}/run_tests.awk)
+function(m512_test_main name)
+    set(test ${CMAKE_CURRENT_SOURCE_DIR}/${name}.c)
+    add_custom_command(OUTPUT ${name}_main.c COMMAND awk -v test=${test} -f ${M512_TEST_MAIN} ${test} > ${name}_main.c
+        DEPENDS ${test} ${M512_TEST_MAIN} VERBATIM)
+endfunction()
+
 # m512_unit_test(<test_name> SOURCES ... [INCLUDES ...] [TARGET_TOO])
-# One Unity program from <test_name>.c in the current folder and the production sources it links.
+# One Unity program from the tests of <test_name>.c in the current folder and the production sources it links.
 # Host world: a ctest under ASan and UBSan. With TARGET_TOO: the AVR world builds the same file as
 # build/firmware/tests/<test_name>.hex, and the host world runs that on the simulated ATmega128 as ctest target.<name>.
 # INCLUDES: folders of headers that the test itself needs beyond M512_CHECKED_INCLUDES.
@@ -159,10 +167,12 @@ function(m512_unit_test name)
     list(TRANSFORM ARG_INCLUDES PREPEND ${CMAKE_SOURCE_DIR}/)
     string(REGEX REPLACE "^test_" "" short ${name})
     m512_unity()
+    set(main ${CMAKE_CURRENT_BINARY_DIR}/${name}_main.c)
     if(M512_AVR)
         if(ARG_TARGET_TOO)
+            m512_test_main(${name})
             list(TRANSFORM ARG_SOURCES PREPEND ${CMAKE_SOURCE_DIR}/)
-            m512_image(${name} BOARD cm5 KIND test DIR tests SOURCES ${name}.c ${ARG_SOURCES}
+            m512_image(${name} BOARD cm5 KIND test DIR tests SOURCES ${main} ${ARG_SOURCES}
                 ${CMAKE_SOURCE_DIR}/tests/unit/target/target_main.c ${CMAKE_SOURCE_DIR}/hal/avr/trap.c)
             target_include_directories(${name} PRIVATE ${ARG_INCLUDES})
             target_compile_definitions(${name} PRIVATE TEST_STRIDE=7)
@@ -171,7 +181,8 @@ function(m512_unit_test name)
         return()
     endif()
     m512_checked(objects ${ARG_SOURCES})
-    add_executable(${name} ${name}.c ${objects})
+    m512_test_main(${name})
+    add_executable(${name} ${main} ${objects})
     target_include_directories(${name} PRIVATE ${M512_CHECKED_INCLUDES} ${ARG_INCLUDES})
     target_compile_definitions(${name} PRIVATE TEST_STRIDE=1)
     target_compile_options(${name} PRIVATE ${M512_WARNINGS} ${M512_SANITIZE})
