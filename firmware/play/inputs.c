@@ -48,6 +48,13 @@ void inputs_code(inputs_t *inputs, uint8_t code)
     }
 }
 
+/* Whether a play in hold mode has heard of no button yet. Then only a press counts: neither the repeated code of a button
+ * that was down before a typed play, nor its release. */
+static bool awaits_press(const link_t *link)
+{
+    return link->mode == LINK_HOLD && link->held_code == LINK_CODE_NONE;
+}
+
 /* down: the buttons that a source holds now. code: their code. A running play takes every code. A play starts only on a
  * press: the buttons have changed, and one of them was up during the last play or stop. So a held button, or a chord that
  * is released finger by finger, does not restart a stopped play or revive one that is stopping. */
@@ -55,10 +62,11 @@ static void take_buttons(inputs_t *inputs, inputs_held_t *held, uint8_t down, ui
 {
     const bool are_new = (down & ~held->spent) != 0;
     const bool pressed = down != held->down && are_new;
-    const bool is_stopping = link_is_stopping(&inputs->performer->link);
+    const link_t *link = &inputs->performer->link;
+    const bool is_heard = awaits_press(link) ? pressed : down == 0 || are_new || !link_is_stopping(link);
     held->down = down;
     held->spent &= down;
-    if (performer_is_idle(inputs->performer) ? pressed : down == 0 || are_new || !is_stopping) {
+    if (performer_is_idle(inputs->performer) ? pressed : is_heard) {
         inputs_code(inputs, code);
     }
     if (!performer_is_idle(inputs->performer)) {
@@ -223,7 +231,8 @@ void inputs_tick(inputs_t *inputs)
         inputs->remote_act = REMOTE_ACT_CODE;
         inputs->remote_held.down = 0;
         inputs->remote_held.spent = 0;
-        if (was_held && inputs->performer->link.mode == LINK_HOLD) {
+        const link_t *link = &inputs->performer->link;
+        if (was_held && link->mode == LINK_HOLD && link->held_code != LINK_CODE_NONE) {
             inputs_code(inputs, LINK_CODE_NONE);
         }
     }

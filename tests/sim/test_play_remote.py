@@ -3,7 +3,7 @@
 
 import pytest
 
-from tests.sim.play_robot import JOINTS, LEFT, STOP, UP, ask, press_start, robot
+from tests.sim.play_robot import DOWN, JOINTS, LEFT, STOP, UP, ask, press_start, robot
 
 BUTTON_1 = 16  # bow
 REPEAT_MS = 50
@@ -162,6 +162,31 @@ def test_letting_go_of_a_steering_button_starts_nothing():
     hold(board, UP | LEFT, 1000)
     board.send("break\r")
     assert starts(hold(board, UP | LEFT, 1000) + hold(board, UP, 1000)) == 0
+
+
+# --- a typed play, while a button is down ---
+
+
+@pytest.mark.parametrize("after", ["release", "silence"])
+def test_letting_go_of_a_button_from_before_does_not_stop_a_typed_play(after):
+    board = robot()
+    ask(board, "remote hold")
+    assert "No page has code 2" in hold(board, DOWN, 200)
+    board.send("play 4\r")
+    hold(board, DOWN, 5000)
+    if after == "release":
+        hold(board, 0, 500)
+    board.run(ms=5000)
+    assert ask(board, "status").startswith("Playing page 4 (walk)")
+
+
+def test_letting_go_of_a_button_pressed_in_a_typed_play_stops_it():
+    board = robot()
+    ask(board, "remote hold")
+    hold(board, DOWN, 200)
+    board.send("play 4\r")
+    text = hold(board, DOWN, 5000) + hold(board, DOWN | LEFT, 500) + hold(board, 0, 8000)
+    assert "Stopped after page 5 (walk stop)" in text
 
 
 # --- releasing the buttons of a chord one by one after a stop ---

@@ -29,14 +29,17 @@ performer_status_t performer_start(performer_t *p, uint8_t page, uint8_t code)
     note("start", page, code);
     if (start_status == PERFORMER_OK) {
         p->state = PERFORMER_PLAY;
+        p->link.held_code = code;
     }
     return (performer_status_t)start_status;
 }
 
 void performer_code(performer_t *p, uint8_t code)
 {
-    (void)p;
     note("code", code, 0);
+    if (code != LINK_CODE_STOP) {
+        p->link.held_code = code;
+    }
 }
 
 void performer_stop(performer_t *p)

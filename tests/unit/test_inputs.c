@@ -375,6 +375,53 @@ static void test_inputs_hold_mode_does_not_miss_a_remote_that_was_not_heard_sinc
     TEST_ASSERT_EQUAL_STRING("", told);
 }
 
+/* A play that is called by number begins in hold mode. */
+static void type_play(void)
+{
+    performer.link.mode = LINK_HOLD;
+    performer.state = PERFORMER_PLAY;
+    performer.link.held_code = LINK_CODE_NONE;
+    memset(told, 0, sizeof told);
+}
+
+static void test_inputs_a_typed_hold_play_does_not_hear_a_button_from_before(void)
+{
+    hold(2, 3);
+    type_play();
+    hold(2, 3);
+    hold(0, 3);
+    TEST_ASSERT_EQUAL_STRING("", told);
+    remote(4);
+    remote(0);
+    TEST_ASSERT_EQUAL_STRING("code 4 0;code 0 0;", told);
+}
+
+static void test_inputs_a_typed_hold_play_does_not_miss_a_button_from_before(void)
+{
+    hold(2, 3);
+    type_play();
+    ticks(200);
+    TEST_ASSERT_EQUAL_STRING("", told);
+}
+
+static void test_inputs_a_typed_hold_play_hears_silence_after_a_press(void)
+{
+    hold(2, 3);
+    type_play();
+    hold(2 + 4, 1);
+    ticks(64);
+    TEST_ASSERT_EQUAL_STRING("code 6 0;code 0 0;", told);
+}
+
+static void test_inputs_a_typed_latch_play_hears_a_button_from_before(void)
+{
+    hold(2, 3);
+    type_play();
+    performer.link.mode = LINK_LATCH;
+    remote(2);
+    TEST_ASSERT_EQUAL_STRING("code 2 0;", told);
+}
+
 static void test_inputs_typed_code_is_always_a_press(void)
 {
     inputs_code(&inputs, 1);
