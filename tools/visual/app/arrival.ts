@@ -68,13 +68,16 @@ export class Arrival {
         if (!isRestart) this.parts.messages.fail(error);
     };
 
-    /** The cable may lead to another board now, or somebody has saved pages in this one. What was read then counts no more. A transfer that
-     *  was cut off is left to the person, who continues it. */
+    /** The cable may lead to another board now, or somebody has saved pages in this one. What was read or compared then counts no more. A
+     *  write that was cut off is left to the person, who continues it, unless this board has other pages. */
     private async lookAgain(): Promise<void> {
         const { sources, editor, transfer } = this.parts;
         const crcs = await askPageCrcs(sources.connection.requests);
         const isSame = editor.state.get().robot.every((bytes, page) => bytes === null || editor.format.crc(bytes) === crcs[page]);
-        if (isSame || !['idle', 'written'].includes(transfer.state.get().phase)) return;
+        const { phase } = transfer.state.get();
+        if (isSame || phase === 'reading' || phase === 'writing') return;
+        if (phase === 'stopped' && transfer.continuesWith(crcs)) return;
+        transfer.leave();
         editor.setRobot([]);
         await this.learnYours();
     }

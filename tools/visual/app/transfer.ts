@@ -128,16 +128,20 @@ export class RobotTransfer implements Transfer {
         if (!left.aborted) this.state.set(change);
     }
 
-    /** The write that was stopped; null: none, or the cable leads to another robot by now, or somebody has saved pages in this one. The
-     *  backup and what was compared are not of those pages. */
+    /** The write that was stopped; null: none, or it does not continue with the robot on the cable. */
     private async stopped(left: AbortSignal): Promise<Begun | null> {
-        const { under } = this;
-        if (!under) return null;
+        if (!this.under) return null;
         const crcs = await askPageCrcs(this.parts.requests(), 0, PAGE_COUNT - 1, { signal: this.stop.signal });
         left.throwIfAborted();
-        if (crcs.every((crc, page) => under.crcs[page]?.includes(crc))) return under;
-        this.under = null;
-        return null;
+        if (!this.continuesWith(crcs)) this.under = null;
+        return this.under;
+    }
+
+    /** crcs: of the robot's pages now. false: no write was cut off, or the cable leads to another robot by now, or somebody has saved pages
+     *  in this one. The backup and what was compared are then not of these pages. */
+    continuesWith(crcs: readonly number[]): boolean {
+        const { under } = this;
+        return under !== null && crcs.every((crc, page) => under.crcs[page]?.includes(crc));
     }
 
     private async begin(

@@ -58,30 +58,36 @@ test('a robot whose backup could not be stored is not said to be backed up', asy
 
 const KNOWN = [new Uint8Array([1]), null, new Uint8Array([3])];
 
-/** Your robot, whose pages are known, answers once more. crcs: of its pages 0 to 2. */
-async function answersAgain(crcs: string, phase: string) {
+/** Your robot, whose pages are known, answers once more. crcs: of its pages. continues: a write that was cut off continues with them. */
+async function answersAgain(crcs: string, phase: string, continues: boolean) {
     const known = new Store({ robot: KNOWN as readonly (Uint8Array | null)[] });
     const read = vi.fn(() => Promise.resolve({ isDone: true }));
     const keep = vi.fn(() => Promise.resolve());
+    const leave = vi.fn();
     const ask = (text: string) => Promise.resolve(text.startsWith('@crcs') ? crcs : '');
     const arrival = arrivalWith({
         messages: { fail: vi.fn(), say: nothing },
         sources: { ...YOURS, connection: { ...YOURS.connection, requests: { ask } } },
         editor: { state: known, format: { crc: ([first = 0]: Uint8Array) => first }, setRobot: (robot: []) => known.set({ robot }) },
-        transfer: { state: new Store({ phase }), read, keep },
+        transfer: { state: new Store({ phase }), read, keep, leave, continuesWith: () => continues },
     });
     arrival.connectionChanged('ready');
     await new Promise(resolve => setTimeout(resolve, 10));
-    return { read, keep, robot: known.get().robot };
+    return { read, keep, leave, robot: known.get().robot };
 }
 
+const OTHER_PAGES = `0001${'0007'.repeat(127)}`;
+
 test.each([
-    ['another board is on the cable', `0001${'0007'.repeat(127)}`, 'idle', true],
-    ['the same pages', `000100070003${'0007'.repeat(125)}`, 'idle', false],
-    ['a write was cut off, which Try again continues', `0001${'0007'.repeat(127)}`, 'stopped', false],
-] as const)('a robot that answers again, %s: read and backed up, or not', async (_, crcs, phase, isRead) => {
-    const { read, keep, robot } = await answersAgain(crcs, phase);
-    expect([read, keep].map(one => one.mock.calls.length)).toEqual(isRead ? [1, 1] : [0, 0]);
+    ['another board is on the cable', OTHER_PAGES, 'idle', false, true],
+    ['another board, after a write', OTHER_PAGES, 'written', false, true],
+    ['the same pages', `000100070003${'0007'.repeat(125)}`, 'idle', false, false],
+    ['a write was cut off, which Try again continues', OTHER_PAGES, 'stopped', true, false],
+    ['a write was cut off, and another board is on the cable', OTHER_PAGES, 'stopped', false, true],
+    ['the person has it read already', OTHER_PAGES, 'reading', false, false],
+] as const)('a robot that answers again, %s: read and backed up, or not', async (_, crcs, phase, continues, isRead) => {
+    const { read, keep, leave, robot } = await answersAgain(crcs, phase, continues);
+    expect([read, keep, leave].map(one => one.mock.calls.length)).toEqual(isRead ? [1, 1, 1] : [0, 0, 0]);
     expect(robot).toEqual(isRead ? [] : KNOWN); // what is known of the board before is not shown as this one's
 });
 

@@ -9,8 +9,13 @@ const suite = pageSuite();
 const PAGES = [60, 61, 62, 63];
 
 type Port = { deliver(bytes: Uint8Array): void; unplug(): void };
+type Pages = readonly (Uint8Array | null)[];
 type Shell = {
-    session: { state: { set(change: { adapter: 'out' | 'back' | null }): void }; sources: { simulated: { connection: { port: Port } } } };
+    session: {
+        state: { set(change: { adapter: 'out' | 'back' | null }): void };
+        sources: { simulated: { connection: { port: Port } } };
+        editor: { state: { get(): { robot: Pages } }; setRobot(pages: Pages): void };
+    };
 };
 
 /** Pulls the cable when the third page is being saved. */
@@ -90,5 +95,34 @@ test('a cable pulled during live follow ends it: the robot does not move by itse
     expect([await follow.isEnabled(), await follow.isChecked()]).toEqual([false, false]);
     await adapter('back');
     expect([await follow.isEnabled(), await follow.isChecked()]).toEqual([true, false]);
+    await person.leave();
+});
+
+test('the cable leads to another robot while the comparison is open: it shows that robot, and after a refused write what was read then', async () => {
+    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
+    const { page } = person;
+    await person.untilStanding();
+    await person.open('Motions');
+    await page.getByRole('option', { name: /^motion 7 stand/ }).click();
+    await person.button('Copy or move …').click();
+    await page.getByRole('textbox', { name: 'To number' }).fill('60');
+    await page.keyboard.press('Enter');
+    await page.getByRole('dialog').getByRole('button', { name: 'Copy', exact: true }).click();
+    await person.button('To the robot (1) …').click();
+    const rows = page.getByRole('list', { name: 'Motions that differ' });
+    await person.button('Write 1 motion into the robot').waitFor();
+    // What the page does when another robot answers: motions 5 and 60 of that one differ.
+    await page.locator('app-shell').evaluate(shell => {
+        const { editor } = (shell as unknown as Shell).session;
+        const { robot } = editor.state.get();
+        editor.setRobot(robot.map((bytes, at) => (at === 5 || at === 60 ? (robot[8] ?? null) : bytes)));
+    });
+    await rows.locator('[data-page="5"]').waitFor();
+    expect(await rows.getByRole('listitem').and(page.locator('[data-page]')).count()).toBe(2);
+    // Now the first one is on the cable again.
+    await person.button('Write 2 motions into the robot').click();
+    await page.getByRole('status', { name: 'Transfer' }).filter({ hasText: 'has changed in the robot since it was read' }).waitFor();
+    await rows.locator('[data-page="5"]').waitFor({ state: 'detached' });
+    await rows.locator('[data-page="60"]').waitFor();
     await person.leave();
 });

@@ -44,6 +44,8 @@ export class CompareDialog extends HTMLElement {
     private reading: string | null = null;
     private trouble: string | null = null;
     private other: readonly (Uint8Array | null)[] = [];
+    /** What was last known of the robot's pages. */
+    private robot: readonly (Uint8Array | null)[] = [];
     private readonly ticks = new Map<number, HTMLInputElement>();
     private readonly marks = new Map<number, HTMLElement>();
     private looked = 0;
@@ -65,7 +67,11 @@ export class CompareDialog extends HTMLElement {
             make('footer', {}, this.status, this.bar, this.stop, this.again, this.go, this.shut),
         );
         this.replaceChildren(this.dialog);
-        this.disposals.push(this.session.transfer.state.watch(state => this.dialog.open && this.renderTransfer(state)));
+        const { transfer, editor } = this.session;
+        this.disposals.push(
+            transfer.state.watch(state => this.dialog.open && this.renderTransfer(state)),
+            editor.state.watch(({ robot }) => this.robotRead(robot)),
+        );
     }
 
     disconnectedCallback(): void {
@@ -103,8 +109,15 @@ export class CompareDialog extends HTMLElement {
     }
 
     private async readRobot(): Promise<void> {
-        await this.session.transfer.read();
-        await this.look();
+        const { isDone } = await this.session.transfer.read();
+        if (!isDone) await this.look(); // otherwise robotRead() has
+    }
+
+    /** The page reads the robot by itself, too, when the cable leads to another one. A write shows what became of each page instead. */
+    private robotRead(robot: readonly (Uint8Array | null)[]): void {
+        if (robot === this.robot) return;
+        this.robot = robot;
+        if (this.dialog.open && this.key === 'robot' && this.session.transfer.state.get().phase !== 'writing') void this.look();
     }
 
     private readAgain(): Promise<void> {
@@ -236,9 +249,9 @@ export class CompareDialog extends HTMLElement {
     private async action(): Promise<void> {
         this.trouble = null;
         if (this.key !== 'robot') return this.takeOver(this.chosen);
-        await this.session.transfer.write(this.chosen, this.other);
+        const end = await this.session.transfer.write(this.chosen, this.other);
         this.fillWhich(this.key); // adds the new backup
-        if (this.session.transfer.state.get().phase === 'written') await this.look();
+        if (end.isDone || end.error.code === 'page-changed') await this.look();
     }
 
     private async takeOver(pages: readonly number[]): Promise<void> {
