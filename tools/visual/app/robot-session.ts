@@ -317,9 +317,11 @@ export class RobotSession implements Session {
         });
     }
 
-    setTorque(on: boolean, servos: readonly number[] = []): Promise<boolean> {
+    async setTorque(on: boolean, servos: readonly number[] = []): Promise<boolean> {
         if (!on && servos.length === 0) this.dropWaiting();
-        return this.act(() => setTorque(this.connection.requests, on, servos));
+        const isDone = await this.act(() => setTorque(this.connection.requests, on, servos));
+        if (isDone && on && this.state.get().adapter === 'back') this.status.tell({ adapter: null }); // which says to switch it on
+        return isDone;
     }
 
     follow(positions: readonly (number | null)[] | null, ended?: () => void): void {

@@ -23,8 +23,8 @@ import { Turns } from './turns.ts';
 
 /** Time limit for the robot to come to a stop before the program is ended. */
 const STAND_MS = 5000;
-/** Play's echo of a typed `on` and its OK, with no prompt in between. */
-const SWITCHED_ON = /\bon[ ,\d]*\r\n(?:(?!\] ).*\r\n)* OK\r\n/;
+/** Play's echo of a typed `on` or `@torque on` and its OK, with no prompt in between. Edit's screen does not show whether it has obeyed. */
+const SWITCHED_ON = /\bon[ ,\d-]*\r\n(?:(?!\] ).*\r\n)*(?: |@torque )OK\r\n/;
 const HEARD_MOST = 200;
 
 export class ServosSource {

@@ -302,6 +302,17 @@ test('Edit cannot be had for the robot in the page, which is known when yours is
     expect(session.state.get().image).toBe('play'); // otherwise a key would wait for Edit
 });
 
+test('the servo adapter is back: that torque is to be switched on is said until the page has done that', async () => {
+    const { session, yours, connect } = await page('edit');
+    await connect();
+    session.state.set({ adapter: 'back' });
+    await session.setTorque(false, [3]);
+    await vi.waitFor(() => expect(session.state.get().doing.text).toContain('adapter is back'));
+    await session.setTorque(true, [3]);
+    expect(yours.sent.filter(word => word === '@torque')).toHaveLength(2);
+    expect(session.state.get().doing.text).not.toContain('adapter is back');
+});
+
 test('a paste of a whole file reaches no robot, and it is said', async () => {
     const { session, inPage } = await page('play');
     const before = inPage.sent.length;

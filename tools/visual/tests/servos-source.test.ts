@@ -162,6 +162,22 @@ test('the adapter is back: that is said until Play has obeyed `on`, whose answer
     await source.close();
 });
 
+test.each(['on 1-3\r\n OK', '@torque on 1 2\r\n@torque OK'])('the adapter is back, and Play has obeyed %j', async text => {
+    const { source, events } = await runs();
+    const told = (): unknown[] => events.change.mock.calls.flatMap(([change]) => ('adapter' in change ? [change.adapter] : []));
+    const says = async (line: string): Promise<void> => {
+        Runs.last.tell({ kind: 'bytes', bytes: new TextEncoder().encode(`${line}\r\n] `) });
+        await new Promise(resolve => setTimeout(resolve, 5));
+    };
+    for (const isThere of [false, true]) Runs.last.tell({ kind: 'adapter', isThere });
+    await says('@torque on 19\r\n@torque ERR 7 No answer: ID 19');
+    await says('@torque off\r\n@torque OK');
+    expect(told()).toEqual(['out', 'back']);
+    await says(text);
+    expect(told()).toEqual(['out', 'back', null]);
+    await source.close();
+});
+
 test('a browser that stores nothing: Play has what Edit has saved', async () => {
     const { source } = await runs();
     browser.saves = false;
