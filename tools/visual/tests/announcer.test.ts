@@ -90,22 +90,41 @@ test('one that is switched off is told at once, and nothing of what it did', asy
     const { announcer, message } = heard();
     announcer.look(at('idle', 0, 0), '');
     await vi.advanceTimersByTimeAsync(5000);
-    announcer.look({ ...START, isPowered: false, doing: { text: 'The robot is switched off.', tone: 'calm' } }, '');
+    announcer.look({ ...START, isPowered: false }, '');
     await vi.advanceTimersByTimeAsync(5000);
-    expect(message.at(-1)?.[1]).toBe('The robot is switched off.');
+    expect(message.at(-1)?.[1]).toMatch(/^The robot is switched off\./);
+});
+
+test('one that is asked again, or whose cable is out: what it did before is not said once more', async () => {
+    const { announcer, message } = heard();
+    const playing = { ...at('playing', 20, 2), doing: { text: 'Playing motion 20 (walk), step 2.', tone: 'calm' } } as SessionState;
+    announcer.look(playing, '');
+    await vi.advanceTimersByTimeAsync(5000);
+    for (const connection of ['asking', 'waiting'] as const) {
+        announcer.look({ ...playing, source: 'yours', connection, where: null }, ''); // what it does is told next
+        await vi.advanceTimersByTimeAsync(5000);
+    }
+    expect(message.map(([, text]) => text)).toEqual([
+        'Plays motion 20 (walk).',
+        'Asking the robot who it is …',
+        'The cable is unplugged. Plug it in again; the page reconnects by itself.',
+    ]);
 });
 
 test('one that was told to be starting, or without a cable, is told when it answers', async () => {
     const { announcer, message } = heard();
-    const starts = { ...START, connection: 'asking', doing: { text: 'The robot is starting …', tone: 'calm' } } as SessionState;
+    const starts: SessionState = { ...START, connection: 'asking' };
     announcer.look(starts, '');
     announcer.look({ ...starts, connection: 'ready' }, ''); // its state is asked next
     await vi.advanceTimersByTimeAsync(5000);
     announcer.look(at('idle', 0, 0), '');
     expect(message.map(([, text]) => text)).toEqual(['The robot is starting …', 'Ready.']);
-    announcer.look({ ...starts, doing: { text: 'The robot is switched off.', tone: 'calm' } }, '');
+    announcer.look({ ...starts, isPowered: false }, '');
     await vi.advanceTimersByTimeAsync(5000);
     announcer.look({ ...at('idle', 0, 0), version: { image: 'edit' } } as SessionState, '');
     await vi.advanceTimersByTimeAsync(5000);
-    expect(message.map(([, text]) => text).slice(2)).toEqual(['The robot is switched off.', 'Edit runs: its screen is in the terminal.']);
+    expect(message.map(([, text]) => text).slice(2)).toEqual([
+        expect.stringMatching(/^The robot is switched off\./),
+        'Edit runs: its screen is in the terminal.',
+    ]);
 });

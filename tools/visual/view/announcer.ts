@@ -3,7 +3,7 @@
 // every step of a motion, which is too often to be read aloud.
 
 import type { SessionState } from './session/session.ts';
-import { startText } from './texts/robot.ts';
+import { doingText, startText } from './texts/robot.ts';
 
 export const ANNOUNCE_MS = 1000;
 
@@ -35,7 +35,9 @@ export class Announcer {
         this.lastFallen = fallen;
         const isOff = state.source === 'simulated' && !state.isPowered;
         const answers = state.connection === 'ready' && !isOff;
-        const trouble = state.message?.tone === 'bad' ? state.message.text : answers ? '' : state.doing.text;
+        // Not state.doing, which may be set after the state that it describes.
+        const silence = answers ? '' : doingText({ ...state, shownPage: null }, null);
+        const trouble = state.message?.tone === 'bad' ? state.message.text : silence;
         if (trouble !== this.lastTrouble && trouble !== '') this.tell(trouble);
         this.lastTrouble = trouble;
         const isReady = state.connection === 'ready';
