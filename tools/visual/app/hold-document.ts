@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Locks of the browser: one tab for each document, one for the memory of the robot in the page, one for that of My servos. They are released
-// when the tab closes.
+// when the tab closes. Over plain http from another machine the browser has none; the tabs then ask each other.
+
+import { TabLocks } from './tab-locks.ts';
 
 /** How long the previous page may hold its lock while the page reloads. */
 const RELOAD_MS = 1000;
@@ -11,7 +13,7 @@ const ROBOT = 'robot';
 
 export type Release = () => void;
 
-export const HOLDS_NOTHING: Release = () => undefined;
+let tabLocks: TabLocks | null = null;
 
 /** Locks a document until the returned function is called. null: it is locked already. */
 export function holdDocument(id: string): Promise<Release | null> {
@@ -26,7 +28,7 @@ export async function holdRobot(): Promise<boolean> {
 /** Resolves when the tab that has the memory of the robot in the page is closed. This tab then has the lock. */
 export async function robotFreed(): Promise<void> {
     do {
-        await navigator.locks.request(nameOf(ROBOT), () => undefined); // waits for it and lets go
+        if ('locks' in navigator) await navigator.locks.request(nameOf(ROBOT), () => undefined); // waits for it and lets go
         await new Promise(resolve => setTimeout(resolve, CLOSED_MS));
     } while (!(await tryLock(ROBOT)));
 }
@@ -48,7 +50,10 @@ async function lock(name: string): Promise<Release | null> {
 }
 
 function tryLock(name: string): Promise<Release | null> {
-    if (!('locks' in navigator)) return Promise.resolve(HOLDS_NOTHING);
+    if (!('locks' in navigator)) {
+        tabLocks ??= new TabLocks();
+        return tabLocks.request(nameOf(name));
+    }
     return new Promise((resolve, reject) => {
         const held = navigator.locks.request(nameOf(name), { ifAvailable: true }, async granted => {
             if (granted) await new Promise<void>(release => resolve(release));

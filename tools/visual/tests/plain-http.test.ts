@@ -5,6 +5,7 @@ import { readFileSync } from 'node:fs';
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { makeDocuments } from '../app/document-parts.ts';
 import { DocumentEditor } from '../app/editor.ts';
+import { TabLocks } from '../app/tab-locks.ts';
 import type { Body } from '../model/body.ts';
 import { copyText } from '../view/clipboard.ts';
 import { PassingStorage } from '../view/document-storage.ts';
@@ -34,6 +35,29 @@ test('the first document opens, and the next one is another', async () => {
     expect(first).not.toBe('');
     expect(documents.state.get().documents.map(({ id }) => id)).toEqual([first, documents.state.get().openId]);
     expect(documents.state.get().openId).not.toBe(first);
+});
+
+test('two tabs: what one has the other does not get, until it is let go; and no tab gets it twice', async () => {
+    const [first, second] = [new TabLocks(), new TabLocks()];
+    const release = await first.request('document-1');
+    expect(release).not.toBeNull();
+    expect([await first.request('document-1'), await second.request('document-1')]).toEqual([null, null]);
+    expect(await second.request('document-2')).not.toBeNull();
+    release?.();
+    expect(await second.request('document-1')).not.toBeNull();
+    expect(await first.request('document-1')).toBeNull();
+});
+
+test('three tabs that ask at the same time, or while another one waits for answers: one of them gets it', async () => {
+    for (const betweenMs of [0, 100]) {
+        const tabs = [new TabLocks(), new TabLocks(), new TabLocks()];
+        const asked: Promise<unknown>[] = [];
+        for (const tab of tabs) {
+            asked.push(tab.request(`robot ${betweenMs}`));
+            await new Promise(resolve => setTimeout(resolve, betweenMs));
+        }
+        expect((await Promise.all(asked)).filter(lock => lock !== null)).toHaveLength(1);
+    }
 });
 
 test('who sends a link is shown it, although it cannot be copied', async () => {

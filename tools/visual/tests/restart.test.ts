@@ -47,7 +47,8 @@ const BODY = JSON.parse(await readFile(new URL('../../../build/wasm/body.json', 
 
 beforeEach(() => {
     vi.stubGlobal('Worker', NodeWorker);
-    vi.stubGlobal('navigator', {}); // no locks: the robot of the test before is no other tab's
+    const request = (_: string, __: object, use: (lock: object) => unknown) => Promise.resolve(use({}));
+    vi.stubGlobal('navigator', { locks: { request } }); // the robot of the test before is no other tab's
     Object.assign(files, { missing: '', broken: '' });
     Object.assign(browser, { keeps: true, kept: null });
 });

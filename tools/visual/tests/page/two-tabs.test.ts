@@ -110,3 +110,29 @@ test('the first tab is closed: the second keeps its robot from then on, with wha
     expect(await second.getByRole('status', { name: "Robot's memory" }).textContent()).toBe('');
     await person.leave();
 });
+
+test('over plain http from another machine, where the browser has no locks: the second tab has a copy, and says that its robot is not kept', async () => {
+    const person = await Visitor.come(suite.browser, suite.address, {
+        hasPicture: false,
+        hasPhysics: false,
+        before: page => page.context().addInitScript(() => Reflect.deleteProperty(Navigator.prototype, 'locks')),
+    });
+    await person.untilStanding();
+    const second = await openSecond(person);
+    expect(await second.evaluate(() => 'locks' in navigator)).toBe(false);
+    await second
+        .getByRole('status', { name: "Robot's memory" })
+        .filter({ hasText: /^Another tab keeps its robot/ })
+        .waitFor();
+    const more = second.getByRole('button', { name: 'More' });
+    if (await more.isVisible()) await more.click();
+    await second.getByRole('tab', { name: 'Steps', exact: true }).click();
+    const chosen = second.getByRole('combobox', { name: 'Document', exact: true }).locator('option:checked');
+    await expect.poll(() => chosen.textContent()).toMatch(/\(copy\)$/);
+    await person.page.close();
+    await second
+        .getByRole('log', { name: 'Last message' })
+        .filter({ hasText: /^The other tab is closed/ })
+        .waitFor();
+    await person.leave();
+});
