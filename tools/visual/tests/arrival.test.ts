@@ -56,6 +56,22 @@ test('a robot whose backup could not be stored is not said to be backed up', asy
     expect(say).not.toHaveBeenCalled();
 });
 
+test.each([
+    ['1:512:0 2:512:0 3:512:0 5:512:0 ', /^4 servos answer\. Nothing moves before you say so\. No answer from 4: not plugged in/],
+    ['', /^No servo answers\. Is their power on\?/],
+] as const)('My servos with the pose "%s": those that are missing are named', async (pose, text) => {
+    const say = vi.fn();
+    const ask = (request: string) => Promise.resolve(request === '@pose' ? pose : '');
+    const arrival = arrivalWith({
+        state: new Store({ source: 'servos' } as SessionState),
+        messages: { fail: vi.fn(), say },
+        sources: { ...YOURS, connection: { ...YOURS.connection, requests: { ask } } },
+        transfer: { read: () => Promise.resolve({ isDone: true }), keep: () => Promise.resolve() },
+    });
+    arrival.connectionChanged('ready');
+    await vi.waitFor(() => expect(say).toHaveBeenCalledWith({ text: expect.stringMatching(text), tone: 'bad' }));
+});
+
 const KNOWN = [new Uint8Array([1]), null, new Uint8Array([3])];
 
 /** Your robot, whose pages are known, answers once more. crcs: of its pages. continues: a write that was cut off continues with them. */

@@ -94,7 +94,7 @@ afterEach(() => {
     Runs.asked.length = Runs.given.length = 0;
 });
 
-test('a tab whose adapter could not be opened does not keep My servos from another tab', async () => {
+test('a tab whose adapter could not be opened does not keep My servos from another tab; one that uses them does', async () => {
     const held = new Set<string>();
     const request = async (name: string, _: object, use: (lock: object | null) => Promise<void>): Promise<void> => {
         if (held.has(name)) return use(null);
@@ -111,6 +111,8 @@ test('a tab whose adapter could not be opened does not keep My servos from anoth
     await source.choose();
     await expect(source.start('play')).rejects.toMatchObject({ code: 'port-busy' });
     await vi.waitFor(() => expect([...held]).toEqual([]));
+    held.add('motion512-servos');
+    await expect(source.start('play')).rejects.toMatchObject({ code: 'second-tab' });
 });
 
 test('another robot is chosen while My servos change to Edit: they do not start again, nor report as the robot in use', async () => {

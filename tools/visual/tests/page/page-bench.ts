@@ -77,6 +77,19 @@ const ROBOT_DRAWN = 'robot-drawn';
 /** Default time limit of all waits. A busy computer must not fail a test. While writing tests, set WAIT_MS to a shorter time. */
 const LIMIT_MS = Number(process.env.WAIT_MS ?? 240_000);
 
+/** What is known of the robot's motions. */
+type Pages = readonly (Uint8Array | null)[];
+
+/** The page's own objects, as far as tests reach into them. */
+export type Shell = {
+    session: {
+        state: { set(change: { adapter: 'out' | 'back' | null }): void };
+        /** The cable to the robot in the page. */
+        sources: { simulated: { connection: { port: { deliver(bytes: Uint8Array): void; unplug(): void } } } };
+        editor: { state: { get(): { robot: Pages } }; setRobot(pages: Pages): void };
+    };
+};
+
 export class PageServer {
     readonly address: string;
     private readonly process: ChildProcess;

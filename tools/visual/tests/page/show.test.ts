@@ -55,20 +55,6 @@ test('Play after an edit: within 0.3 s the solid figure moves, no ghost is seen 
     await person.leave();
 });
 
-test('a Play that is refused, because the robot plays already, leaves the robot in the picture', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
-    await person.untilStanding();
-    await person.open('Motions');
-    await person.page.getByRole('option', { name: /^motion 3 wave/ }).dblclick();
-    await person.button('Walk').click();
-    await person.doing.filter({ hasText: /^Playing motion 2[0-2] \(walk/ }).waitFor();
-    await person.button('▶ Play').click();
-    await person.page.getByRole('log', { name: 'Last message' }).filter({ hasText: 'Busy' }).waitFor();
-    await person.page.waitForTimeout(300); // the motion would be shown 160 ms after Play
-    expect(await person.doing.textContent()).not.toContain('In the picture only');
-    await person.leave();
-});
-
 test('the scrubber, a step and the loop move the picture, and the robot hears nothing', async () => {
     const person = await Visitor.come(suite.browser, suite.address, { screen: { width: 1280, height: 800 }, hasPhysics: false });
     await person.untilStanding();

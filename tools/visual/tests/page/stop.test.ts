@@ -2,6 +2,7 @@
 // Stop precedes everything that waits, and no key moves the robot by surprise: neither in a dialog nor when released elsewhere.
 import { expect, test } from 'vitest';
 import { Visitor } from './page-bench.ts';
+import type { Shell } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
 
 const suite = pageSuite();
@@ -73,53 +74,25 @@ test('the space bar stops Edit, and Edit goes on; no key drives the robot from a
     await person.leave();
 });
 
-test('Stop ends live follow: nothing that is edited then moves the robot', async () => {
+test('Stop ends live follow, and so does a cable or an adapter that is pulled: the robot does not move by itself when it is connected again', async () => {
     const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
     const { page } = person;
     await person.untilStanding();
     const follow = await person.follow();
     await page.locator('#area-steps').getByRole('button', { name: 'Stop' }).click();
     await expect.poll(() => follow.isChecked()).toBe(false);
-    await person.leave();
-});
-
-test('Power off, or Factory fresh, while Play has still to write: the robot does not play afterwards, and a new one does not get the motion', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
-    const { page } = person;
-    const said = page.getByRole('log', { name: 'Last message' }).filter({ hasText: /^Not done: the robot was switched off/ });
-    await person.untilStanding();
-    await person.open('Steps');
-    await page.getByRole('combobox', { name: 'Motion', exact: true }).selectOption('2');
-    const heard = await listen(person);
-    const play = async (name: string): Promise<void> => {
-        await person.open('Steps');
-        const field = page.getByRole('textbox', { name: 'Name of the motion' });
-        await field.fill(name);
-        await field.press('Enter');
-        await person.button('▶ Play').click();
-        await person.doing.filter({ hasText: 'The robot is starting' }).waitFor(); // with Edit, to write
-    };
-    /** At once, before Edit has started: without going to its tab. */
-    const press = (name: string): Promise<void> => page.locator('robot-pane button', { hasText: name }).dispatchEvent('click');
-    await play('aaa');
-    await press('Power off');
-    await said.waitFor();
-    await person.open('Robot'); // in Steps the picture shows the step
-    await person.doing.filter({ hasText: /switched off/ }).waitFor();
-    await press('Power on');
-    await person.untilStanding();
-    await person.robotSeconds(4);
-    await press('Run Play');
-    await person.doing.filter({ hasText: /^The robot stands/ }).waitFor();
-    await play('bbb');
-    await press('Factory fresh');
-    await person.button('Forget everything').dispatchEvent('click');
-    await said.waitFor();
-    await person.open('Robot');
-    await person.untilStanding();
-    await person.robotSeconds(4);
-    expect((await heard()).filter(text => /^(Playing|Going slowly).*motion 2/.test(text))).toEqual([]);
-    const motions = await page.locator('action-bar select').first().innerText();
-    expect(motions).toContain('2 bow');
+    await follow.check();
+    await page.locator('app-shell').evaluate(shell => (shell as unknown as Shell).session.sources.simulated.connection.port.unplug());
+    await expect.poll(() => follow.isChecked()).toBe(false);
+    await person.untilStanding(); // it connects again
+    expect([await follow.isEnabled(), await follow.isChecked()]).toEqual([true, false]);
+    // The adapter of My servos: the program behind it goes on, and so does the connection.
+    await follow.check();
+    const adapter = (change: 'out' | 'back'): Promise<void> =>
+        page.locator('app-shell').evaluate((shell, now) => (shell as unknown as Shell).session.state.set({ adapter: now }), change);
+    await adapter('out');
+    expect([await follow.isEnabled(), await follow.isChecked()]).toEqual([false, false]);
+    await adapter('back');
+    expect([await follow.isEnabled(), await follow.isChecked()]).toEqual([true, false]);
     await person.leave();
 });
