@@ -33,13 +33,14 @@ async function m512(...words: string[]): Promise<string> {
     return (await run(join(ROOT, 'build/venv/bin/python'), ['-m', 'm512', ...words], { cwd: folder })).stdout;
 }
 
-/** Converts files to 0.bin, 1.bin ... in one process. Returns the exit code of each. */
+/** Converts the files of this folder to 0.bin, 1.bin ... in one process. Prints the exit code of each, and what was said. */
 const CONVERT = `
-import sys
+import json, sys
 from click.testing import CliRunner
 from m512.cli import main
 for number, path in enumerate(sys.argv[1:]):
-    print(CliRunner().invoke(main, ["convert", path, f"{number}.bin"]).exit_code)
+    done = CliRunner().invoke(main, ["convert", path, f"{number}.bin"])
+    print(json.dumps([done.exit_code, done.output]))
 `;
 
 async function library(): Promise<Uint8Array> {
@@ -70,26 +71,46 @@ test('a text that includes another file: what to do, because the page has no oth
     });
 });
 
-test('files as they are found, and those of others where they are there', async () => {
+/** A file as it is found, cut in the middle, with a byte changed, and one more behind it. */
+function damagedToo(name: string, file: Buffer): readonly (readonly [string, Buffer])[] {
+    const changed = Buffer.from(file);
+    changed[file.length >> 1] = (changed[file.length >> 1] ?? 0) ^ 0x11;
+    return [
+        [name, file],
+        [`cut-${name}`, file.subarray(0, file.length >> 1)],
+        [`changed-${name}`, changed],
+        [`longer-${name}`, Buffer.concat([file, Buffer.of(0x41)])],
+    ];
+}
+
+test('files as they are found, those of others where they are there, and all of them damaged: the same image or sentence as from m512', async () => {
     const samples = join(ROOT, 'tests/samples');
     const folders = [samples, join(samples, 'wild'), join(process.env.M512_SHARED ?? join(ROOT, '../shared'), 'data')];
     const lists = await Promise.all(folders.map(async data => (await readdir(data).catch(() => [])).map(name => join(data, name))));
     const paths = lists.flat().filter(path => /\.(mtn|bin|hex)$/.test(path));
     expect(paths.length).toBeGreaterThan(20);
-    const { stdout } = await run(join(ROOT, 'build/venv/bin/python'), ['-c', CONVERT, ...paths], { cwd: folder });
-    const codes = stdout.trim().split('\n').map(Number);
-    expect(codes).toHaveLength(paths.length);
-    for (const [number, path] of paths.entries()) {
-        const name = basename(path);
-        const file = new Uint8Array(await readFile(path));
-        const opened = await formats.open(name, file);
+    const files = (await Promise.all(paths.map(async path => damagedToo(basename(path), await readFile(path))))).flat();
+    await Promise.all(files.map(([name, file]) => writeFile(join(folder, name), file)));
+    const { stdout } = await run(join(ROOT, 'build/venv/bin/python'), ['-c', CONVERT, ...files.map(([name]) => name)], { cwd: folder });
+    const told = stdout
+        .trim()
+        .split('\n')
+        .map(line => JSON.parse(line) as [number, string]);
+    expect(told).toHaveLength(files.length);
+    let refused = 0;
+    for (const [number, [name, file]] of files.entries()) {
+        const [code, said] = told[number] ?? [];
+        const opened = await formats.open(name, new Uint8Array(file));
         if (opened.kind === 'refused') {
-            expect(codes[number], name).not.toBe(0);
-        } else if (opened.kind === 'opened' && codes[number] === 0 && !opened.notes.some(note => note.includes('scaled'))) {
+            refused++;
+            expect(said, name).toContain(opened.text.split(' … ')[0]); // a long sentence is cut in the page
+        } else if (opened.kind === 'opened' && code === 0 && !opened.notes.some(note => note.includes('scaled'))) {
             const bytes = await readFile(join(folder, `${number}.bin`));
             expect(Buffer.from(opened.image).equals(bytes.subarray(0, 65536)) || bytes.length !== 65536, name).toBe(true);
+            for (const note of opened.notes) expect(said, name).toContain(note);
         }
     }
+    expect(refused).toBeGreaterThan(20);
 });
 
 test("a damaged file is refused with m512's sentence", async () => {

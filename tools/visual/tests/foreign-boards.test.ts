@@ -31,10 +31,10 @@ const QUESTIONS: readonly ((requests: Requests) => Promise<unknown>)[] = [
 ];
 
 function talks(): Uint8Array[] {
-    const lines = execFileSync(`${ROOT}build/venv/bin/python`, [`${ROOT}tools/visual/tests/m512_cases.py`, 'noise'], { encoding: 'utf8' })
+    const lines = execFileSync(`${ROOT}build/venv/bin/python`, [`${ROOT}tools/visual/tests/strange_boards.py`], { encoding: 'utf8' })
         .trim()
         .split('\n');
-    return lines.map(line => new Uint8Array(Buffer.from(JSON.parse(line) as string, 'base64')));
+    return lines.map(line => new Uint8Array(Buffer.from(line, 'base64')));
 }
 
 /** A board that sends some of its bytes whenever it receives something, until they are used up. */
