@@ -5,6 +5,7 @@ import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
 import { LANGUAGES } from '../../view/texts/languages.ts';
 import { Visitor } from './page-bench.ts';
+import type { Screen } from './page-bench.ts';
 import { SHOTS, pageSuite } from './page-suite.ts';
 
 const PHONE = { width: 390, height: 844, hasTouch: true };
@@ -93,14 +94,38 @@ function textsOver(page: Page, place: { x: number; y: number }): Promise<string[
     );
 }
 
+/** Beside each other, or on end the area as a sheet that folds. */
+async function checkArrangement(person: Visitor, screen: Screen): Promise<void> {
+    const { page } = person;
+    if (screen === LYING || screen === DESKTOP_AT_200) {
+        const [stage, areas] = [await box(page, '.stage'), await box(page, '.areas')];
+        expect(areas.x).toBeGreaterThanOrEqual(stage.x + stage.width - 1);
+        expect(areas.y).toBe(stage.y);
+    }
+    if (screen !== PHONE) return;
+    await person.open('Steps');
+    // The status bar below may meanwhile have one line or two. Only the sheet folds.
+    const height = async (): Promise<number> => (await box(page, '.areas')).height;
+    const before = await height();
+    await person.button('Areas').click();
+    expect(await height()).toBeLessThan(before - 100);
+    await person.open('Steps');
+    expect(await height()).toBe(before);
+    await person.button('Menu').click();
+    await person.button('Send as link').waitFor();
+    await page.keyboard.press('Escape');
+    await person.button('Send as link').waitFor({ state: 'hidden' });
+}
+
 test.each(Object.entries(SCREENS))(
-    '%s: one row of head, no word cut, at most five sizes of type and one blue button in every area',
+    '%s: one row of head, no word cut, at most five sizes of type and one blue button in every area, letters of 12 px or more in the terminal, which fills the screen',
     async (name, screen) => {
         const person = await Visitor.come(suite.browser, suite.address, { screen, hasPicture: false, hasPhysics: false });
         const { page } = person;
         await person.untilStanding();
         expect((await box(page, 'app-shell > header')).height).toBeLessThanOrEqual(ROW_PX);
         if (screen === DESKTOP) expect((await box(page, 'action-bar')).height, 'the bar of motions').toBeLessThanOrEqual(ROW_PX);
+        await checkArrangement(person, screen);
         const picture = await box(page, '.stage');
         const type = new Set<number>();
         for (const area of AREAS) {
@@ -118,6 +143,13 @@ test.each(Object.entries(SCREENS))(
         expect([...type].length, [...type].join()).toBeLessThanOrEqual(5);
         expect(Math.min(...type)).toBeGreaterThanOrEqual(LEAST_TYPE_PX);
         await page.screenshot({ path: `${SHOTS}screen-${name.toLowerCase()}.png` });
+        await person.open('Terminal');
+        const letters = page.locator('terminal-pane .xterm-rows');
+        await expect
+            .poll(() => letters.evaluate(rows => parseFloat(getComputedStyle(rows).fontSize)))
+            .toBeGreaterThanOrEqual(LEAST_TYPE_PX);
+        await person.button('Full screen').click();
+        await expect.poll(() => box(page, 'terminal-pane')).toEqual({ x: 0, y: 0, width: screen.width, height: screen.height });
         await person.leave();
     },
 );
@@ -137,31 +169,6 @@ test.each(Object.keys(LANGUAGES))('the tabs of all areas stand in one row, none 
         expect.soft([tops.length, new Set(tops).size], `${width} x ${height}`).toEqual([AREAS.length, 1]);
         expect.soft((await page.evaluate(look)).cut, `${width} x ${height}: cut`).toEqual([]);
     }
-    await person.leave();
-});
-
-test('lying and at 200 %, picture and area are beside each other; on end, the area is a sheet that folds', async () => {
-    for (const screen of [LYING, DESKTOP_AT_200]) {
-        const person = await Visitor.come(suite.browser, suite.address, { screen, hasPicture: false, hasPhysics: false });
-        const [stage, areas] = [await box(person.page, '.stage'), await box(person.page, '.areas')];
-        expect(areas.x).toBeGreaterThanOrEqual(stage.x + stage.width - 1);
-        expect(areas.y).toBe(stage.y);
-        await person.leave();
-    }
-    const person = await Visitor.come(suite.browser, suite.address, { screen: PHONE, hasPicture: false, hasPhysics: false });
-    await person.untilStanding();
-    await person.open('Steps');
-    // The status bar below may meanwhile have one line or two. Only the sheet folds.
-    const height = async (): Promise<number> => (await box(person.page, '.areas')).height;
-    const before = await height();
-    await person.button('Areas').click();
-    expect(await height()).toBeLessThan(before - 100);
-    await person.open('Steps');
-    expect(await height()).toBe(before);
-    await person.button('Menu').click();
-    await person.button('Send as link').waitFor();
-    await person.page.keyboard.press('Escape');
-    await person.button('Send as link').waitFor({ state: 'hidden' });
     await person.leave();
 });
 
@@ -210,42 +217,46 @@ test('the robot stands as high over the bar of motions when its rows have come a
     await person.leave();
 });
 
-test.each(Object.entries({ PHONE, LYING, TABLET }))(
-    '%s: nothing that is written over the picture covers the face of the robot',
-    async (_, screen) => {
-        const person = await Visitor.come(suite.browser, suite.address, { screen, isNew: true, hasPhysics: false });
-        const { page } = person;
-        await person.untilStanding();
-        const overFace = async (): Promise<string[]> => textsOver(page, await placeOf(page, 'face'));
-        await page.getByText('A humanoid with real firmware').waitFor();
-        await expect.poll(overFace).toEqual([]);
-        await person.open('Steps');
-        await page.getByText(/^Balance: /).waitFor();
-        await expect.poll(overFace).toEqual([]);
-        await person.open('Curves');
-        await person.button('Right arm').click(); // nothing covers this button either
-        await page.getByRole('spinbutton', { name: /right elbow/ }).waitFor();
-        await expect.poll(overFace).toEqual([]);
-        await person.leave();
-    },
-);
+/** Turns a screen for fingers to each of these sizes, and checks on each that no text covers these parts of the robot. */
+async function checkInSight(person: Visitor, screens: readonly Screen[], shapes: readonly string[]): Promise<void> {
+    const { page } = person;
+    for (const { width, height } of screens) {
+        await page.setViewportSize({ width, height });
+        await person.untilSeen();
+        for (const shape of shapes)
+            await expect.poll(async () => textsOver(page, await placeOf(page, shape)), { message: `${shape}, ${width} x ${height}` }).toEqual([]);
+    }
+}
 
-test.each(Object.entries({ PHONE, LYING, DESKTOP_AT_200 }))(
-    '%s: the card of a motion that was sent leaves the robot in sight',
-    async (_, screen) => {
-        const bow = await suite.browser.newPage();
-        await bow.goto(`${suite.address}motions.html`);
-        const hash = new URL((await bow.getByRole('link', { name: /^Bow/ }).getAttribute('href')) ?? '', suite.address).hash;
-        await bow.close();
-        const person = await Visitor.come(suite.browser, `${suite.address}${hash}`, { screen, isNew: true, hasPhysics: false });
-        await person.page.getByRole('region', { name: 'A motion for you' }).waitFor();
-        await person.doing.filter({ hasText: /^Playing motion 2 \(bow\)/ }).waitFor();
-        await person.untilStanding();
-        for (const shape of ['face', 'chest', 'right_knee', 'left_foot_front'])
-            expect.soft(await textsOver(person.page, await placeOf(person.page, shape)), shape).toEqual([]);
-        await person.leave();
-    },
-);
+test('on a phone and a tablet, nothing that is written over the picture covers the face of the robot', async () => {
+    const screens = [TABLET, LYING, PHONE];
+    const person = await Visitor.come(suite.browser, suite.address, { screen: PHONE, isNew: true, hasPhysics: false });
+    const { page } = person;
+    await person.untilStanding();
+    await page.getByText('A humanoid with real firmware').waitFor();
+    await checkInSight(person, screens, ['face']);
+    await person.open('Steps');
+    await page.getByText(/^Balance: /).waitFor();
+    await checkInSight(person, screens, ['face']);
+    await person.open('Curves');
+    await person.button('Right arm').click(); // nothing covers this button either
+    await page.getByRole('spinbutton', { name: /right elbow/ }).waitFor();
+    await checkInSight(person, screens, ['face']);
+    await person.leave();
+});
+
+test('the card of a motion that was sent leaves the robot in sight, on small screens too', async () => {
+    const bow = await suite.browser.newPage();
+    await bow.goto(`${suite.address}motions.html`);
+    const hash = new URL((await bow.getByRole('link', { name: /^Bow/ }).getAttribute('href')) ?? '', suite.address).hash;
+    await bow.close();
+    const person = await Visitor.come(suite.browser, `${suite.address}${hash}`, { screen: PHONE, isNew: true, hasPhysics: false });
+    await person.page.getByRole('region', { name: 'A motion for you' }).waitFor();
+    await person.doing.filter({ hasText: /^Playing motion 2 \(bow\)/ }).waitFor();
+    await person.untilStanding();
+    await checkInSight(person, [DESKTOP_AT_200, LYING, PHONE], ['face', 'chest', 'right_knee', 'left_foot_front']);
+    await person.leave();
+});
 
 test.each(['en', 'de', 'ja'])('on a phone Stop stands beside Play in Steps (%s)', async language => {
     const person = await Visitor.come(suite.browser, `${suite.address}?lang=${language}`, {
@@ -259,20 +270,6 @@ test.each(['en', 'de', 'ja'])('on a phone Stop stands beside Play in Steps (%s)'
         .evaluateAll(all => all.slice(1, 3).map(one => one.getBoundingClientRect().top));
     expect(tops[0]).toBe(tops[1]);
     await person.leave();
-});
-
-test('the terminal has letters of 12 px or more on every screen, and the full screen', async () => {
-    for (const screen of Object.values(SCREENS)) {
-        const person = await Visitor.come(suite.browser, suite.address, { screen, hasPicture: false, hasPhysics: false });
-        await person.open('Terminal');
-        const letters = person.page.locator('terminal-pane .xterm-rows');
-        await expect
-            .poll(() => letters.evaluate(rows => parseFloat(getComputedStyle(rows).fontSize)))
-            .toBeGreaterThanOrEqual(LEAST_TYPE_PX);
-        await person.button('Full screen').click();
-        await expect.poll(() => box(person.page, 'terminal-pane')).toEqual({ x: 0, y: 0, width: screen.width, height: screen.height });
-        await person.leave();
-    }
 });
 
 test('nothing over the picture covers the hand that is dragged, wherever it goes; no ghost stands before it', async () => {
