@@ -11,6 +11,7 @@ import { KeptDocuments } from './documents.ts';
 import type { DocumentsParts } from './documents.ts';
 import type { DocumentEditor } from './editor.ts';
 import { holdDocument } from './hold-document.ts';
+import { SENT_PAGES } from './sent-pages.ts';
 import { RobotTransfer } from './transfer.ts';
 
 /** Where documents are kept. isKept is false if they are lost when the page closes. */
@@ -67,5 +68,6 @@ export function makeTransfer(editor: DocumentEditor, documents: KeptDocuments, r
             documents.backUp(robot.name(), pages).catch((cause: unknown) => {
                 throw new RobotError('no-backup', '', { cause });
             }),
+        sent: SENT_PAGES,
     });
 }

@@ -3,6 +3,7 @@
 
 import type { PageFormat } from '../model/page-format.ts';
 import { hasUnsavedEdits } from '../robot/page-requests.ts';
+import type { Ask } from '../robot/page-requests.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { SessionState, ImageName, Notice } from '../view/session/session.ts';
 import { TEXTS } from '../view/texts/texts.ts';
@@ -19,6 +20,8 @@ export interface ImageParts {
     robot(): Pick<SimulatedSource, 'restart' | 'forget' | 'prepare' | 'connection'>;
     /** Pages are being written, which needs Edit. */
     isWriting(): boolean;
+    /** What Edit has in RAM is a page that this page has half sent, and nobody's edits. */
+    isHalfSent(requests: Ask): Promise<boolean>;
     say(message: Notice): void;
     fail(error: unknown): void;
 }
@@ -94,7 +97,9 @@ export class RobotImages {
             if (this.state.image === 'play') return; // changed meanwhile
             const { connection } = this.parts.robot();
             if (!connection) throw new RobotError('not-connected');
-            if (await hasUnsavedEdits(connection.requests, this.parts.format)) throw new RobotError('page-unsaved');
+            const { requests } = connection;
+            const isUnsaved = await hasUnsavedEdits(requests, this.parts.format);
+            if (isUnsaved && !(await this.parts.isHalfSent(requests))) throw new RobotError('page-unsaved');
             if (source !== this.state.source) throw new RobotError('cancelled');
         }
         this.tell(TEXTS.robot.startsPlay);

@@ -169,6 +169,7 @@ export class RobotSession implements Session {
             format: parts.format,
             robot: () => this.sources.withImages,
             isWriting: () => this.transfer.isWriting,
+            isHalfSent: requests => this.transfer.isHalfSent(requests),
             say: message => this.say(message),
             fail: this.messages.fail,
         });

@@ -11,8 +11,11 @@ import { pageOf } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
 import { PAGE_COUNT } from '../model/motion.ts';
 import type { PageFormat } from '../model/page-format.ts';
+import { HalfSent } from '../robot/half-sent.ts';
+import type { KeptPages } from '../robot/half-sent.ts';
 import { readPages } from '../robot/page-read.ts';
 import { askPageCrcs } from '../robot/page-requests.ts';
+import type { Ask } from '../robot/page-requests.ts';
 import { PageWrite } from '../robot/page-write.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { Requests } from '../robot/requests.ts';
@@ -32,6 +35,8 @@ export interface TransferParts {
     /** Makes sure that Edit runs, the only image that saves pages. Rejects with RobotError. */
     becomeEdit(): Promise<void>;
     backUp(pages: readonly Uint8Array[]): Promise<void>;
+    /** Pages that were sent and perhaps not saved, also before a reload. */
+    readonly sent?: KeptPages;
 }
 
 /** A write that has begun. */
@@ -42,11 +47,12 @@ interface Begun {
 }
 
 const BUSY: TransferEnd = { isDone: false, error: new RobotError('transfer-busy') };
-const IDLE: TransferState = { phase: 'idle', done: 0, total: 0, account: new Map(), trouble: null };
+const IDLE: TransferState = { phase: 'idle', done: 0, total: 0, account: new Map(), trouble: null, putBack: null };
 
 export class RobotTransfer implements Transfer {
     readonly state = new Store<TransferState>(IDLE);
     private readonly parts: TransferParts;
+    private readonly sent: HalfSent;
     private stop = new AbortController();
     /** Aborted when another robot is used. Each transfer holds the signal of the robot that it began with. */
     private robot = new AbortController();
@@ -56,6 +62,12 @@ export class RobotTransfer implements Transfer {
 
     constructor(parts: TransferParts) {
         this.parts = parts;
+        this.sent = new HalfSent(parts.format, parts.sent);
+    }
+
+    /** Whether what Edit has in RAM is a page that was half sent, and nobody's edits. */
+    async isHalfSent(requests: Ask): Promise<boolean> {
+        return (await this.sent.find(requests)) !== null;
     }
 
     get isWriting(): boolean {
@@ -164,7 +176,7 @@ export class RobotTransfer implements Transfer {
             const written = wanted.find(one => one.page === page)?.after ?? bytes;
             return [format.crc(bytes), format.crc(written)];
         });
-        return { write: new PageWrite(wanted, format), crcs };
+        return { write: new PageWrite(wanted, format, this.sent), crcs };
     }
 
     /** Records the written pages as the robot's, even if the rest failed. */
@@ -173,9 +185,10 @@ export class RobotTransfer implements Transfer {
             const done = [...write.account.values()].filter(account => account === 'written' || account === 'verified').length;
             this.tell(left, { account: new Map(write.account), done, total: write.account.size });
         };
+        const putBack = (page: number): void => this.tell(left, { putBack: page });
         try {
             changed();
-            await write.run(this.parts.requests(), { signal: this.stop.signal, changed });
+            await write.run(this.parts.requests(), { signal: this.stop.signal, changed, putBack });
         } finally {
             const written = new Map(write.written.map(({ page, after }) => [page, after]));
             if (!left.aborted) this.parts.setRobot(this.parts.robot().map((bytes, page) => written.get(page) ?? bytes) as Uint8Array[]);
@@ -207,7 +220,8 @@ export class RobotTransfer implements Transfer {
     private async during(phase: 'reading' | 'writing', action: (left: AbortSignal) => Promise<void>): Promise<TransferEnd> {
         const left = this.robot.signal;
         this.stop = new AbortController();
-        this.state.set({ phase, trouble: null, done: 0, total: 0, account: phase === 'reading' ? new Map() : this.state.get().account });
+        const account = phase === 'reading' ? IDLE.account : this.state.get().account;
+        this.state.set({ phase, trouble: null, putBack: null, done: 0, total: 0, account });
         try {
             await Promise.race([action(left), aborted(left)]); // a robot in the page that is paused does not answer
             return { isDone: true };

@@ -9,24 +9,23 @@
 //                                  the line was lost: checked at the next run()
 
 import type { PageFormat } from '../model/page-format.ts';
-import { DATA_BYTES, ERR_UNSAVED, askPageCrcs, askRamCrc, openPage, savePage, sendData } from './page-requests.ts';
+import { HalfSent, differences, everyPiece, isSame, piece } from './half-sent.ts';
+import type { SentPage } from './half-sent.ts';
+import { ERR_UNSAVED, askPageCrcs, askRamCrc, openPage, savePage, sendData } from './page-requests.ts';
 import type { Ask } from './page-requests.ts';
 import { RobotError } from './robot-error.ts';
 
 export type PageAccount = 'waiting' | 'sending' | 'saving' | 'written' | 'verified';
 
-export interface PageToWrite {
-    readonly page: number;
-    /** The robot's current page. */
-    readonly before: Uint8Array;
-    /** Sealed. */
-    readonly after: Uint8Array;
-}
+/** before: the robot's current page. */
+export type PageToWrite = SentPage;
 
 export interface WriteOptions {
     readonly signal?: AbortSignal;
     /** Called after each change of the account. */
     readonly changed?: () => void;
+    /** Edit's RAM had this page of an earlier write, half sent. It has the page of flash again. */
+    readonly putBack?: (page: number) => void;
 }
 
 /** A request without an answer is sent again. All of them can safely be repeated. */
@@ -36,11 +35,14 @@ export class PageWrite {
     readonly account: Map<number, PageAccount>;
     private readonly pages: readonly PageToWrite[];
     private readonly format: PageFormat;
+    private readonly sent: HalfSent;
 
-    constructor(pages: readonly PageToWrite[], format: PageFormat) {
+    /** sent: of this write and those before it. */
+    constructor(pages: readonly PageToWrite[], format: PageFormat, sent: HalfSent = new HalfSent(format)) {
         this.pages = [...pages].sort((a, b) => a.page - b.page);
         this.account = new Map(this.pages.map(({ page }) => [page, 'waiting']));
         this.format = format;
+        this.sent = sent;
     }
 
     get isDone(): boolean {
@@ -52,8 +54,8 @@ export class PageWrite {
         return this.pages.filter(({ page }) => ['written', 'verified'].includes(this.account.get(page) ?? ''));
     }
 
-    /** Writes the remaining pages, then verifies all of them. Rejects with RobotError: page-changed or page-unsaved before that page is
-     *  touched, cancelled between two pages, or an error of the line. Call it again to continue. */
+    /** Writes the remaining pages, then verifies all of them. Rejects with RobotError: page-changed, page-unsaved or page-mixed before
+     *  that page is touched, cancelled between two pages, or an error of the line. Call it again to continue. */
     async run(line: Ask, options: WriteOptions = {}): Promise<void> {
         if (this.pages.length === 0) return;
         const requests = patient(line);
@@ -65,7 +67,7 @@ export class PageWrite {
         for (const one of this.pages) {
             if (this.account.get(one.page) !== 'waiting') continue;
             if (options.signal?.aborted) throw new RobotError('cancelled');
-            await this.write(requests, one, set);
+            await this.write(requests, one, set, options);
         }
         await this.verify(requests, set);
     }
@@ -75,8 +77,10 @@ export class PageWrite {
         const crcs = await this.crcs(requests);
         for (const { page, before, after } of this.pages) {
             const crc = crcs.get(page);
-            if (crc === this.format.crc(after)) set(page, 'written');
-            else if (crc === this.format.crc(before)) set(page, 'waiting');
+            if (crc === this.format.crc(after)) {
+                this.sent.end({ page, before, after }); // it was in flash before its cable was pulled
+                set(page, 'written');
+            } else if (crc === this.format.crc(before)) set(page, 'waiting');
             else throw new RobotError('page-changed', String(page));
         }
     }
@@ -98,65 +102,46 @@ export class PageWrite {
         return new Map((await askPageCrcs(requests, first, last)).map((crc, i) => [first + i, crc]));
     }
 
-    private async write(requests: Ask, one: PageToWrite, set: (page: number, state: PageAccount) => void): Promise<void> {
+    private async write(
+        requests: Ask,
+        one: PageToWrite,
+        set: (page: number, state: PageAccount) => void,
+        { putBack }: WriteOptions,
+    ): Promise<void> {
         const { page, after } = one;
         set(page, 'sending');
-        await this.open(requests, page);
+        await this.open(requests, page, putBack);
+        this.sent.begin(one);
         const crc = this.format.crc(after);
-        const inRam = this.loaded(one);
+        const inRam = this.sent.loaded(one);
         for (const offset of differences(inRam, after)) await sendData(requests, offset, piece(after, offset));
         if ((await askRamCrc(requests)) !== crc) {
             for (const offset of everyPiece(after)) await sendData(requests, offset, piece(after, offset));
         }
         set(page, 'saving');
         await savePage(requests, page, crc);
+        this.sent.end(one);
         set(page, 'written');
     }
 
-    private async open(requests: Ask, page: number): Promise<void> {
+    /** Unsaved edits in Edit's RAM are dropped if they are ours: of a transfer that a pulled cable or a reload has interrupted. Anything
+     *  else is somebody's work, perhaps on a page of ours. */
+    private async open(requests: Ask, page: number, putBack?: (page: number) => void): Promise<void> {
         try {
             await openPage(requests, page);
         } catch (error) {
             if (!(error instanceof RobotError) || error.number !== ERR_UNSAVED) throw error;
-            await this.clean(requests);
+            const { last } = this.sent;
+            const ours = await this.sent.putBack(requests);
+            if (!ours) throw last ? new RobotError('page-mixed', String(last.page)) : new RobotError('page-unsaved');
             await openPage(requests, page);
+            if (!this.hasSame(ours)) putBack?.(ours.page);
         }
     }
 
-    /** Handles unsaved edits in the board's RAM. If they are our own interrupted transfer of one of these pages (a pulled cable), the old
-     *  bytes are restored. Anything else is somebody's work. */
-    private async clean(requests: Ask): Promise<void> {
-        const crc = await askRamCrc(requests);
-        for (const one of this.pages) {
-            const inRam = this.loaded(one).slice();
-            const offsets = differences(inRam, one.after);
-            for (const [sent, offset] of offsets.entries()) {
-                inRam.set(piece(one.after, offset), offset);
-                if (this.format.crc(inRam) !== crc) continue;
-                for (const back of offsets.slice(0, sent + 1)) await sendData(requests, back, piece(this.loaded(one), back));
-                return;
-            }
-        }
-        throw new RobotError('page-unsaved');
+    private hasSame(sent: SentPage): boolean {
+        return this.pages.some(one => isSame(one, sent));
     }
-
-    /** The content of RAM after `@open`: Edit treats erased flash as the empty page. */
-    private loaded({ before }: PageToWrite): Uint8Array {
-        return this.format.isErased(before) ? this.format.empty : before;
-    }
-}
-
-function piece(bytes: Uint8Array, offset: number): Uint8Array {
-    return bytes.subarray(offset, offset + DATA_BYTES);
-}
-
-function everyPiece(bytes: Uint8Array): number[] {
-    return Array.from({ length: bytes.length / DATA_BYTES }, (_, i) => i * DATA_BYTES);
-}
-
-/** Offsets of the pieces that differ. */
-function differences(a: Uint8Array, b: Uint8Array): number[] {
-    return everyPiece(b).filter(offset => piece(a, offset).some((byte, i) => byte !== b[offset + i]));
 }
 
 function patient(line: Ask): Ask {

@@ -21,6 +21,7 @@ export type RobotErrorCode =
     | 'text-dropped' // the robot was to stop, or was restarted, while a pasted text was being sent
     | 'page-changed' // a page of the robot has changed since it was read; its number is in `words`
     | 'page-unsaved' // the page in Edit's memory has somebody else's edits
+    | 'page-mixed' // likewise, perhaps on a page that this page has half sent; its number is in `words`
     | 'save-failed' // the board cannot save pages
     | 'page-not-saved' // after a save the robot still has another page; its number is in `words`
     | 'no-backup' // the robot's pages could not be stored here, so nothing was written

@@ -11,7 +11,13 @@ import { Store } from '../view/store.ts';
 
 /** What a test does not name does nothing. */
 function imagesWith(parts: Pick<ImageParts, 'state' | 'robot'> & Partial<ImageParts>): RobotImages {
-    const nothing = { format: {} as PageFormat, isWriting: () => false, say: () => undefined, fail: () => undefined };
+    const nothing = {
+        format: {} as PageFormat,
+        isWriting: () => false,
+        isHalfSent: () => Promise.resolve(false),
+        say: () => undefined,
+        fail: () => undefined,
+    };
     return new RobotImages({ ...nothing, ...parts });
 }
 
@@ -81,6 +87,28 @@ test('a key of the remote while the page writes motions: Edit goes on, and it is
     await expect(images.becomeDriven()).rejects.toMatchObject({ code: 'transfer-busy' });
     expect(robot.restart).not.toHaveBeenCalled();
 });
+
+test.each([true, false])(
+    'a key of the remote while Edit has a page in RAM that the page has half sent (%s): Play starts, else not',
+    async isHalfSent => {
+        const ready = { source: 'simulated', image: 'edit', connection: 'ready', version: { image: 'edit' }, physics: 'on', stopped: null };
+        const ask = (text: string) => Promise.resolve(text.startsWith('@crcs') ? '0001'.repeat(128) : '0002');
+        const restart = vi.fn(() => Promise.resolve());
+        const robot = { restart, forget: vi.fn(), prepare: () => Promise.resolve(), connection: { requests: { ask } } };
+        const state = new Store(ready as unknown as SessionState);
+        restart.mockImplementation(() => Promise.resolve(state.set({ version: { image: 'play' } as SessionState['version'] })));
+        const images = imagesWith({
+            state,
+            format: { crc: () => 0 } as unknown as PageFormat,
+            robot: () => robot as unknown as ReturnType<ImageParts['robot']>,
+            isHalfSent: () => Promise.resolve(isHalfSent),
+        });
+        const driven = images.becomeDriven();
+        if (isHalfSent) await driven;
+        else await expect(driven).rejects.toMatchObject({ code: 'page-unsaved' });
+        expect(restart.mock.calls).toEqual(isHalfSent ? [['play']] : []);
+    },
+);
 
 test('a key for My servos with Edit does not wait for the robot in the page, whose time stands still', async () => {
     const state = new Store({

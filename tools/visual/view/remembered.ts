@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What the page remembers of the user between visits, apart from documents: things done once, language and theme.
+// What the page remembers of the user between visits, apart from documents: things done once, language and theme, and pages
+// on their way to a robot (app/sent-pages.ts).
 
-export type Remembered = 'begun' | 'all-areas' | 'language' | 'theme';
+export type Remembered = 'begun' | 'all-areas' | 'language' | 'theme' | 'half-sent';
 
 const keyOf = (what: Remembered): string => `motion512.${what}`;
 

@@ -14,6 +14,8 @@ export interface TransferState {
     /** State of the current or last write, by page. */
     readonly account: ReadonlyMap<number, PageAccount>;
     readonly trouble: string | null;
+    /** The page of an earlier write that Edit's RAM had half, and has not any more; null: none. */
+    readonly putBack: number | null;
 }
 
 /** How a transfer ended. The state's `trouble` describes the error, except transfer-busy: then another transfer is still running. */

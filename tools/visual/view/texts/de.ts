@@ -245,6 +245,8 @@ const DE: Texts = {
                 'Diese Bewegung hat sich im Roboter geändert, seit sie gelesen wurde; sie wurde nicht überschrieben. Vergleiche noch einmal. Bewegung:',
             'page-unsaved':
                 'Die Bewegung im Speicher von Edit hat Änderungen, die nicht gespeichert sind. Gib SAVE oder UNDO im Terminal ein und versuche es noch einmal.',
+            'page-mixed':
+                'Die Bewegung im Speicher von Edit hat Änderungen, die nicht gespeichert sind; vielleicht gehört eine halbe Bewegung aus einer abgebrochenen Übertragung dazu. Speichere sie nicht ungesehen. Um sie zu verwerfen, gib PAGE 1 im Terminal ein und antworte y; versuche es dann noch einmal. Bewegung:',
             'save-failed':
                 'Der Roboter konnte eine Bewegung nicht speichern: Kein Bootloader auf ihm kann schreiben, oder sein Flash-Speicher ist verschlissen. Unser Bootloader kann schreiben; er kommt einmal mit einem USB-Programmer auf die Platine. Deine Bewegungen sind hier sicher.',
             'page-not-saved':
@@ -913,6 +915,8 @@ const DE: Texts = {
         prepares: 'Vorbereitung: Der Roboter wird gelesen und gesichert …',
         writes: (done, total) => `Geschrieben: ${done} von ${total} Bewegungen …`,
         written: total => `Geschrieben und geprüft: ${plural(total, '1 Bewegung', `${total} Bewegungen`)}.`,
+        putBack: page =>
+            `Im Speicher von Edit stand Bewegung ${page} zur Hälfte, aus einer abgebrochenen Übertragung. Sie ist verworfen; die gespeicherte Bewegung ist unverändert.`,
         stopped: (done, total) => `${done} von ${total} Bewegungen sind fertig; die anderen sind unverändert.`,
     },
 

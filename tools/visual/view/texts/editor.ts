@@ -44,7 +44,9 @@ export function codeText(code: number): string {
  *  it goes on. */
 export function transferText(state: TransferState, hasTime = true): string {
     const isWaiting = state.phase === 'reading' || state.phase === 'writing';
-    return [phaseText(state), isWaiting && !hasTime ? TEXTS.status.timeStands : ''].filter(Boolean).join(' · ');
+    const putBack = state.putBack === null || isWaiting ? '' : TEXTS.compare.putBack(state.putBack);
+    const said = [phaseText(state), putBack].filter(Boolean).join(' ');
+    return [said, isWaiting && !hasTime ? TEXTS.status.timeStands : ''].filter(Boolean).join(' · ');
 }
 
 function phaseText({ phase, done, total, account, trouble }: TransferState): string {

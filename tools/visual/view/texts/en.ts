@@ -61,6 +61,8 @@ const errors: Record<RobotErrorCode, string> = {
     'text-dropped': 'The robot was told to stop or to start anew, so the rest of the pasted text was not sent.',
     'page-changed': 'This motion has changed in the robot since it was read; nothing was written over it. Compare once more. Motion:',
     'page-unsaved': "The motion in Edit's memory has edits that are not saved. Type SAVE or UNDO in the terminal, then try again.",
+    'page-mixed':
+        "The motion in Edit's memory has edits that are not saved, and half of a motion from a transfer that broke off may be among them. Do not save them unseen. To drop them, type PAGE 1 in the terminal and answer y; then try again. Motion:",
     'save-failed':
         'The robot could not save a motion: no boot loader on it can write, or its flash is worn out. Our boot loader can write; it goes onto the board once, with a USB programmer. Your motions are safe here.',
     'page-not-saved':
@@ -962,6 +964,8 @@ export const EN = {
         prepares: 'Preparing: the robot is read and saved as a backup …',
         writes: (done: number, total: number) => `Written: ${done} of ${total} motions …`,
         written: (total: number) => `Written and verified: ${plural(total, '1 motion', `${total} motions`)}.`,
+        putBack: (page: number) =>
+            `Edit's memory had half of motion ${page} from a transfer that broke off. It is dropped; the saved motion is as it was.`,
         stopped: (done: number, total: number) => `${done} of ${total} motions are done; the others are as they were.`,
     },
 

@@ -240,6 +240,8 @@ const ES: Texts = {
                 'Este movimiento ha cambiado en el robot desde que se leyó; no se ha sobrescrito. Compara otra vez. Movimiento:',
             'page-unsaved':
                 'El movimiento en la memoria de Edit tiene cambios sin guardar. Escribe SAVE o UNDO en el terminal e inténtalo de nuevo.',
+            'page-mixed':
+                'El movimiento en la memoria de Edit tiene cambios sin guardar, y entre ellos puede estar la mitad de un movimiento de una transferencia interrumpida. No los guardes sin mirarlos. Para descartarlos, escribe PAGE 1 en el terminal y responde y; después inténtalo de nuevo. Movimiento:',
             'save-failed':
                 'El robot no pudo guardar un movimiento: no tiene un cargador de arranque que escriba, o su memoria flash está gastada. El nuestro sí escribe; se graba una vez en la placa con un programador USB. Tus movimientos están a salvo aquí.',
             'page-not-saved':
@@ -895,6 +897,8 @@ const ES: Texts = {
         prepares: 'Preparando: se lee el robot y se guarda como copia de seguridad …',
         writes: (done, total) => `Escritos: ${done} de ${total} movimientos …`,
         written: total => `Escrito y comprobado: ${plural(total, '1 movimiento', `${total} movimientos`)}.`,
+        putBack: page =>
+            `La memoria de Edit tenía la mitad del movimiento ${page}, de una transferencia interrumpida. Se ha descartado; el movimiento guardado sigue como estaba.`,
         stopped: (done, total) => `${done} de ${total} movimientos están hechos; los demás siguen como estaban.`,
     },
 
