@@ -145,29 +145,22 @@ def imported(tree):
     return version
 
 
-def test_python_packages_come_in_the_pinned_version(tree, wheels):
-    assert python(tree, wheels).returncode == 0
-    assert imported(tree) == "1.0"
-
-
-def test_a_python_package_that_cannot_be_had_is_named_and_the_next_run_installs_it(tree, wheels, tmp_path):
+def test_python_packages_are_the_pinned_ones_in_a_python_of_this_tree(tree, wheels, tmp_path):
+    """One story, because each new environment takes seconds: an installation that fails, the next one, the tree copied, and a tree that
+    is linked to the packages of another."""
     sentence = refusal(python(tree, tmp_path))
     assert "pip could not install thing>=1: " in sentence and "Traceback" not in sentence
+    left = next((tree / "build/venv/lib").glob("*/site-packages")) / "left_over.py"
+    left.touch()
     assert python(tree, wheels).returncode == 0
-    assert imported(tree) == "1.0"
+    assert imported(tree) == "1.0" and not left.exists()  # begun anew
 
+    copy = tmp_path / "copy"
+    shutil.copytree(tree, copy, symlinks=True)
+    assert python(copy, wheels).returncode == 0
+    assert imported(copy) == "1.0"
+    assert (copy / "build/venv/bin/pip").read_text().startswith(f"#!{copy.resolve()}/build/venv/bin/python")
 
-def test_an_interrupted_installation_begins_anew(tree, wheels):
-    assert python(tree, wheels).returncode == 0
-    (tree / "build/venv/.installing").touch()
-    (next((tree / "build/venv/lib").glob("*/site-packages")) / "thing.py").write_text("")
-    assert python(tree, wheels).returncode == 0
-    assert imported(tree) == "1.0"
-
-
-def test_another_trees_python_is_not_used(tree, wheels, tmp_path):
-    """That Python contains the packages of the other tree."""
-    assert python(tree, wheels).returncode == 0
     other = tmp_path / "other"
     shutil.copytree(tree, other, ignore=shutil.ignore_patterns("build"))
     (other / "build").mkdir()
@@ -184,16 +177,6 @@ def test_a_program_says_what_it_does_before_anything_is_installed(tree):
     (tree / "tool").chmod(0o755)
     assert subprocess.run([tree / "tool", "--help"], capture_output=True, text=True, check=True).stdout == "Does this.\n"
     assert refusal_of(subprocess.run([tree / "tool", "word"], capture_output=True, text=True, check=False)).endswith("run: tools/dev/build")
-
-
-def test_a_copied_tree_gets_a_python_of_its_own(tree, wheels, tmp_path):
-    assert python(tree, wheels).returncode == 0
-    copy = tmp_path / "copy"
-    shutil.copytree(tree, copy, symlinks=True)
-    shutil.rmtree(tree)
-    assert python(copy, wheels).returncode == 0
-    assert imported(copy) == "1.0"
-    assert (copy / "build/venv/bin/pip").read_text().startswith(f"#!{copy.resolve()}/build/venv/bin/python")
 
 
 def test_a_copied_tree_is_built_where_it_lies(tree):
