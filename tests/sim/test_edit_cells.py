@@ -8,6 +8,8 @@ from tests.sim.edit_robot import UNUSED, changed, word
 
 # ---- cells ----
 
+COLUMNS = [20, 26, 31, 36, 41, 46, 51, 56, 61, 77]  # of the cursor, ORIGINAL.md section 3
+
 
 @pytest.mark.parametrize(
     "x, y, value, address",
@@ -29,7 +31,7 @@ from tests.sim.edit_robot import UNUSED, changed, word
 )
 def test_set_writes_the_cell(r, x, y, value, address):
     r.line(f"goto {x} {y}")
-    assert r.xya == (f"{x:02d}", f"{y:02d}", f"{address:04d}")
+    assert r.xya == (f"{x:02d}", f"{y:02d}", f"{address:04d}") and r.cursor == (y + 1, COLUMNS[x] + (y > 30))
     r.line(f"set {value}")
     changes = {address: value & 0xFF}
     if x in range(1, 8) and y <= 30:
@@ -44,6 +46,8 @@ def test_set_writes_the_cell(r, x, y, value, address):
         (4, 31, 256, "Value must be 0..255"),
         (8, 0, 1023, "Value must be 0..255"),
         (9, 9, 8, "Page Step must be 0..7"),
+        (9, 6, 200, "Link must be 0..127"),
+        (9, 7, 128, "Link must be 0..127"),
         (9, 14, 128, "Link must be 0..127"),
         (9, 16, 200, "Link must be 0..127"),
     ],
@@ -108,6 +112,21 @@ def test_torque_off_marks_are_saved_as_unused(r):
     data = changed(BASE, {67: 0x41})
     assert word(data, 0, 1) == UNUSED | 480
     assert bytes_of(r) == data and r.cell(1, 1) == "----"
+
+
+def test_home_end_and_pages_of_rows_move_the_cursor_far(r):
+    r.line("goto 3 10")
+    for keys, xy in (
+        ("\x1b[F", ("09", "10")),
+        ("\x1b[H", ("00", "10")),
+        ("\x1b[6~", ("00", "18")),
+        ("\x1b[6~\x1b[6~", ("00", "32")),
+        ("\x1b[4~", ("07", "32")),  # the row of speeds has no softness cell
+        ("\x1b[5~", ("07", "24")),
+        ("\x1b[5~\x1b[5~\x1b[5~\x1b[1~", ("00", "00")),
+    ):
+        r.keys(keys)
+        assert r.xya[:2] == xy, keys
 
 
 def test_arrows_move_as_the_original_does(r):

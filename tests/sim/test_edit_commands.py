@@ -2,6 +2,9 @@
 """Editing commands of edit/ORIGINAL.md sections 4 to 6: messages, questions, pages, the line, lists. Checks the message, the screen, and
 the 512 bytes, which the tests derive from the specification. Intended differences: firmware/edit/DIFFERENCES.md."""
 
+import pathlib
+import re
+
 import pytest
 
 from tests.sim.edit_base import BASE, OTHER, PAGES, bytes_of
@@ -15,31 +18,35 @@ from tests.sim.edit_robot import new_page, robot, seal
     [
         ("foo", "Bad Command"),
         ("pag 1", "Bad Command"),
+        ("pages 1", "Bad Command"),
+        ("sa 1", "Bad Command"),
         ("dump", "Bad Command"),
         ("led 1", "Bad Command"),
         ("check", "Bad Command"),
         ("int 0 1", "Bad Command"),
         ("page", "Invalid Parameter"),
-        ("page 1 2", "Invalid Parameter"),
+        ("page 2 200", "Invalid Parameter"),
         ("p", "Invalid Parameter"),
         ("page 128", "Page must be 0..127"),
         ("page -5", "Page must be 0..127"),
-        ("page x", "Page must be 0..127"),
+        ("page 2x", "Page must be 0..127"),
         ("page 65536", "Page must be 0..127"),
         ("page 0b1", "Page must be 0..127"),
         ("copy", "Invalid Parameter"),
         ("copy 200", "Page must be 0..127"),
         ("step", "Invalid Parameter"),
         ("s 8", "Step must be 0..7"),
-        ("go 7", "Step must be 0..6"),
+        ("g 7", "Step must be 0..6"),
         ("go", "Invalid Parameter"),
         ("write 7", "Step must be 0..6"),
         ("insert", "Invalid Parameter"),
         ("i 7", "Step must be 0..6"),
         ("delete 7", "Step must be 0..6"),
+        ("delete 6", "That step is not used"),
         ("move 1", "Invalid Parameter"),
-        ("move 8 1", "Step must be 0..7"),
-        ("mirror 7", "Step must be 0..6"),
+        ("move 1 2 3", "Invalid Parameter"),
+        ("move 0 8", "Step must be 0..7"),
+        ("m 7", "Step must be 0..6"),
         ("mirror", "Invalid Parameter"),
         ("swap 1 7", "Step must be 0..6"),
         ("set", "Invalid Parameter"),
@@ -55,7 +62,7 @@ from tests.sim.edit_robot import new_page, robot, seal
         ("on 25", "Not there: ID 25"),
         ("play 0", "Page must be 1..127"),
         ("play 200", "Page must be 1..127"),
-        ("save 128", "Page must be 0..127"),
+        ("sav 300", "Page must be 0..127"),
         ("undo", "Nothing to undo"),
         ("redo", "Nothing to redo"),
         ("paste", "Nothing noted, or it has changed: TAKE first"),
@@ -82,7 +89,7 @@ def test_errors_say_what_is_wrong(r, line, message):
     assert bytes_of(r) == bytes(BASE.data)
 
 
-@pytest.mark.parametrize("line", ["PAGE 2", "page 2", "P 2", "p,2", "p:2", "p;2", "p.2", "p  2", "page 0x2"])
+@pytest.mark.parametrize("line", ["PAGE 2", "page 2", "P 2", "p,2", "p:2", "p;2", "p.2", "page.:;, 2", "page 0x2"])
 def test_case_separators_and_abbreviation(r, line):
     assert r.line(line) == line
     assert r.text(2, 76, 4) == "0002" and r.text(1, 65, 5) == "other"
@@ -111,6 +118,39 @@ def test_unsaved_edits_are_asked_for_and_kept_with_any_key_but_y(r, command, ans
     r.line(command, answer)
     assert r.command == f"] {command} The edits would be lost. Are you sure?[y/N] no"
     assert r.text(2, 76, 4) == "0001" and r.cell(1, 0) == "0077" and r.unsaved
+
+
+def test_a_line_that_answers_a_question_is_no_command_and_what_is_typed_ahead_no_answer(r):
+    r.line("set 77")
+    r.line("page 2")
+    r.keys("on 99\r")  # its first key says no
+    assert r.command.endswith("[y/N] no") and r.cursor == (1, 26) and r.unsaved
+    r.keys("page 2\ryes\rsave 3\r")
+    assert r.command.endswith("[y/N]") and r.text(2, 76, 4) == "0001" and r.flash_page(3) == bytes(PAGES[3].data)
+    r.keys("n")
+    assert r.unsaved
+
+
+def test_packets_of_a_remote_are_not_keys(r):
+    """D+R and U+L+R: the packets have U (UNDO), LF and CR among their bytes (REMOTE.md)."""
+    r.line("set 77")
+    r.line("name")
+    for packet in (b"\xff\x55\x0a\xf5\x00\xff", b"\xff\x55\x0d\xf2\x00\xff") * 5:
+        r.board.send(packet)
+        r.board.run(ms=50)
+    r.keys(b"\xff\x55\x0a")  # the rest of it is lost
+    r.line("wave")
+    assert r.text(1, 65, 5) == "wave " and r.cell(1, 0) == "0077"
+
+
+def test_exit_restarts_after_a_yes():
+    with robot(pages=PAGES) as r:
+        r.line("goto 1 0")
+        r.line("set 77")
+        resets = r.board.resets
+        r.line("exit", "y")
+        r.settle(ms=1500)
+        assert r.board.resets == resets + 1 and not r.unsaved
 
 
 def test_a_terminals_size_report_answers_no_question(r):
@@ -239,11 +279,10 @@ def test_control_keys_start_an_empty_line(r):
     assert r.cursor == (1, 26)
 
 
-def test_too_long_a_line_is_not_run(r):
-    r.line("x" * 130)
-    assert r.command == "] The line is too long: nothing was done"
-    r.line("page 2")
-    assert r.text(2, 76, 4) == "0002"
+def test_empty_line_does_nothing(r):
+    r.keys("\r")
+    r.keys("  \r")
+    assert r.message == "" and r.cursor == (1, 26)
 
 
 def test_goto_set_keeps_the_cursor_over_a_page_change(r):
@@ -254,9 +293,23 @@ def test_goto_set_keeps_the_cursor_over_a_page_change(r):
 
 # ---- lists ----
 
+# Every word of the original, and those that DIFFERENCES.md adds.
+WORDS = (
+    "page next before copy new save exit name step go write insert delete move mirror set goto on off play time speed re hex dec monitor "
+    "help list undo redo swap take paste pairs rows"
+).split()
+
+
+def test_help_of_each_command_fits_into_the_row(r):
+    source = (pathlib.Path(__file__).parents[2] / "firmware" / "edit" / "commands.c").read_text()
+    texts = {text.split()[0]: text.split() for text in re.findall(r'TEXT_NAMED\(word_\w+, "(.*?)"\);', source)}
+    assert set(texts) == set(WORDS)
+    for word, text in texts.items():
+        assert r.line(f"help {word}").split() == ["help", word, *text]
+
 
 def test_help_and_list_show_and_give_the_screen_back(r):
-    assert r.line("help go") == "help go go      g   n  moves the robot to step n"
+    assert r.line("? g") == "? g go      g   n  moves the robot to step n"
     r.line("list 1 3")
     shown = r.show()
     for text in ("base", "other", "full", "1.19 s", "0.25 s", "0.71 s"):

@@ -294,3 +294,78 @@ def test_a_line_that_is_typed_while_a_program_moves_the_robot_is_carried_out_or_
         assert r.board.servos[1].torque
         r.line("off")
         assert not any(r.board.servos[joint].torque for joint in range(1, 19))
+
+
+# ---- a program's motion while a person types ----
+
+# With commas: a space would break the play.
+WORDS = (
+    "page,2 next before copy,2 new save exit name,x step,1 go,0 write insert,1 delete move,0,1 swap,0,1 paste mirror,0 set,1 on play "
+    "time speed undo redo"
+).split()
+HARMLESS = "take,0 pairs monitor goto,1,2 list,1,2 help re rows,35 hex dec off,3".split()
+
+
+def test_lines_that_a_play_needs_unchanged_are_refused_while_a_program_plays():
+    with robot(pages=PAGES) as r:
+        r.board.send(request("@play 1"))
+        r.board.run(ms=1500)
+        for line in WORDS:
+            assert r.line(line) == f"{line} Something moves"
+        for line in HARMLESS:
+            assert "Something moves" not in r.line(line), line
+            r.keys("q" if line in ("list,1,2", "help") else "")
+        assert fields(ask(r, "@where"))["state"] == "playing" and r.ram_page() == bytes(PAGES[1].data)
+
+
+@pytest.fixture(name="short")
+def _short():
+    """A robot with a play that ends with joint 1 at 421 (page 3), one that takes it to 600 from there (4), a long one (1), and a trim of
+    50 for joint 1 in page 0."""
+    trim = page("Offset", [(0, {1: 512}), (0, {1: 562}), (0, {1: 50})])
+    with robot(pages={**PAGES, 3: page("short", [(20, {1: 421})]), 4: page("on", [(10, {1: 421}), (128, {1: 600})]), 0: trim}) as r:
+        yield r
+
+
+def program_plays(r, typed=""):
+    """A program plays page 3 while the person has typed this. The goal of joint 1 afterwards."""
+    r.keys(request("@play 3"))
+    r.keys(typed, ms=2500)
+    return r.board.servos[1].goal
+
+
+def test_the_end_of_a_programs_play_does_not_end_the_next_one(short):
+    """The rate is for this play: the end of an earlier one does not take it away."""
+    program_plays(short, "play")
+    short.board.clear_trace()
+    short.keys(" 4 50\r", ms=4000)
+    assert short.message == "Page 4 step 1 repetition 1 OK"
+    way = [(frame.tick, frame.goals[1] - 50) for frame in short.board.trace if 1 in frame.goals]
+    ticks = min(tick for tick, goal in way if goal == 600) - max(tick for tick, goal in way if goal == 421)
+    assert abs(ticks - 2 * 128) <= 3
+
+
+def test_write_and_keys_take_the_pose_in_which_a_programs_play_ended(short):
+    assert program_plays(short, "write") == 421 + 50
+    short.line(" 5")
+    assert short.cell(0, 1) == short.cell(6, 1) == "0421"
+    short.line("goto 0 1")
+    short.line("list 1 2")
+    program_plays(short)
+    short.keys("]")
+    assert short.board.servos[1].goal == 422 + 50
+
+
+def test_a_programs_plays_have_the_trim_and_its_moves_none_while_page_0_is_open(short):
+    """Page 0 is edited without trim."""
+    short.line("page 0")
+    assert program_plays(short) == 421 + 50
+    short.keys(request("@play 1"), ms=500)
+    short.keys(" ", ms=1000)
+    assert program_plays(short) == 421 + 50
+    short.keys(request("@play 3"))
+    assert program_plays(short) == 421 + 50  # refused, and the trim stays
+    short.keys(request("@move 90 1 1A5"), ms=2500)
+    assert short.board.servos[1].goal == 0x1A5 and short.cell(0, 1) == "0421"
+    short.line("page 1")
+    assert short.cell(0, 1) == "0371"

@@ -48,6 +48,28 @@ def test_save_takes_less_than_60_ms_and_keeps_everything(phase_ms):
         assert r.board.resets == 1 or r.board.resets == 0
 
 
+def test_save_waits_until_the_bus_is_quiet():
+    """Interrupts go off for 9 ms at a time: an answer that came then would be lost."""
+    with robot(pages={1: OLD}) as r:
+        r.line("off")  # every joint is read all the time
+        for joint in range(1, 19):
+            r.board.servos[joint].fault("late")
+            r.board.servos[joint].late_us = 2500  # the time in which a save can meet an answer
+        r.line("goto 1 3")
+        for phase in range(8):
+            r.line(f"set {700 + phase}")
+            r.keys("save")
+            r.board.run(ms=phase)
+            operations = r.board.operations
+            r.board.send(b"\r")
+            while r.board.operations == operations:
+                r.board.run(ms=0.1)
+            heard = r.board.uart(0).received
+            r.board.run(ms=3)
+            assert r.board.uart(0).received == heard, phase
+            r.settle()
+
+
 def test_save_of_an_unchanged_page_writes_nothing():
     with robot(pages={1: OLD}) as r:
         operations = r.board.operations
@@ -63,6 +85,9 @@ def test_save_n_asks_when_the_page_is_not_empty():
         assert "That page is not empty. Are you sure?[y/N]" in r.command and r.flash_page(2) == bytes(OTHER.data)
         r.line("save 2", "y")
         assert r.flash_page(2) == bytes(OLD.data) and r.text(2, 76, 4) == "0001"
+        r.board.flash[MOTION_START + 512 * 3 + 100] ^= 1  # without name and steps, but damaged: somebody's page
+        r.line("save 3", "n")
+        assert "That page is not empty. Are you sure?[y/N]" in r.command
 
 
 def test_damaged_page_is_saved_only_after_a_question_and_repaired():

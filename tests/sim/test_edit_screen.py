@@ -122,8 +122,20 @@ def test_page_change_sends_only_what_differs_and_ends_equal_to_a_redraw():
         sent = len(r.board.console) - start
         changed = r.show()
         r.line("re")
-        assert sent < 400
+        assert sent < 300
         assert [a for a in r.show().splitlines()[:34]] == changed.splitlines()[:34]
+
+
+def test_only_the_cell_that_changes_is_sent_and_nothing_while_nothing_changes():
+    with robot(pages={1: READY}) as r:
+        r.line("goto 1 3")
+        r.keys("set 70")
+        start = len(r.board.console)
+        r.keys("0\r", ms=500)
+        assert r.cell(1, 3) == "0700" and r.unsaved and len(r.board.console) - start < 100
+        start = len(r.board.console)
+        r.board.run(ms=3000)
+        assert len(r.board.console) == start
 
 
 def test_step_marker_moves():
@@ -199,6 +211,9 @@ def test_small_terminal_leaves_out_absent_joints_and_keeps_the_rest():
         r.keys("\x1b[B" * 18)
         assert r.text(22, 61, 18) == "[X:00,Y:31,A:0574]"
         assert r.line("goto 0 20").endswith("That joint has no row")
+        r.line("goto 9 19")  # the header beside the table keeps all rows
+        r.keys("\x1b[A\x1b[A\x1b[B\x1b[D")
+        assert r.text(22, 61, 11) == "[X:08,Y:18,"
 
 
 def test_small_terminal_scrolls_with_the_cursor():

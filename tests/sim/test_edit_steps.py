@@ -213,24 +213,3 @@ def test_paste_refuses_noted_steps_whose_torque_marks_a_save_has_removed(own):
     assert own.cell(4, 3) == "----" and own.line("paste 0") == CHANGED
     own.line("take 3")
     assert own.line("paste 0") == "paste 0" and own.cell(1, 3) == "----"
-
-
-# ---- undo ----
-
-
-def test_eight_commands_are_undone_and_redone(r):
-    r.line("on")  # a SAVE would change the ???? that INSERT stores
-    states = [bytes_of(r)]
-    for line in ("set 11", "swap 0 1", "step 5", "move 0 6", "insert 1", "delete 0", "speed", "copy 2", "new"):
-        r.line(line)
-        if "[y/N]" in r.command:
-            r.keys("y")
-        states.append(bytes_of(r))
-    for state in reversed(states[:-1]):
-        assert r.line("u") == "u"
-        assert bytes_of(r) == state
-    assert not r.unsaved
-    for state in states[1:]:
-        r.line("redo")
-        assert bytes_of(r) == state
-    r.line("off")

@@ -83,24 +83,6 @@ def test_a_save_between_changes_nothing(r):
     assert ram_page(r) == before
 
 
-@pytest.mark.parametrize("command", ["new", "copy 5", "insert 3", "swap 0 6", "paste 0"])
-def test_a_whole_page_of_a_robot_comes_back_with_what_was_not_saved(r, command):
-    """18 joints, 7 steps, and earlier edits that exist only in RAM. REDO applies the command again."""
-    edit(r, "page 4", "goto 3 17", "set 1000", "goto 9 10", "set 99")
-    if command == "paste 0":
-        edit(r, "save", "page 5", "take 0 6", "page 4", "goto 3 17", "set 999")
-    before = ram_page(r)
-    edit(r, command)
-    after = ram_page(r)
-    assert after != before
-    edit(r, "undo")
-    assert ram_page(r) == before
-    edit(r, "redo")
-    assert ram_page(r) == after
-    edit(r, "undo")
-    assert ram_page(r) == before
-
-
 def test_the_last_eight_commands_come_back_one_by_one(r):
     r.line("page 3")
     r.line("on")
