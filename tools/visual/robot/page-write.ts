@@ -6,7 +6,10 @@
 //            v                                                              |
 //   waiting (old) --@open, @data, @crc--> sending (old) --@save--> saving (old or new) --OK--> written --@crcs--> verified
 //                                                                       |
-//                                  the line was lost: checked at the next run()
+//                |                 the line was lost: checked at the next run()
+//                +--ERR 11--> refused (old)         a written page that is the old one when all are verified is lost (old)
+//
+// The pages behind one that is refused or lost are written all the same. The next run() tries it once more.
 
 import type { PageFormat } from '../model/page-format.ts';
 import { HalfSent, differences, everyPiece, isSame, piece } from './half-sent.ts';
@@ -15,7 +18,7 @@ import { ERR_UNSAVED, askPageCrcs, askRamCrc, openPage, savePage, sendData } fro
 import type { Ask } from './page-requests.ts';
 import { RobotError } from './robot-error.ts';
 
-export type PageAccount = 'waiting' | 'sending' | 'saving' | 'written' | 'verified';
+export type PageAccount = 'waiting' | 'sending' | 'saving' | 'written' | 'verified' | 'refused' | 'lost';
 
 /** before: the robot's current page. */
 export type PageToWrite = SentPage;
@@ -55,7 +58,8 @@ export class PageWrite {
     }
 
     /** Writes the remaining pages, then verifies all of them. Rejects with RobotError: page-changed, page-unsaved or page-mixed before
-     *  that page is touched, cancelled between two pages, or an error of the line. Call it again to continue. */
+     *  that page is touched, cancelled between two pages, or an error of the line; save-failed, pages-refused or page-not-saved when all
+     *  others are written. Call it again to continue. */
     async run(line: Ask, options: WriteOptions = {}): Promise<void> {
         if (this.pages.length === 0) return;
         const requests = patient(line);
@@ -70,6 +74,19 @@ export class PageWrite {
             await this.write(requests, one, set, options);
         }
         await this.verify(requests, set);
+        this.mustBeDone();
+    }
+
+    /** Throws the reason why pages are not written, with their numbers. */
+    private mustBeDone(): void {
+        const [refused, lost] = [this.numbers('refused'), this.numbers('lost')];
+        if (refused.length === this.pages.length) throw new RobotError('save-failed');
+        if (refused.length > 0) throw new RobotError('pages-refused', [...refused, ...lost].sort((a, b) => a - b).join(', '));
+        if (lost.length > 0) throw new RobotError('page-not-saved', lost.join(', '));
+    }
+
+    private numbers(state: PageAccount): number[] {
+        return this.pages.filter(({ page }) => this.account.get(page) === state).map(({ page }) => page);
     }
 
     /** Asks which pages are written already. */
@@ -88,11 +105,8 @@ export class PageWrite {
     private async verify(requests: Ask, set: (page: number, state: PageAccount) => void): Promise<void> {
         const crcs = await this.crcs(requests);
         for (const { page, after } of this.pages) {
-            if (crcs.get(page) !== this.format.crc(after)) {
-                set(page, 'waiting');
-                throw new RobotError('page-not-saved', String(page));
-            }
-            set(page, 'verified');
+            if (crcs.get(page) === this.format.crc(after)) set(page, 'verified');
+            else if (this.account.get(page) !== 'refused') set(page, 'lost');
         }
     }
 
@@ -119,9 +133,10 @@ export class PageWrite {
             for (const offset of everyPiece(after)) await sendData(requests, offset, piece(after, offset));
         }
         set(page, 'saving');
-        await savePage(requests, page, crc);
-        this.sent.end(one);
-        set(page, 'written');
+        const isSaved = await saved(requests, page, crc);
+        if (isSaved) this.sent.end(one);
+        else await this.sent.takeBack(requests, one);
+        set(page, isSaved ? 'written' : 'refused');
     }
 
     /** Unsaved edits in Edit's RAM are dropped if they are ours: of a transfer that a pulled cable or a reload has interrupted. Anything
@@ -141,6 +156,17 @@ export class PageWrite {
 
     private hasSame(sent: SentPage): boolean {
         return this.pages.some(one => isSame(one, sent));
+    }
+}
+
+/** false: the board refuses this page for good. */
+async function saved(requests: Ask, page: number, crc: number): Promise<boolean> {
+    try {
+        await savePage(requests, page, crc);
+        return true;
+    } catch (error) {
+        if (error instanceof RobotError && error.code === 'save-failed') return false;
+        throw error;
     }
 }
 

@@ -23,7 +23,8 @@ export type RobotErrorCode =
     | 'page-unsaved' // the page in Edit's memory has somebody else's edits
     | 'page-mixed' // likewise, perhaps on a page that this page has half sent; its number is in `words`
     | 'save-failed' // the board cannot save pages
-    | 'page-not-saved' // after a save the robot still has another page; its number is in `words`
+    | 'pages-refused' // the board saves pages, but not all of them; the numbers of those are in `words`
+    | 'page-not-saved' // after a save the robot still has other pages; their numbers are in `words`
     | 'no-backup' // the robot's pages could not be stored here, so nothing was written
     | 'needs-edit' // Play runs, but only Edit saves pages
     | 'transfer-busy' // pages are being read or written; one transfer at a time

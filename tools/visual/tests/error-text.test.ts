@@ -3,6 +3,7 @@
 import { expect, test } from 'vitest';
 import { savePage } from '../robot/page-requests.ts';
 import { RobotError } from '../robot/robot-error.ts';
+import { EN } from '../view/texts/en.ts';
 import { errorText } from '../view/texts/robot.ts';
 
 /** The error of a save that the board refuses so. */
@@ -15,6 +16,13 @@ async function refusedSave(number: number, words: string): Promise<string> {
 test("the board's words end with a full stop", async () => {
     expect(await refusedSave(4, 'Something moves')).toBe('The robot refused: Something moves.');
     expect(await refusedSave(4, 'Something moves.')).toBe('The robot refused: Something moves.');
+});
+
+test('a number that a sentence ends with has a full stop: what follows may begin with a number, too', () => {
+    expect(errorText(new RobotError('page-changed', '56'))).toMatch(/ Motion: 56\.$/);
+    const { errors } = EN.robot;
+    for (const code of ['page-changed', 'page-mixed', 'page-not-saved', 'pages-refused', 'damaged-here'] as const)
+        expect(errorText(new RobotError(code, '5, 56')), code).toBe(`${errors[code]} 5, 56.`);
 });
 
 test('a board that cannot save: what it lacks, and that nothing is lost', async () => {

@@ -9,6 +9,7 @@ import { Connection } from '../robot/connection.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import { readPages } from '../robot/page-read.ts';
 import { askList } from '../robot/protocol.ts';
+import { hasUnsavedEdits } from '../robot/page-requests.ts';
 import { PageWrite } from '../robot/page-write.ts';
 import type { PageToWrite } from '../robot/page-write.ts';
 import { MOTIONS_ADDRESS } from '../sim/board.ts';
@@ -409,6 +410,46 @@ test('a digit of "@save" lost in noise: the board refuses the request, and it is
     expect(flashPage(bench, 3)).toEqual(other);
     expect(flashPage(bench, 31)).toEqual(page.after);
     expect(write.isDone).toBe(true);
+});
+
+/** A line on which the robot refuses to save this page, or says OK and keeps the old one. */
+function wornAt(bench: RobotBench, { requests }: Connection, worn: number, how: 'refuses' | 'forgets'): Connection['requests'] {
+    const before = flashPage(bench, worn);
+    const ask: typeof requests.ask = async (text, options) => {
+        const isWorn = text.startsWith(`@save ${worn} `);
+        if (isWorn && how === 'refuses') throw new RobotError('refused', 'The page could not be saved', { number: 11 });
+        const answer = await requests.ask(text, options);
+        if (isWorn) bench.board.writeFlash(MOTIONS_ADDRESS + 512 * worn, before);
+        return answer;
+    };
+    return { ask } as typeof requests;
+}
+
+test('a page that the robot refuses to save does not bar the others, and it is said which one it is', async () => {
+    const { bench, connection } = await ready('edit', 66);
+    const pages = twenty(bench, 4);
+    const before = pages.map(({ page }) => flashPage(bench, page));
+    const line = { version: connection.version, requests: wornAt(bench, connection, 7, 'refuses') } as Connection;
+    const { transfer } = transferOn(bench, line, pages);
+    const numbers = pages.map(({ page }) => page);
+    for (const begin of [() => transfer.write(numbers), () => transfer.tryAgain()]) {
+        expect(await bench.until(begin(), 60_000)).toMatchObject({ error: { code: 'pages-refused', words: '7' } });
+        expect([...transfer.state.get().account]).toEqual(numbers.map(page => [page, page === 7 ? 'refused' : 'verified']));
+        expect(transferText(transfer.state.get())).toMatch(/Not written: 7\. 3 of 4 motions are done; the others are as they were\.$/);
+    }
+    expect(numbers.map(page => flashPage(bench, page))).toEqual(pages.map(({ after }, i) => (numbers[i] === 7 ? before[i] : after)));
+    // Nothing of it is left in Edit, for a person to save or for the next page to meet.
+    expect(await bench.until(hasUnsavedEdits(connection.requests, format))).toBe(false);
+    expect(await bench.until(transfer.write([7]), 60_000)).toMatchObject({ error: { code: 'save-failed' } }); // perhaps it can save none
+});
+
+test('a page that the robot has not kept: the others are verified, and it is said which one it is', async () => {
+    const { bench, connection } = await ready('edit', 67);
+    const pages = twenty(bench, 3);
+    const write = new PageWrite(pages, format);
+    const run = write.run({ ask: wornAt(bench, connection, 7, 'forgets').ask });
+    await expect(bench.until(run, 60_000)).rejects.toMatchObject({ code: 'page-not-saved', words: '7' });
+    expect([...write.account.values()]).toEqual(['verified', 'lost', 'verified']);
 });
 
 test('a page that came damaged from a robot is not passed on: not a byte of it goes down the line', async () => {

@@ -224,7 +224,9 @@ async function checkInSight(person: Visitor, screens: readonly Screen[], shapes:
         await page.setViewportSize({ width, height });
         await person.untilSeen();
         for (const shape of shapes)
-            await expect.poll(async () => textsOver(page, await placeOf(page, shape)), { message: `${shape}, ${width} x ${height}` }).toEqual([]);
+            await expect
+                .poll(async () => textsOver(page, await placeOf(page, shape)), { message: `${shape}, ${width} x ${height}` })
+                .toEqual([]);
     }
 }
 

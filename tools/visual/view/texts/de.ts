@@ -249,6 +249,8 @@ const DE: Texts = {
                 'Die Bewegung im Speicher von Edit hat Änderungen, die nicht gespeichert sind; vielleicht gehört eine halbe Bewegung aus einer abgebrochenen Übertragung dazu. Speichere sie nicht ungesehen. Um sie zu verwerfen, gib PAGE 1 im Terminal ein und antworte y; versuche es dann noch einmal. Bewegung:',
             'save-failed':
                 'Der Roboter konnte eine Bewegung nicht speichern: Kein Bootloader auf ihm kann schreiben, oder sein Flash-Speicher ist verschlissen. Unser Bootloader kann schreiben; er kommt einmal mit einem USB-Programmer auf die Platine. Deine Bewegungen sind hier sicher.',
+            'pages-refused':
+                'Der Roboter konnte diese Bewegungen nicht speichern; vielleicht ist sein Flash-Speicher dort verschlissen. Alle anderen wurden auch versucht. Deine Bewegungen sind hier sicher. Nicht geschrieben:',
             'page-not-saved':
                 'Der Roboter hat diese Bewegung angenommen, aber jetzt hat er sie nicht. Vielleicht ist sein Flash-Speicher verschlissen; deine Bewegung ist hier sicher. Versuche es noch einmal. Bewegung:',
             'no-backup':
@@ -909,6 +911,8 @@ const DE: Texts = {
             saving: 'wird gespeichert …',
             written: '✓ geschrieben',
             verified: '✓ geprüft',
+            refused: '✗ der Roboter konnte sie nicht speichern',
+            lost: '✗ nach dem Speichern nicht da',
         },
         asks: 'Der Roboter wird gefragt, welche Bewegungen er hat …',
         reads: (number, total) => `Bewegung ${number} von ${total} wird gelesen …`,

@@ -65,6 +65,8 @@ const errors: Record<RobotErrorCode, string> = {
         "The motion in Edit's memory has edits that are not saved, and half of a motion from a transfer that broke off may be among them. Do not save them unseen. To drop them, type PAGE 1 in the terminal and answer y; then try again. Motion:",
     'save-failed':
         'The robot could not save a motion: no boot loader on it can write, or its flash is worn out. Our boot loader can write; it goes onto the board once, with a USB programmer. Your motions are safe here.',
+    'pages-refused':
+        'The robot could not save these motions; its flash may be worn out there. All others were tried, too. Your motions are safe here. Not written:',
     'page-not-saved':
         'The robot took this motion but does not have it now. Its flash may be worn out; your motion is safe here. Try again. Motion:',
     'no-backup':
@@ -154,6 +156,8 @@ const accounts: Record<PageAccount, string> = {
     saving: 'being saved …',
     written: '✓ written',
     verified: '✓ verified',
+    refused: '✗ the robot could not save it',
+    lost: '✗ not there after saving',
 };
 
 const pageFaults: Record<PageFault, string> = {

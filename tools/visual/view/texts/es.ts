@@ -244,6 +244,8 @@ const ES: Texts = {
                 'El movimiento en la memoria de Edit tiene cambios sin guardar, y entre ellos puede estar la mitad de un movimiento de una transferencia interrumpida. No los guardes sin mirarlos. Para descartarlos, escribe PAGE 1 en el terminal y responde y; después inténtalo de nuevo. Movimiento:',
             'save-failed':
                 'El robot no pudo guardar un movimiento: no tiene un cargador de arranque que escriba, o su memoria flash está gastada. El nuestro sí escribe; se graba una vez en la placa con un programador USB. Tus movimientos están a salvo aquí.',
+            'pages-refused':
+                'El robot no pudo guardar estos movimientos; puede que su memoria flash esté gastada ahí. También se intentaron todos los demás. Tus movimientos están a salvo aquí. No escritos:',
             'page-not-saved':
                 'El robot aceptó este movimiento, pero ahora no lo tiene. Puede que su memoria flash esté gastada; tu movimiento está a salvo aquí. Inténtalo de nuevo. Movimiento:',
             'no-backup':
@@ -891,6 +893,8 @@ const ES: Texts = {
             saving: 'guardando …',
             written: '✓ escrito',
             verified: '✓ comprobado',
+            refused: '✗ el robot no pudo guardarlo',
+            lost: '✗ no está después de guardarlo',
         },
         asks: 'Preguntando al robot qué movimientos tiene …',
         reads: (number, total) => `Leyendo el movimiento ${number} de ${total} …`,

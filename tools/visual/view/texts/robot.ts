@@ -14,7 +14,8 @@ import { TEXTS } from './texts.ts';
 export function errorText(error: RobotError): string {
     const sentence = TEXTS.robot.errors[error.code];
     if (error.words === '' || error.code === 'no-answer') return sentence;
-    const end = error.code === 'refused' && !/[.?!]$/.test(error.words) ? '.' : ''; // the board's sentences have none
+    // The board's sentences have no full stop, and neither have numbers, behind which another sentence may follow.
+    const end = /[.?!]$/.test(error.words) ? '' : sentence.endsWith('：') ? '。' : '.';
     return `${sentence} ${error.words}${end}`;
 }
 
