@@ -84,7 +84,7 @@ export class Driving {
     /** Makes the robot one that can be driven, or says why it cannot. held: the keys to send then. */
     private prepare(held: ReadonlySet<RemoteButton>): void {
         if (this.isOff) this.parts.messages.complain(TEXTS.status.isOff, 'robot');
-        else if (this.isYoursWithEdit) this.parts.messages.complain(TEXTS.robot.editNoRemote, 'robot');
+        else if (this.isYoursWithEdit) this.parts.messages.complain(TEXTS.robot.editNoRemote(this.state.version?.board ?? ''), 'robot');
         else if (this.state.source !== 'yours' && !this.hears) this.keep(held);
     }
 

@@ -228,7 +228,7 @@ export class RobotSession implements Session {
     private async needEdit(): Promise<void> {
         const { connection, version } = this.state.get();
         if (connection !== 'ready') throw this.connection.error ?? new RobotError('no-answer');
-        if (!version?.can.has('save')) throw new RobotError('needs-edit');
+        if (!version?.can.has('save')) throw new RobotError('needs-edit', version?.board);
     }
 
     onFrame(listener: (state: RobotState) => void): () => void {

@@ -11,7 +11,7 @@ import { RobotError } from './robot-error.ts';
 export interface Version {
     readonly image: string; // "play", "edit"
     readonly version: string; // "1.0.0"; empty for an image without a record
-    readonly board: string; // "cm5", "cm2"
+    readonly board: string; // "cm5", "cm2"; "cm5" for an image without a record
     readonly protocol: number;
     /** Its abilities: list, page, pose, ... */
     readonly can: ReadonlySet<string>;
@@ -80,7 +80,7 @@ export async function askVersion(requests: Requests, options?: RequestOptions): 
     return {
         image,
         version: values.get('version') ?? '',
-        board: values.get('board') ?? '',
+        board: values.get('board') ?? 'cm5',
         protocol: Number(values.get('protocol') ?? 0),
         can: new Set((values.get('can') ?? '').split(',')),
     };

@@ -26,7 +26,7 @@ export type RobotErrorCode =
     | 'pages-refused' // the board saves pages, but not all of them; the numbers of those are in `words`
     | 'page-not-saved' // after a save the robot still has other pages; their numbers are in `words`
     | 'no-backup' // the robot's pages could not be stored here, so nothing was written
-    | 'needs-edit' // Play runs, but only Edit saves pages
+    | 'needs-edit' // Play runs, but only Edit saves pages; the board is in `words`
     | 'transfer-busy' // pages are being read or written; one transfer at a time
     | 'pages-differ' // these pages differ between robot and document, and are not written without consent
     | 'damaged-here' // a page of the document is damaged and cannot be written; its number is in `words`

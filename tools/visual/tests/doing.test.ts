@@ -5,7 +5,7 @@ import type { PlayState, Where } from '../robot/protocol.ts';
 import type { SessionState } from '../view/session/session.ts';
 import { doingText, postureText, shapeText, startText } from '../view/texts/robot.ts';
 
-const state = (image: string): SessionState =>
+const state = (image: string, board = 'cm5'): SessionState =>
     ({
         source: 'simulated',
         connection: 'ready',
@@ -13,7 +13,7 @@ const state = (image: string): SessionState =>
         shownPage: null,
         stopped: null,
         pages: [{ page: 2, name: 'bow', steps: 3, fault: '' }],
-        version: { image },
+        version: { image, board },
     }) as unknown as SessionState;
 const where = (now: PlayState): Where => ({ state: now, page: 2, step: 1 }) as Where;
 
@@ -46,5 +46,6 @@ test('with Edit nothing is shaped: a key of the remote brings Play back, but not
     const said = (source: SessionState['source'], image: string): string => shapeText({ ...state(image), source });
     for (const source of ['simulated', 'servos'] as const) expect(said(source, 'edit')).toMatch(/A key of the remote brings Play back\.$/);
     expect(said('yours', 'edit')).toMatch(/Flash Play: m512 flash play-cm5\.hex/);
+    expect(shapeText({ ...state('edit', 'cm2'), source: 'yours' })).toMatch(/Flash Play: m512 flash play-cm2\.hex/);
     expect(said('yours', 'play')).toBe('Applies from the next step on.');
 });

@@ -207,7 +207,7 @@ test('a stick that is pushed at a robot without the page walk: it is said, once 
 
 test.each([
     ['a robot that is off', { isPowered: false }, 'off'],
-    ['your robot with Edit', { source: 'yours', version: { image: 'edit' } }, 'Edit'],
+    ['your robot with Edit', { source: 'yours', version: { image: 'edit', board: 'cm2' } }, 'm512 flash play-cm2.hex'],
 ] as const)('a stick that is pushed at %s is answered with a sentence', async (_, start, word) => {
     const { push, asks, asked, message } = driven(start as unknown as Partial<SessionState>);
     await push(60);

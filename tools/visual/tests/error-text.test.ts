@@ -25,6 +25,13 @@ test('a number that a sentence ends with has a full stop: what follows may begin
         expect(errorText(new RobotError(code, '5, 56')), code).toBe(`${errors[code]} 5, 56.`);
 });
 
+test('the image to flash is that of the board; where the board is not known, both are named', () => {
+    expect(errorText(new RobotError('needs-edit', 'cm2'))).toContain('m512 flash edit-cm2.hex, then try again.');
+    expect(errorText(new RobotError('needs-edit', 'cm5'))).toContain('m512 flash edit-cm5.hex, then try again.');
+    const { connections, errors } = EN.robot;
+    for (const text of [connections.silent, connections.foreign, errors.foreign]) expect(text).toMatch(/edit-cm5\.hex .*edit-cm2\.hex/);
+});
+
 test('a board that cannot save: what it lacks, and that nothing is lost', async () => {
     const text = await refusedSave(11, 'The page could not be saved');
     expect(text).toMatch(/^The robot could not save a motion: .*boot loader.*\. .*Your motions are safe here\.$/);

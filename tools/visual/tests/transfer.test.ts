@@ -271,7 +271,7 @@ function transferOn(bench: RobotBench, connection: Connection, pages: readonly P
             robot = now;
         },
         requests: () => connection.requests,
-        becomeEdit: () => (connection.version?.can.has('save') ? edit : Promise.reject(new RobotError('needs-edit'))),
+        becomeEdit: () => (connection.version?.can.has('save') ? edit : Promise.reject(new RobotError('needs-edit', 'cm5'))),
         backUp: now => Promise.resolve(void kept.push([...now])),
     });
     return { transfer, kept, robot: () => robot, before: Array.from({ length: 128 }, (_, page) => flashPage(bench, page)) };

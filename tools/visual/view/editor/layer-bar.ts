@@ -106,7 +106,11 @@ export class LayerBar extends HTMLElement {
         this.startPlay.hidden = isPlay || version === null || source === 'yours';
         this.showJoint();
         const text =
-            isPlay || version === null ? layersText(state) : source !== 'yours' ? TEXTS.layers.needsPlay : TEXTS.layers.needsPlayYours;
+            isPlay || version === null
+                ? layersText(state)
+                : source !== 'yours'
+                  ? TEXTS.layers.needsPlay
+                  : TEXTS.layers.needsPlayYours(version.board);
         if (this.status.textContent !== text) this.status.textContent = text;
     }
 

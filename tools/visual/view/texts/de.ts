@@ -227,7 +227,8 @@ const DE: Texts = {
             'old-browser': 'Dieser Browser ist zu alt für „Meine Servos …“. Nötig ist Chromium, Chrome oder Edge ab Version 137.',
             'no-serial':
                 'Dieser Browser kann keinen seriellen Anschluss benutzen. Er braucht Web Serial, das es in Chromium gibt. Der Roboter auf der Seite funktioniert auch hier.',
-            foreign: 'Dort antwortet etwas, aber es ist nicht Motion512. Spiele unsere Firmware auf: m512 flash edit-cm5.hex',
+            foreign:
+                'Dort antwortet etwas, aber es ist nicht Motion512. Spiele unsere Firmware auf: m512 flash edit-cm5.hex (CM-2: edit-cm2.hex)',
             'other-board':
                 'Motion512 läuft nur auf CM-2, CM-2+ und CM-5, und dies ist eine andere Platine. Dorthin wird nichts gesendet; wähle einen anderen Anschluss. Ihr Bootloader gibt diesen Namen an:',
             'in-loader': 'Der Bootloader wartet. Gib GO im Terminal ein, um die Firmware zu starten.',
@@ -255,8 +256,6 @@ const DE: Texts = {
                 'Der Roboter hat diese Bewegung angenommen, aber jetzt hat er sie nicht. Vielleicht ist sein Flash-Speicher verschlissen; deine Bewegung ist hier sicher. Versuche es noch einmal. Bewegung:',
             'no-backup':
                 'Die Bewegungen des Roboters konnten in diesem Browser nicht gesichert werden (privates Fenster oder Speicher voll), deshalb wurde nichts geschrieben. Schaffe Platz und versuche es noch einmal.',
-            'needs-edit':
-                'Auf dem Roboter läuft Play, und nur Edit speichert Bewegungen. Spiele Edit auf: m512 flash edit-cm5.hex, und versuche es noch einmal. Deine Bewegungen bleiben erhalten.',
             'transfer-busy':
                 'Nicht ausgeführt: Bewegungen des Roboters werden noch gelesen oder geschrieben. Versuche es noch einmal, wenn das fertig ist.',
             'pages-differ':
@@ -271,9 +270,9 @@ const DE: Texts = {
             opening: 'Der Anschluss wird geöffnet …',
             asking: 'Der Roboter wird gefragt, wer er ist …',
             ready: 'Verbunden.',
-            silent: 'Der Anschluss ist offen, aber kein Motion512 antwortet. Schalte den Roboter ein. Zeigt das Terminal ein „-“, dann gib dort GO ein. Hat der Roboter ein älteres Play oder Edit, dann spiele es neu auf: m512 flash edit-cm5.hex',
+            silent: 'Der Anschluss ist offen, aber kein Motion512 antwortet. Schalte den Roboter ein. Zeigt das Terminal ein „-“, dann gib dort GO ein. Hat der Roboter ein älteres Play oder Edit, dann spiele es neu auf: m512 flash edit-cm5.hex (CM-2: edit-cm2.hex)',
             foreign:
-                'Auf diesem Roboter läuft eine andere Firmware. Spiele unsere auf: m512 flash edit-cm5.hex. Das Terminal funktioniert trotzdem.',
+                'Auf diesem Roboter läuft eine andere Firmware. Spiele unsere auf: m512 flash edit-cm5.hex (CM-2: edit-cm2.hex). Das Terminal funktioniert trotzdem.',
             'other-board':
                 'Dies ist keine Platine für Motion512, sagt ihr Bootloader. Dorthin wird nichts gesendet; das Terminal funktioniert.',
             waiting: 'Das Kabel steckt nicht. Stecke es wieder ein; die Seite verbindet sich von selbst.',
@@ -289,8 +288,10 @@ const DE: Texts = {
             `${plural(count, 'Ein Servo antwortet', `${count} Servos antworten`)}. Nichts bewegt sich, bevor du es willst.${missing.length > 0 ? ` Keine Antwort von ${missing.join(', ')}: nicht eingesteckt, oder zwei Servos haben diese Nummer.` : ''}`,
         servosCrashed:
             'Das Programm für deine Servos ist abgestürzt. Servos, die ihre Stellung hielten, halten sie weiter. Wähle noch einmal „Meine Servos …“.',
-        editNoRemote:
-            'Edit hört auf keine Fernsteuerung, Play schon. Spiele Play auf: m512 flash play-cm5.hex. Deine Bewegungen bleiben erhalten.',
+        needsEdit: board =>
+            `Auf dem Roboter läuft Play, und nur Edit speichert Bewegungen. Spiele Edit auf: m512 flash edit-${board}.hex, und versuche es noch einmal. Deine Bewegungen bleiben erhalten.`,
+        editNoRemote: board =>
+            `Edit hört auf keine Fernsteuerung, Play schon. Spiele Play auf: m512 flash play-${board}.hex. Deine Bewegungen bleiben erhalten.`,
         noWalk: 'Ein Stick spielt die Bewegung mit dem Namen walk, und dieser Roboter hat keine. Gib diesen Namen einer seiner Bewegungen.',
         crashed: 'Der simulierte Roboter ist abgestürzt. Starte ihn unter „Roboter“ neu; was er gespeichert hatte, ist noch da.',
         notKept:
@@ -481,7 +482,7 @@ const DE: Texts = {
         freeHint: 'Zurück zur Bewegung, die läuft',
         startPlay: 'Play starten',
         needsPlay: 'Edit läuft, und nur Play hat Ebenen.',
-        needsPlayYours: 'Auf deinem Roboter läuft Edit, und nur Play hat Ebenen. Spiele Play auf: m512 flash play-cm5.hex',
+        needsPlayYours: board => `Auf deinem Roboter läuft Edit, und nur Play hat Ebenen. Spiele Play auf: m512 flash play-${board}.hex`,
         none: 'Keine Ebenen.',
         chooseJoint: 'Wähle ein Gelenk in „Kurven“ oder im Bild eines Schritts und lass es hier vom Programm bewegen.',
         laid: motion => `Darübergelegt: ${motion}.`,

@@ -39,7 +39,7 @@ function fallPlace({ step, motion, seconds }: FallPlace): string {
     return `in step ${step}${motion === null ? '' : ` of ${motion}`} after ${seconds} s`;
 }
 
-const errors: Record<RobotErrorCode, string> = {
+const errors: Record<Exclude<RobotErrorCode, 'needs-edit'>, string> = {
     'no-answer': 'The robot did not answer. Is it switched on? If the terminal shows a "-", type GO there.',
     refused: 'The robot refused:',
     'not-connected': 'No robot is connected. Choose one in the menu.',
@@ -48,7 +48,7 @@ const errors: Record<RobotErrorCode, string> = {
     'second-tab': 'Another tab of this page drives your servos. Go on there, or close it and choose "My servos …" again.',
     'old-browser': 'This browser is too old for My servos. It needs Chromium, Chrome or Edge 137 or later.',
     'no-serial': 'This browser cannot reach a serial port. It needs Web Serial, which Chromium has. The robot in the page works here, too.',
-    foreign: 'Something answers there, but it is not Motion512. Flash our firmware: m512 flash edit-cm5.hex',
+    foreign: 'Something answers there, but it is not Motion512. Flash our firmware: m512 flash edit-cm5.hex (CM-2: edit-cm2.hex)',
     'other-board':
         'Motion512 runs on CM-2, CM-2+ and CM-5 only, and this board is another one. Nothing is sent there; choose another port. Its boot loader gives this name:',
     'in-loader': 'The boot loader is waiting. Type GO in the terminal to start the firmware.',
@@ -71,8 +71,6 @@ const errors: Record<RobotErrorCode, string> = {
         'The robot took this motion but does not have it now. Its flash may be worn out; your motion is safe here. Try again. Motion:',
     'no-backup':
         "The robot's motions could not be saved in this browser (private window, or the disk is full), so nothing was written. Make room, then try again.",
-    'needs-edit':
-        'The robot runs Play, and only Edit saves motions. Flash Edit with m512 flash edit-cm5.hex, then try again. Your motions stay.',
     'transfer-busy': 'Not done: motions of the robot are still being read or written. Try again when that has ended.',
     'pages-differ': 'Not played: your robot has another version of this motion. Write it first with "To the robot …", then play it.',
     'damaged-here':
@@ -86,8 +84,8 @@ const connections: Record<ConnectionState, string> = {
     opening: 'Opening the port …',
     asking: 'Asking the robot who it is …',
     ready: 'Connected.',
-    silent: 'The port is open, but no Motion512 answers. Switch the robot on. If the terminal shows a "-", type GO there. If the robot has an older Play or Edit, flash it again: m512 flash edit-cm5.hex',
-    foreign: 'This robot runs another firmware. Flash ours: m512 flash edit-cm5.hex. The terminal works meanwhile.',
+    silent: 'The port is open, but no Motion512 answers. Switch the robot on. If the terminal shows a "-", type GO there. If the robot has an older Play or Edit, flash it again: m512 flash edit-cm5.hex (CM-2: edit-cm2.hex)',
+    foreign: 'This robot runs another firmware. Flash ours: m512 flash edit-cm5.hex (CM-2: edit-cm2.hex). The terminal works meanwhile.',
     'other-board': 'This is not a board for Motion512, says its boot loader. Nothing is sent there; the terminal works.',
     waiting: 'The cable is unplugged. Plug it in again; the page reconnects by itself.',
 };
@@ -475,7 +473,11 @@ export const EN = {
             `${plural(count, 'One servo answers', `${count} servos answer`)}. Nothing moves before you say so.${missing.length > 0 ? ` No answer from ${missing.join(', ')}: not plugged in, or two servos have that number.` : ''}`,
         servosCrashed:
             'The program for your servos has crashed. Servos that held their position still hold it. Choose "My servos …" again.',
-        editNoRemote: 'Edit hears no remote control; Play does. Flash Play: m512 flash play-cm5.hex. Your motions stay.',
+        /** board: as in `@ver` and in the names of images: "cm2". */
+        needsEdit: (board: string) =>
+            `The robot runs Play, and only Edit saves motions. Flash Edit with m512 flash edit-${board}.hex, then try again. Your motions stay.`,
+        editNoRemote: (board: string) =>
+            `Edit hears no remote control; Play does. Flash Play: m512 flash play-${board}.hex. Your motions stay.`,
         noWalk: 'A stick plays the motion with the name walk, and this robot has none. Give that name to one of its motions.',
         crashed: 'The simulated robot has crashed. Restart it under "Robot"; what it had saved is still there.',
         notKept:
@@ -603,7 +605,7 @@ export const EN = {
         freeHint: 'Back to the motion that plays',
         startPlay: 'Start Play',
         needsPlay: 'Edit runs, and only Play has layers.',
-        needsPlayYours: 'Your robot runs Edit, and only Play has layers. Flash Play: m512 flash play-cm5.hex',
+        needsPlayYours: (board: string) => `Your robot runs Edit, and only Play has layers. Flash Play: m512 flash play-${board}.hex`,
         none: 'No layers.',
         chooseJoint: 'Choose a joint in Curves or in the picture of a step, and move it by code here.',
         laid: (motion: string) => `Laid over: ${motion}.`,

@@ -223,7 +223,7 @@ const ES: Texts = {
             'old-browser': 'Este navegador es demasiado antiguo para «Mis servos …». Hace falta Chromium, Chrome o Edge 137 o posterior.',
             'no-serial':
                 'Este navegador no puede usar un puerto serie. Hace falta Web Serial, que existe en Chromium. El robot de la página también funciona aquí.',
-            foreign: 'Algo responde ahí, pero no es Motion512. Graba nuestro firmware: m512 flash edit-cm5.hex',
+            foreign: 'Algo responde ahí, pero no es Motion512. Graba nuestro firmware: m512 flash edit-cm5.hex (CM-2: edit-cm2.hex)',
             'other-board':
                 'Motion512 solo funciona en CM-2, CM-2+ y CM-5, y esta placa es otra. No se le envía nada; elige otro puerto. Su cargador de arranque da este nombre:',
             'in-loader': 'El cargador de arranque espera. Escribe GO en el terminal para arrancar el firmware.',
@@ -250,8 +250,6 @@ const ES: Texts = {
                 'El robot aceptó este movimiento, pero ahora no lo tiene. Puede que su memoria flash esté gastada; tu movimiento está a salvo aquí. Inténtalo de nuevo. Movimiento:',
             'no-backup':
                 'Los movimientos del robot no se pudieron guardar en este navegador (ventana privada o disco lleno), así que no se escribió nada. Haz sitio e inténtalo de nuevo.',
-            'needs-edit':
-                'En el robot está Play, y solo Edit guarda movimientos. Graba Edit: m512 flash edit-cm5.hex, e inténtalo de nuevo. Tus movimientos se conservan.',
             'transfer-busy':
                 'No se ha hecho: todavía se están leyendo o escribiendo movimientos del robot. Inténtalo de nuevo cuando termine.',
             'pages-differ':
@@ -266,8 +264,9 @@ const ES: Texts = {
             opening: 'Abriendo el puerto …',
             asking: 'Preguntando al robot quién es …',
             ready: 'Conectado.',
-            silent: 'El puerto está abierto, pero no responde ningún Motion512. Enciende el robot. Si el terminal muestra un «-», escribe GO allí. Si el robot tiene un Play o un Edit más antiguo, grábalo de nuevo: m512 flash edit-cm5.hex',
-            foreign: 'En este robot hay otro firmware. Graba el nuestro: m512 flash edit-cm5.hex. Mientras tanto, el terminal funciona.',
+            silent: 'El puerto está abierto, pero no responde ningún Motion512. Enciende el robot. Si el terminal muestra un «-», escribe GO allí. Si el robot tiene un Play o un Edit más antiguo, grábalo de nuevo: m512 flash edit-cm5.hex (CM-2: edit-cm2.hex)',
+            foreign:
+                'En este robot hay otro firmware. Graba el nuestro: m512 flash edit-cm5.hex (CM-2: edit-cm2.hex). Mientras tanto, el terminal funciona.',
             'other-board': 'Esta placa no es para Motion512, según su cargador de arranque. No se le envía nada; el terminal funciona.',
             waiting: 'El cable está desconectado. Vuelve a conectarlo; la página se reconecta sola.',
         },
@@ -282,7 +281,9 @@ const ES: Texts = {
             `${plural(count, 'Responde un servo', `Responden ${count} servos`)}. Nada se mueve hasta que tú lo digas.${missing.length > 0 ? ` Sin respuesta de ${missing.join(', ')}: no está conectado, o dos servos tienen ese número.` : ''}`,
         servosCrashed:
             'El programa de tus servos ha fallado. Los servos que mantenían su posición la siguen manteniendo. Elige otra vez «Mis servos …».',
-        editNoRemote: 'Edit no atiende al mando; Play sí. Graba Play: m512 flash play-cm5.hex. Tus movimientos se conservan.',
+        needsEdit: board =>
+            `En el robot está Play, y solo Edit guarda movimientos. Graba Edit: m512 flash edit-${board}.hex, e inténtalo de nuevo. Tus movimientos se conservan.`,
+        editNoRemote: board => `Edit no atiende al mando; Play sí. Graba Play: m512 flash play-${board}.hex. Tus movimientos se conservan.`,
         noWalk: 'La palanca reproduce el movimiento con el nombre walk, y este robot no tiene ninguno. Pon ese nombre a uno de sus movimientos.',
         crashed: 'El robot simulado ha fallado. Reinícialo en «Robot»; lo que había guardado sigue ahí.',
         notKept:
@@ -471,7 +472,7 @@ const ES: Texts = {
         freeHint: 'De vuelta al movimiento que se reproduce',
         startPlay: 'Iniciar Play',
         needsPlay: 'Está en marcha Edit, y solo Play tiene capas.',
-        needsPlayYours: 'En tu robot está Edit, y solo Play tiene capas. Graba Play: m512 flash play-cm5.hex',
+        needsPlayYours: board => `En tu robot está Edit, y solo Play tiene capas. Graba Play: m512 flash play-${board}.hex`,
         none: 'Ninguna capa.',
         chooseJoint: 'Elige una articulación en «Curvas» o en la imagen de un paso, y muévela aquí por programa.',
         laid: motion => `Superpuesto: ${motion}.`,

@@ -220,7 +220,7 @@ const KO: Texts = {
             'old-browser': '이 브라우저는 너무 오래되어 “내 서보 …”를 쓸 수 없습니다. Chromium, Chrome 또는 Edge 137 이상이 필요합니다.',
             'no-serial':
                 '이 브라우저는 시리얼 포트를 쓸 수 없습니다. Chromium이 지원하는 Web Serial이 필요합니다. 이 페이지의 로봇은 여기서도 쓸 수 있습니다.',
-            foreign: '무언가 응답하지만 Motion512가 아닙니다. Motion512 펌웨어를 올리세요: m512 flash edit-cm5.hex',
+            foreign: '무언가 응답하지만 Motion512가 아닙니다. Motion512 펌웨어를 올리세요: m512 flash edit-cm5.hex (CM-2: edit-cm2.hex)',
             'other-board':
                 'Motion512는 CM-2, CM-2+, CM-5에서만 작동하며, 이 보드는 그중 어느 것도 아닙니다. 아무것도 보내지 않습니다. 다른 포트를 고르세요. 부트 로더가 밝힌 이름:',
             'in-loader': '부트 로더가 기다립니다. 터미널에 GO를 입력하면 펌웨어가 시작됩니다.',
@@ -243,8 +243,6 @@ const KO: Texts = {
                 '로봇이 이 동작을 받았지만 저장되어 있지 않습니다. 플래시 메모리의 수명이 다했을 수 있습니다. 동작은 이 페이지에 그대로 있습니다. 다시 시도하세요. 동작:',
             'no-backup':
                 '로봇의 동작을 이 브라우저에 저장하지 못해(시크릿 창이거나 디스크가 가득 참) 아무것도 기록하지 않았습니다. 공간을 확보하고 다시 시도하세요.',
-            'needs-edit':
-                '로봇에서 Play가 실행 중이며, 동작을 저장하는 것은 Edit뿐입니다. Edit를 올리고(m512 flash edit-cm5.hex) 다시 시도하세요. 동작은 남습니다.',
             'transfer-busy': '실행하지 않았습니다. 로봇의 동작을 아직 읽거나 기록하는 중입니다. 끝나면 다시 시도하세요.',
             'pages-differ': '재생하지 않았습니다. 로봇에 이 동작의 다른 버전이 있습니다. 먼저 “로봇으로 …”로 기록한 다음 재생하세요.',
             'damaged-here': '재생하지 않았습니다. 문서의 동작이 손상되어 기록하지 않습니다. 백업이나 로봇에서 가져오거나 비우세요. 동작:',
@@ -256,9 +254,9 @@ const KO: Texts = {
             opening: '포트를 여는 중 …',
             asking: '로봇을 확인하는 중 …',
             ready: '연결되었습니다.',
-            silent: '포트는 열렸지만 Motion512가 응답하지 않습니다. 로봇을 켜세요. 터미널에 “-”가 보이면 거기에 GO를 입력하세요. 로봇의 Play나 Edit가 오래되었으면 다시 올리세요: m512 flash edit-cm5.hex',
+            silent: '포트는 열렸지만 Motion512가 응답하지 않습니다. 로봇을 켜세요. 터미널에 “-”가 보이면 거기에 GO를 입력하세요. 로봇의 Play나 Edit가 오래되었으면 다시 올리세요: m512 flash edit-cm5.hex (CM-2: edit-cm2.hex)',
             foreign:
-                '이 로봇에는 다른 펌웨어가 실행 중입니다. Motion512를 올리세요: m512 flash edit-cm5.hex. 그동안에도 터미널은 쓸 수 있습니다.',
+                '이 로봇에는 다른 펌웨어가 실행 중입니다. Motion512를 올리세요: m512 flash edit-cm5.hex (CM-2: edit-cm2.hex). 그동안에도 터미널은 쓸 수 있습니다.',
             'other-board': '부트 로더에 따르면 Motion512용 보드가 아닙니다. 아무것도 보내지 않습니다. 터미널은 쓸 수 있습니다.',
             waiting: '케이블이 빠져 있습니다. 다시 꽂으세요. 페이지가 스스로 다시 연결합니다.',
         },
@@ -271,7 +269,10 @@ const KO: Texts = {
         servosFound: (count, missing) =>
             `서보 ${count}개가 응답합니다. 시키기 전에는 아무것도 움직이지 않습니다.${missing.length > 0 ? ` 응답 없음: ${missing.join(', ')}. 꽂혀 있지 않거나 서보 두 개의 번호가 같습니다.` : ''}`,
         servosCrashed: '서보 프로그램이 비정상 종료되었습니다. 위치를 유지하던 서보는 계속 유지합니다. “내 서보 …”를 다시 고르세요.',
-        editNoRemote: 'Edit는 리모컨 신호를 받지 않지만 Play는 받습니다. Play를 올리려면: m512 flash play-cm5.hex. 동작은 남습니다.',
+        needsEdit: board =>
+            `로봇에서 Play가 실행 중이며, 동작을 저장하는 것은 Edit뿐입니다. Edit를 올리고(m512 flash edit-${board}.hex) 다시 시도하세요. 동작은 남습니다.`,
+        editNoRemote: board =>
+            `Edit는 리모컨 신호를 받지 않지만 Play는 받습니다. Play를 올리려면: m512 flash play-${board}.hex. 동작은 남습니다.`,
         noWalk: '스틱은 이름이 walk인 동작을 재생하는데, 이 로봇에는 그런 동작이 없습니다. 동작 하나에 그 이름을 붙이세요.',
         crashed: '시뮬레이션 로봇이 비정상 종료되었습니다. “로봇”에서 다시 시작하세요. 저장한 것은 그대로 있습니다.',
         notKept:
@@ -457,7 +458,7 @@ const KO: Texts = {
         freeHint: '재생 중인 동작으로 돌아갑니다',
         startPlay: 'Play 시작',
         needsPlay: 'Edit가 실행 중이며, 레이어는 Play에만 있습니다.',
-        needsPlayYours: '로봇에서 Edit가 실행 중이며, 레이어는 Play에만 있습니다. Play를 올리려면: m512 flash play-cm5.hex',
+        needsPlayYours: board => `로봇에서 Edit가 실행 중이며, 레이어는 Play에만 있습니다. Play를 올리려면: m512 flash play-${board}.hex`,
         none: '레이어가 없습니다.',
         chooseJoint: '“곡선”이나 단계의 3D 화면에서 관절을 고르면, 여기에서 프로그램으로 움직일 수 있습니다.',
         laid: motion => `겹친 것: ${motion}.`,

@@ -12,6 +12,7 @@ import { TEXTS } from './texts.ts';
 
 /** One sentence for an error, followed by the board's own words. */
 export function errorText(error: RobotError): string {
+    if (error.code === 'needs-edit') return TEXTS.robot.needsEdit(error.words);
     const sentence = TEXTS.robot.errors[error.code];
     if (error.words === '' || error.code === 'no-answer') return sentence;
     // The board's sentences have no full stop, and neither have numbers, behind which another sentence may follow.
@@ -102,5 +103,5 @@ export function layersText(state: SessionState): string {
 /** When the shape of a play applies, or why not: this page brings Play back, but not to your robot. */
 export function shapeText({ version, source }: Pick<SessionState, 'version' | 'source'>): string {
     if (version === null || version.image === 'play') return TEXTS.remote.shaped;
-    return source === 'yours' ? TEXTS.robot.editNoRemote : TEXTS.remote.shapeNeedsPlay;
+    return source === 'yours' ? TEXTS.robot.editNoRemote(version.board) : TEXTS.remote.shapeNeedsPlay;
 }
