@@ -163,7 +163,7 @@ test("m512's strange boards: a state with a sentence, and every question ends", 
         }
         const { state, error } = connection;
         states.set(state, (states.get(state) ?? 0) + 1);
-        expect(connectionText(state), where).toMatch(/^[^\n]{10,}([.!…]|m512 flash edit-cm5.hex)$/);
+        expect(connectionText(state), where).toMatch(/^[^\n]{10,}([.!…]|m512 flash edit-cm5\.hex \(CM-2: edit-cm2\.hex\))$/);
         if (state === 'silent' || state === 'foreign') expect(error, where).toBeInstanceOf(RobotError);
         await connection.close();
     }
