@@ -17,7 +17,7 @@
 #define SHAPE_NORMAL 100u          /* percent: rate and amplitude as stored */
 #define SHAPE_CENTRE_DEFAULT 1u    /* page whose step 1 is the centre pose */
 
-/* Nothing here checks a range: the shell does, before it calls. */
+/* Nothing here checks a range: the caller does. */
 typedef struct {
     /* Write at any time. */
     uint16_t rate_percent;                       /* 10..400 */

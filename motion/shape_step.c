@@ -12,8 +12,7 @@
 #define WHOLE 10000u
 #define AT_ONCE 8u /* joints whose words are read together: 32 bytes of stack */
 
-/* The number of steps of a page; 0 if there is no such page or it is damaged. */
-static uint8_t steps_of(const page_source_t *source, uint8_t page)
+uint8_t shape_steps_of(const page_source_t *source, uint8_t page)
 {
     uint8_t steps;
     if (page == 0 || !page_is_there(page) || source->check(source->context, page) != PAGE_OK) {
@@ -29,7 +28,7 @@ static uint8_t partner_of(const shape_t *shape, const page_source_t *source, uin
     uint8_t header[PAGE_AT_STEPS + 1u - PAGE_AT_BLEND_RIGHT];
     source->read(source->context, page, PAGE_AT_BLEND_RIGHT, header, sizeof header);
     const uint8_t partner = header[shape->blend_percent > 0 ? 0 : PAGE_AT_BLEND_LEFT - PAGE_AT_BLEND_RIGHT];
-    return steps_of(source, partner) == header[sizeof header - 1u] ? partner : 0;
+    return shape_steps_of(source, partner) == header[sizeof header - 1u] ? partner : 0;
 }
 
 /* Reads the words of some joints. In page 0 no joint is used. */
@@ -105,7 +104,7 @@ void shape_step(const shape_t *shape, const page_source_t *source, uint8_t page,
 {
     const int8_t blend = shape->blend_percent;
     const sources_t from = {.partner = blend != 0 ? partner_of(shape, source, page) : 0,
-                            .centre = steps_of(source, shape->centre_page) != 0 ? shape->centre_page : 0,
+                            .centre = shape_steps_of(source, shape->centre_page) != 0 ? shape->centre_page : 0,
                             .blend = (uint8_t)(blend < 0 ? -blend : blend)};
     if (from.partner != 0 || shape->scales) {
         shape_words(shape, source, &from, step, words);

@@ -7,6 +7,7 @@
 #include "play.h"
 #include "ranges_own.h"
 #include "report.h"
+#include "shape_step.h"
 #include "text.h"
 #include "views.h"
 
@@ -147,11 +148,13 @@ uint8_t commands_do_rate(const shell_args_t *args)
     return REQUEST_OK;
 }
 
-/* Whether there is a pose about which an amplitude can scale. */
-static bool has_centre(void)
+/* The joints about whose position an amplitude can scale: those of the centre pose. */
+static uint32_t centre_joints(void)
 {
+    uint16_t pose_pos[PAGE_JOINTS];
+    const page_source_t *source = &the_play.pages.source;
     const uint8_t page = the_play.settings.centre_page;
-    return page != 0 && page_store_is_good(&the_play.pages, page) && page_store_byte(page, PAGE_AT_STEPS) != 0;
+    return shape_steps_of(source, page) != 0 ? player_first_pose(source, NULL, page, pose_pos) : 0;
 }
 
 uint8_t commands_do_amplitude(const shell_args_t *args)
@@ -163,8 +166,8 @@ uint8_t commands_do_amplitude(const shell_args_t *args)
             return status;
         }
     }
-    if (args->number[0] != SHAPE_NORMAL && !has_centre() && !requests_from_program()) {
-        return requests_refuse(REQUEST_ERR_IDLE, TEXT_P("The centre page has no pose: settings centre"));
+    if (args->number[0] != SHAPE_NORMAL && !requests_from_program() && (centre_joints() & joints) == 0) {
+        return requests_refuse(REQUEST_ERR_IDLE, TEXT_P("None is a joint of the centre page: settings centre"));
     }
     shape_set_amplitude(&the_play.performer.shape, (uint8_t)args->number[0], joints);
     return REQUEST_OK;

@@ -6,7 +6,7 @@ import re
 import pytest
 
 from tests.sim.play_robot import LEFT, UP, ask, robot
-from tests.sim.walking_robot import LOOP, looping, pages, where
+from tests.sim.walking_robot import LOOP, WAVE, looping, pages, where
 
 # --- words ---
 
@@ -68,11 +68,21 @@ def test_words_and_requests_do_the_same():
 def test_amplitude_is_refused_to_a_person_where_nothing_can_be_scaled(centre):
     board = robot(pages=pages())
     assert ask(board, f"settings centre {centre}") == " OK"
-    assert ask(board, "amplitude 60") == ask(board, "amplitude 60 3") == "The centre page has no pose: settings centre"
+    assert ask(board, "amplitude 60") == ask(board, "amplitude 60 3") == "None is a joint of the centre page: settings centre"
     assert where(board)["amplitude"] == "100"
     assert ask(board, "@amplitude 60") == "@amplitude OK" and where(board)["amplitude"] == "60"
     assert ask(board, "amplitude 100") == " OK" and where(board)["amplitude"] == "100"
     assert ask(board, "settings centre 1") == ask(board, "amplitude 60") == " OK"
+
+
+def test_amplitude_is_refused_to_a_person_for_joints_that_the_centre_pose_does_not_use():
+    board = robot(pages=pages())
+    assert ask(board, f"settings centre {WAVE}") == " OK"  # it uses joints 3 and 5
+    for word in ("amplitude 60 4", "amplitude 60 1 2 6"):
+        assert ask(board, word) == "None is a joint of the centre page: settings centre"
+    assert where(board)["amplitude"] == "100"
+    for word in ("amplitude 60 3", "amplitude 60 4 5", "amplitude 60", "amplitude 100 4"):
+        assert ask(board, word) == " OK"
 
 
 def test_rate_changes_the_speed_of_a_walk_from_the_next_step_on():
