@@ -27,6 +27,7 @@ typedef struct {
     uint8_t schedule, page_speed, accel_time; /* from its page's header */
     uint8_t pause, time;                      /* bytes 62 and 63 of the step */
     uint8_t top_speed_q4_4;                   /* servo units a tick; 0: no limit (shape.h) */
+    bool is_shaped;                           /* then the step after it is limited, too */
     uint16_t rate_percent;                    /* 100: as stored (shape.h) */
     uint16_t ticks, hold_ticks;               /* N and P: length of the step, and of the pause after it */
     uint32_t recip32;                         /* exact law: 2^32 / ticks */

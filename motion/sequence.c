@@ -144,7 +144,8 @@ void sequence_read_next(player_t *player)
     const shape_t *shape = player->shape;
     const bool is_shaped = shape != NULL && !shape_is_neutral(shape);
     next->rate_percent = is_shaped ? shape->rate_percent : SHAPE_NORMAL;
-    next->top_speed_q4_4 = is_shaped ? shape->top_speed_q4_4 : 0;
+    next->top_speed_q4_4 = shape != NULL && (is_shaped || player->now.is_shaped) ? shape->top_speed_q4_4 : 0;
+    next->is_shaped = is_shaped;
     if (next->page != 0) {
         uint8_t pause_time[2];
         player->source->read(player->source->context, next->page,

@@ -2,7 +2,7 @@
  * shape.h - the settings that shape a motion while it plays: rate, amplitude, blend, limit (SHAPING.md has their formulas).
  * A step is shaped once, when the player reads it. So a change takes effect in the first step that has not been read, two
  * steps ahead at most. Only the main play is shaped; layers play as stored. With nothing set (shape_is_neutral) every goal
- * is as without this module. Pure; caller-owned; main loop only. */
+ * is as without this module, from the second step on. Pure; caller-owned; main loop only. */
 #ifndef SHAPE_H
 #define SHAPE_H
 
@@ -42,7 +42,7 @@ void shape_set_amplitude(shape_t *shape, uint8_t percent, uint32_t joints);
  * is 8.7 units a tick at 11.1 V, in proportion to the voltage (SHAPING.md). 0: not known, no limit. */
 void shape_set_voltage(shape_t *shape, uint8_t decivolts);
 
-/* true when rate, amplitude and blend are 100, 100, 0: then there is no limit either. */
+/* true when rate, amplitude and blend are 100, 100, 0: then only the step after a shaped one is limited. */
 static inline bool shape_is_neutral(const shape_t *shape)
 {
     return shape->rate_percent == SHAPE_NORMAL && shape->blend_percent == 0 && !shape->scales;

@@ -502,9 +502,8 @@ static void approach_tick(performer_t *performer)
     if ((events & PLAYER_EV_ENDED) != 0 && performer->leaving) {
         go_idle(performer, performer->end_reason);
     } else if ((events & PLAYER_EV_ENDED) != 0) {
-        /* Joints that code has freed meanwhile still have to move to the first pose. */
-        const uint32_t left_out = performer->joints & ~player->joints & ~performer_layers_joints(performer);
-        if (left_out == 0 || !plan_approach(performer)) {
+        /* Joints that code has freed meanwhile still have to move to the first pose, and shaping may have changed it. */
+        if (!plan_approach(performer)) {
             begin(performer);
         }
     } else if ((events & PLAYER_EV_STOPPED) != 0) {

@@ -176,20 +176,24 @@ def check_lengths(case, run):
     present, ends, sums = bits(case.present), ends_of(plain), [Fraction(0)] * 2
     # After a pause between two steps, or before the first, the next step begins from a stop and is longer.
     next_halted = bool(halts) and halts[0] <= plain.steps[0][0]
+    was_shaped = False
     exactly = not case.about["rates"] and not halts and not any(action[0] == "voltage" and action[1] for action in case.before)
     for k, (tick, page, step) in enumerate(plain.steps[:-1]):
         since, wrong, fits = plain.steps[k - 2][0] if k >= 2 else 0, None, False
         halted = next_halted or any(tick < halt <= ends[k] for halt in halts)
         next_halted = False
         at_ends = [ends[k], *(at for halt in halts if tick < halt <= ends[k] for at in (halt - 1, halt))]
-        for shape in {id(shapes[at]): shapes[at] for at in range(since, tick + 2)}.values():
+        in_question = list({id(shapes[at]): shapes[at] for at in range(since, tick + 2)}.values())
+        # The step before may have been a shaped one: then this one is limited.
+        for shape, after_shaped in itertools.product(in_question, {False, was_shaped}):
             pose = {j: to for j, to in model_pose(case.image, (page, step), shape).items() if j in present}
             at_end = [at for at in at_ends if all(plain.columns[j][at] == to for j, to in pose.items())]
             if at_end:
-                next_halted, fits, ideal = at_end != [ends[k]], True, ideal_of(case, page, step, target, pose, shape)
-                wrong = None if halted else length_wrong(plain, target, pose, shape, ideal, k, ends)
+                next_halted, fits, ideal = at_end != [ends[k]], True, ideal_of(case, page, step, target, pose, shape, after_shaped)
+                wrong = None if halted else length_wrong(plain, target, pose, shape.is_set() or after_shaped, ideal, k, ends)
                 if wrong is None:
                     break
+        was_shaped = any(shape.is_set() for shape in in_question)
         if not fits or wrong:
             return wrong or f"page {page} step {step} ends in tick {ends[k]}: no shape that was in force makes these goals"
         sums = [sums[0] + ideal, sums[1] + ends[k] + 1 - tick]
@@ -201,19 +205,19 @@ def check_lengths(case, run):
     return None
 
 
-def ideal_of(case, page, step, target, pose, shape):
+def ideal_of(case, page, step, target, pose, shape, after_shaped):
     of = classic_law.Page(case.image, page)
     longest = max((abs(to - target[j]) for j, to in pose.items()), default=0)
     unlimited = shaping.Shape(rate=shape.rate) if shape.volts == 0 else shape
     if shape.volts == 0:
         unlimited.volts = Fraction(10**6)
-    return max(shaping.ideal_step(of, step, longest, unlimited), Fraction(1)) + shaping.ideal_pause(of, step, shape)
+    return max(shaping.ideal_step(of, step, longest, unlimited, after_shaped), Fraction(1)) + shaping.ideal_pause(of, step, shape)
 
 
-def length_wrong(run, target, pose, shape, ideal, k, ends):
+def length_wrong(run, target, pose, is_limited, ideal, k, ends):
     """Returns what is wrong with step k, or None: its length, or a joint outside its range."""
     tick, page, step = run.steps[k]
-    if abs(ends[k] + 1 - tick - ideal) > 2 + (ideal / 60 if shape.is_set() else 0):
+    if abs(ends[k] + 1 - tick - ideal) > 2 + (ideal / 60 if is_limited else 0):
         return f"page {page} step {step} from tick {tick} on: {ends[k] + 1 - tick} ticks, model {float(ideal):.2f}"
     for joint, to in pose.items():
         low, high = sorted((target[joint], to))

@@ -10,6 +10,7 @@ on the model's position, every step has its length to one tick, no joint leaves 
 """
 
 import argparse
+import itertools
 import random
 import sys
 from fractions import Fraction
@@ -105,6 +106,7 @@ class Check:
         self.steps = []  # (page and step, first tick, goals before it)
         self.ticks = []  # goals of each tick; None: no output
         self.shapes = []  # the shape in force at each tick
+        self.shaped_before = {False}  # whether the last step may have been a shaped one
         self.before = list(pose)
         self.trace = []  # goals of the running step, tick by tick; None: no output
 
@@ -119,20 +121,22 @@ class Check:
 
     def step_ends(self, place, ticks, goals, shapes):
         """Compares the end of a step with the model. Returns the fault or None."""
-        page, found = classic_law.Page(self.image, place[0]), []
-        for shape in shapes:
+        page, found, fitting = classic_law.Page(self.image, place[0]), [], set()
+        for shape, after_shaped in itertools.product(shapes, self.shaped_before):
             pose = model_pose(self.image, place, shape)
             wrong = [f"joint {j} at {goals[j]}, model {to}" for j, to in pose.items() if goals[j] != to]
             longest = max((abs(to - self.target[j]) for j, to in pose.items()), default=0)
-            ideal = max(shaping.ideal_step(page, place[1], longest, shape), Fraction(1)) + shaping.ideal_pause(page, place[1], shape)
-            slack = Fraction(2) + (ideal / 60 if shape.is_set() else 0)  # the top speed is kept to 1/16 unit per tick
+            ideal = max(shaping.ideal_step(page, place[1], longest, shape, after_shaped), Fraction(1)) + shaping.ideal_pause(page, place[1], shape)
+            slack = Fraction(2) + (ideal / 60 if shape.is_set() or after_shaped else 0)  # the top speed is kept to 1/16 unit per tick
             if not wrong and abs(ticks - ideal) > slack:
                 wrong = [f"{ticks} ticks, model {float(ideal):.2f}"]
             wrong = wrong or self.on_the_way(pose, ideal - shaping.ideal_pause(page, place[1], shape))
-            if not wrong:
-                return None
-            found.append(wrong[0])
-        return f"page {place[0]} step {place[1]}: {found}"
+            if wrong:
+                found.append(wrong[0])
+            else:
+                fitting.add(shape.is_set())
+        self.shaped_before = fitting
+        return None if fitting else f"page {place[0]} step {place[1]}: {found}"
 
     def on_the_way(self, pose, ideal):
         """Checks that no joint passes the way-points on either side of the step, and that no tick is idle."""

@@ -88,15 +88,16 @@ def top_speed(volts):
     return NO_LOAD_DEGREES_PER_S * UNITS_PER_DEGREE / TICKS_PER_S * Fraction(volts) / 12
 
 
-def ideal_step(page, step, longest, shape):
+def ideal_step(page, step, longest, shape, after_shaped=False):
     """Returns the ideal length of a step in ticks: the exact law's length, divided by the rate, stretched by the limit. longest: the
-    largest |M| of the shaped step, from the (also shaped) targets before it. READING 10: the limit applies to the mean speed |M| / N."""
+    largest |M| of the shaped step, from the (also shaped) targets before it. READING 10: the limit applies to the mean speed |M| / N.
+    after_shaped: the step before it is shaped."""
     if page.schedule == TIME_BASE:
         length = Fraction(page.time(step) * page.speed, 32)
     else:
         length = Fraction(40 * longest * 32, 3 * max(1, page.time(step) * page.speed))
     length = length * 100 / shape.rate
-    if shape.is_set():
+    if shape.is_set() or after_shaped:
         length = max(length, longest / (Fraction(9, 10) * top_speed(shape.volts)))
     return length
 

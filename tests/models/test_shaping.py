@@ -115,6 +115,10 @@ def test_lengths_by_hand_in_time_base(rate, longest, step, pause):
     assert (shaping.ideal_step(page, 1, longest, shape), shaping.ideal_pause(page, 1, shape)) == (step, pause)
 
 
+def test_the_step_after_a_shaped_one_is_limited():
+    assert shaping.ideal_step(Page(WALK, 3), 1, 1000, Shape(), after_shaped=True) == Fraction(1000 * 1000, 8496)
+
+
 def test_lengths_by_hand_in_speed_base():
     page = Page(area(p2={"steps": [({0: 1}, 8, 64)], "schedule": 0, "speed": 16}), 2)
     assert shaping.ideal_step(page, 1, 240, Shape()) == Fraction(40 * 240 * 32, 3 * 64 * 16)

@@ -108,6 +108,31 @@ static void test_rate_set_by_hand_outlives_the_play(void)
     TEST_ASSERT_EQUAL_UINT16(200, performer.shape.rate_percent);
 }
 
+/* 412 is 362 at 150 % about 512. The approach goes on, as slowly, to the pose as it is stored. */
+static void test_shape_reset_on_the_way_to_the_first_pose_makes_no_leap(void)
+{
+    make_page(1, 512, 0, 0);
+    settings.centre_page = 1;
+    page_set_pos(pages[3], 0, 2, 512);
+    page_set_pos(pages[3], 0, 3, 512);
+    page_seal(pages[3]);
+    shape_set_amplitude(&performer.shape, 150, SERVO_LINK_ALL);
+    start(3, 0);
+    reach(PERFORMER_APPROACH);
+    ticks(20);
+    shape_reset(&performer.shape);
+    uint16_t last = fake_servo_link.goal_pos[1], lowest = last;
+    while (performer.state == PERFORMER_APPROACH) {
+        ticks(1);
+        const uint16_t now = fake_servo_link.goal_pos[1];
+        TEST_ASSERT_UINT16_WITHIN(2, last, now); /* 60 degrees/s are 1.6 units a tick */
+        lowest = now < lowest ? now : lowest;
+        last = now;
+    }
+    TEST_ASSERT_EQUAL_UINT16(362, lowest);
+    TEST_ASSERT_EQUAL_UINT16(412, last);
+}
+
 static void test_limit_follows_the_voltage(void)
 {
     ticks(1);

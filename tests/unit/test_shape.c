@@ -309,6 +309,45 @@ static void expect_one_shape_a_step(player_law_t law, uint8_t ticks, uint8_t tol
     TEST_ASSERT_GREATER_THAN(400 / (ticks + 1) / 2, steps);
 }
 
+/* Steps of 26 ticks between 412 and 612, 7.7 units a tick; 7.83 are allowed at 11.1 V. At 150 % they are 300 units, and take
+ * 39 ticks. The first step as stored begins at 362 or 662: 250 units take 32 ticks, and not 26. */
+static void expect_no_haste_after_a_reset(player_law_t law)
+{
+    uint16_t pose[PAGE_JOINTS], lengths[4] = {0};
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
+        pose[i] = 512;
+    }
+    many_ticks = 26;
+    shape_init(&shape);
+    shape_set_voltage(&shape, 111);
+    shape.centre_page = MANY;
+    shape_set_amplitude(&shape, 150, 0x7FFFFFFF);
+    player_init(&player, &many_source, joints);
+    player.shape = &shape;
+    link_init(&l, LINK_LATCH);
+    TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, MANY + 1, law, pose, 0x7FFFFFFF));
+    uint8_t step = 0;
+    while (step < 6) {
+        step = (uint8_t)(step + ((player_tick(&player, &l) & PLAYER_EV_STEP) != 0));
+        if (step == 2) { /* step 3 has been read */
+            shape_reset(&shape);
+        }
+        if (step >= 2 && step <= 5) {
+            lengths[step - 2]++;
+        }
+    }
+    TEST_ASSERT_UINT16_WITHIN(1, 39, lengths[0]);
+    TEST_ASSERT_UINT16_WITHIN(1, 39, lengths[1]);
+    TEST_ASSERT_UINT16_WITHIN(1, 32, lengths[2]);
+    TEST_ASSERT_UINT16_WITHIN(1, 26, lengths[3]);
+}
+
+static void test_shape_first_step_after_a_reset_is_not_too_fast(void)
+{
+    expect_no_haste_after_a_reset(PLAYER_LAW_EXACT);
+    expect_no_haste_after_a_reset(PLAYER_LAW_CLASSIC);
+}
+
 static void test_shape_of_a_step_is_one_however_short_it_is(void)
 {
     for (uint8_t ticks = 1; ticks <= 12; ticks++) {
