@@ -157,5 +157,5 @@ def test_an_adapter_pulled_during_a_play_is_a_lost_port(m512, motions):
     m512.robot.pull()
     _, said = process.communicate()
     assert process.returncode == 6, said
-    assert "was unplugged" in said and "`m512 torque on -p bus:" in said and "say `on`" not in said
+    assert "was unplugged, which ends any motion" in said and "`m512 torque on -p bus:" in said and "say `on`" not in said
     assert "no such port" in m512("play", "nod", "-p", "BUS", code=6)

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from typing import Callable
 
+from m512 import ui
 from m512.board import bus, servos
 from m512.board.doctor import BAD, LOW_BATTERY_DV, OK, WARN, Add, Finding
 from m512.errors import M512Error
@@ -91,13 +92,19 @@ def _servos(line: servos.Bus, add: Add, wanted: int, mend: bool) -> None:
         except M512Error as error:
             add("rate", WARN, str(error))
             continue
-        ids = line.scan(PLAYED) if rate in (wanted, 1000000, 57142) or line.is_somebody_there() else []
+        ids = _scan(line, PLAYED) if rate in (wanted, 1000000, 57142) or line.is_somebody_there() else []
         if (ids and rate == wanted) or (not ids and line.is_somebody_there()):
-            ids += line.scan(OTHERS)
+            ids += _scan(line, OTHERS)
         if ids:
             found += ids
             _at_rate(line, add, rate, ids, wanted, mend)
     _missing(sorted(found), add)
+
+
+def _scan(line: servos.Bus, ids: range) -> list[int]:
+    """The IDs of these that answer or produce noise. Each that does not takes a while."""
+    with ui.phase(f"Asking IDs {ids[0]}..{ids[-1]} at {line.rate} baud") as progress:
+        return line.scan(ids, progress)
 
 
 def _at_rate(line: servos.Bus, add: Add, rate: int, ids: list[int], wanted: int, mend: bool) -> None:

@@ -61,7 +61,7 @@ class Link:
         self.close()
         if program and program.was_unplugged and (kind is None or issubclass(kind, M512Error)):
             raise PortError(
-                f"the servo adapter of {self.url} was unplugged, and what played was broken off. Check its plug and cable, then "
+                f"the servo adapter of {self.url} was unplugged, which ends any motion. Check its plug and cable, then "
                 f"`m512 torque on -p {self.url}`, then {self.remedy}"
             ) from None
 

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 from m512.board import bus
 from m512.board.link import explain
 from m512.errors import PortError
+from m512.ui import Progress
 
 PING, READ, WRITE, SYNC_WRITE = 1, 2, 3, 0x83
 EVERYBODY = 254
@@ -93,7 +94,7 @@ class Bus:
             self.port.reset_input_buffer()
             self.port.write(question)
             self.port.flush()
-            begun, heard = time.monotonic(), b""
+            begun, heard, whole = time.monotonic(), b"", None
             until = begun + limit + 10 * len(question) / self.rate
             self.asked = [*self.asked[-3:], question]
             while True:
@@ -102,7 +103,7 @@ class Bus:
                 some = self.port.read(1)
                 some += self.port.read(self.port.in_waiting) if some else b""
                 heard += some
-                if some and (whole := self._answer(self._without_echo(heard))):
+                if some and not whole and (whole := self._answer(self._without_echo(heard))):
                     self.longest = max(self.longest, min(time.monotonic() - begun, 0.1))
                     until = min(until, time.monotonic() + (BEGUN_SECONDS if whole.id == question[2] else left))
                 if left <= 0 and not some:
@@ -153,6 +154,11 @@ class Bus:
         """Whether anything answers a broadcast PING. Several servos at once produce noise, which counts as an answer."""
         return any(self._exchange(packet(EVERYBODY, PING)) for _ in range(2))
 
-    def scan(self, ids: range) -> list[int]:
+    def scan(self, ids: range, progress: Progress) -> list[int]:
         """The IDs that answer or produce noise."""
-        return [id_ for id_ in ids if self.ask(id_, PING, tries=2) or self.noise]
+        found = []
+        for done, id_ in enumerate(ids, 1):
+            if self.ask(id_, PING, tries=2) or self.noise:
+                found.append(id_)
+            progress(done, len(ids))
+        return found
