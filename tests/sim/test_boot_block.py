@@ -57,10 +57,10 @@ def test_hello_says_whether_there_is_an_application(board, blocks):
     assert blocks.ask(HELLO) == (OK, 1, b"")
 
 
-@pytest.mark.parametrize("page", [0, 0xDF, 0x1E0, 0x1FF])
-def test_read_flash(board, blocks, page):
+def test_read_flash(board, blocks):
     board.flash[0x0000:0x0100] = noise(256)
-    assert blocks.ask(READ, page_body(page)) == (OK, 0, bytes(board.flash[256 * page : 256 * page + 256]))
+    for page in (0, 0xDF, 0x1E0, 0x1FF):
+        assert blocks.ask(READ, page_body(page)) == (OK, 0, bytes(board.flash[256 * page : 256 * page + 256])), page
 
 
 def test_read_eeprom_and_call_table(board, blocks):
@@ -86,10 +86,10 @@ def test_write_and_its_status(board, blocks):
     assert after[0x7000:0x7100] == data and after[:0x7000] == before[:0x7000] and after[0x7100:] == before[0x7100:]
 
 
-@pytest.mark.parametrize("page", [0x1E0, 0x1FF, 0x200, 0x8000, 0xFFFF])
-def test_boot_section_and_beyond_are_refused(board, blocks, page):
+def test_boot_section_and_beyond_are_refused(board, blocks):
     before = bytes(board.flash)
-    assert blocks.ask(WRITE, page_body(page, noise(256)))[0] == REFUSED
+    for page in (0x1E0, 0x1FF, 0x200, 0x8000, 0xFFFF):
+        assert blocks.ask(WRITE, page_body(page, noise(256)))[0] == REFUSED, page
     assert bytes(board.flash) == before
 
 
@@ -190,6 +190,23 @@ def test_a_damaged_frame_writes_nothing_and_the_next_one_works(board, blocks, sp
     said = board.take()
     assert said[:1] == b"\x5a" and said[4] == BAD_FRAME
     assert blocks.ask(HELLO)[0] == OK
+
+
+def test_a_count_above_the_largest_is_bad_at_once(board, blocks):
+    blocks.ask(HELLO)
+    for words in (130, 255):
+        board.send(bytes([0xA5, WRITE, 1, words]))
+        board.run(ms=20)
+        assert board.take()[4] == BAD_FRAME, words
+
+
+def test_a_lost_byte_costs_the_frame_that_it_swallows(board, blocks):
+    """And the one behind it, whose answer comes as if nothing had been."""
+    blocks.ask(HELLO)
+    board.send(frame(WRITE, 9, page_body(0x70, bytes(256)))[:-1] + frame(HELLO, 10) + frame(HELLO, 11))
+    board.run(ms=200)
+    heard = board.take()
+    assert heard[4] == BAD_FRAME and heard[-7:-5] == bytes([HELLO, 11])
 
 
 def test_a_first_frame_that_is_bad_is_silent(board):

@@ -62,6 +62,21 @@ def test_fault_is_seen_and_goes_when_cleared(robot, name, says):
     assert ping(robot) == FINE
 
 
+def test_a_dead_servo_comes_back_limp_and_a_late_one_is_20_ms_late(robot):
+    servo = robot.servos[3]
+    servo.write(24, [1])
+    servo.fault("dead")
+    servo.clear()
+    assert not servo.torque
+    servo.fault("late")
+    before = robot.uart(0).received
+    robot.send(b"p")
+    robot.run(ms=19)
+    assert robot.uart(0).received == before
+    robot.run(ms=3)
+    assert robot.uart(0).received == before + 6
+
+
 def test_two_talkers_spoil_each_others_answers(robot):
     robot.servos[4].fault("two-talkers")
     assert ping(robot) == "garbled"

@@ -35,12 +35,6 @@ m512_unit_test(test_player_golden SOURCES ${player_sources} tests/unit/image_sou
 if(TARGET test_player_golden)
     target_compile_definitions(test_player_golden PRIVATE GOLDEN_DIR="${CMAKE_SOURCE_DIR}/tests/models/golden")
 endif()
-m512_unit_test(test_player_images SOURCES ${player_sources} tests/unit/image_source.c INCLUDES tests/unit)
-if(TARGET test_player_images)
-    target_compile_definitions(test_player_images PRIVATE SOURCE_DIR="${CMAKE_SOURCE_DIR}")
-    target_link_libraries(test_player_images PRIVATE m)
-    set_tests_properties(unit.player_images PROPERTIES SKIP_REGULAR_EXPRESSION " 0 Failures [1-9] Ignored") # the sets of others
-endif()
 m512_unit_test(test_page_format SOURCES motion/page.c)
 if(TARGET test_page_format)
     target_compile_definitions(test_page_format PRIVATE PAGE_FORMAT_MD="${CMAKE_SOURCE_DIR}/motion/PAGE_FORMAT.md")
