@@ -29,6 +29,8 @@ export interface Where {
     readonly batteryVolts: number;
     /** Bit per servo ID. */
     readonly faulty: number;
+    /** Joints moved by code (`@aim`, `@swing`), with or without a play. Bit per servo ID. */
+    readonly aimed: number;
     /** Shape of the plays, in percent. null: Edit has none, or its amplitudes differ by joint. */
     readonly shape: Shape | null;
     /** All fields by name: later versions report more. */
@@ -107,6 +109,7 @@ export async function askWhere(requests: Requests, options?: RequestOptions): Pr
         code: number('code'),
         batteryVolts: number('dv') / 10,
         faulty: Number.parseInt(values.get('faulty') ?? '0', 16),
+        aimed: Number.parseInt(values.get('aim') ?? '0', 16),
         shape: shapeOf(values),
         fields: values,
     };

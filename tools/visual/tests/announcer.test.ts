@@ -86,6 +86,27 @@ test('get up: one that has rolled over gets up from there, and gives up behind t
     expect(played).toEqual(['back']);
 });
 
+test('a swing by code is announced, and again when a play over it has ended; then that it ends', async () => {
+    const { announcer, message } = heard();
+    const swings = (state: string, page: number): SessionState => {
+        const { where } = at(state, page, 1);
+        return { ...START, where: { ...where, aimed: 1 << 2 } } as SessionState;
+    };
+    for (const state of [
+        at('idle', 0, 0),
+        swings('idle', 0),
+        swings('idle', 0),
+        swings('playing', 20),
+        swings('idle', 0),
+        at('idle', 0, 0),
+    ]) {
+        announcer.look(state, '');
+        await vi.advanceTimersByTimeAsync(5000);
+    }
+    const [moved, waits] = ['Moved by code: joint 2.', 'The robot stands and waits.'];
+    expect(message.map(([, text]) => text)).toEqual([moved, 'Plays motion 20 (walk).', moved, waits]);
+});
+
 test('one that is switched off is told at once, and nothing of what it did', async () => {
     const { announcer, message } = heard();
     announcer.look(at('idle', 0, 0), '');

@@ -31,6 +31,14 @@ test('a robot that goes to a pose, as in live follow, plays no motion: not even 
     expect(startText({ ...state('play'), where: where('approach') })).toBe('Plays motion 2 (bow).');
 });
 
+test('a joint that is moved by code moves the robot: it does not stand and wait', () => {
+    const now = { ...where('idle'), page: 0, step: 0, aimed: 1 << 2 };
+    expect(doingText(state('play'), now)).toBe('Moved by code: joint 2.');
+    expect(startText({ ...state('play'), where: now })).toBe('Moved by code: joint 2.');
+    expect(doingText(state('play'), { ...now, aimed: 0 })).toBe('The robot stands and waits.');
+    expect(doingText(state('play'), { ...now, state: 'playing', page: 2, step: 1 })).toBe('Playing motion 2 (bow), step 1.');
+});
+
 test('only the robot in the page lies or is held: another one that does not answer yet is not said to do so', () => {
     const [lies, held] = [
         { hasFallen: true, isHeld: false },

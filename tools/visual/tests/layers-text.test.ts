@@ -5,11 +5,9 @@ import type { SessionState } from '../view/session/session.ts';
 import { layersText } from '../view/texts/robot.ts';
 
 function state(layer: number, aim: string): SessionState {
-    const fields = new Map([
-        ['layer', String(layer)],
-        ['aim', aim],
-    ]);
-    return { shownPage: null, pages: [{ page: 7, name: 'wave_over' }], where: { fields } } as unknown as SessionState;
+    const fields = new Map([['layer', String(layer)]]);
+    const where = { fields, aimed: Number.parseInt(aim, 16) };
+    return { shownPage: null, pages: [{ page: 7, name: 'wave_over' }], where } as unknown as SessionState;
 }
 
 test('the page and the joints moved by code; the name is the one in the robot', () => {

@@ -12,9 +12,16 @@ export interface AnnouncerParts {
     after(delayMs: number, call: () => void): void;
 }
 
+/** A joint that is moved by code is told like a play, and told again when a play over it has ended. */
+function movementOf({ where }: SessionState): 'none' | 'code' | 'play' {
+    if (where === null) return 'none';
+    if (where.state !== 'idle' && where.state !== 'ready') return 'play';
+    return where.aimed > 0 ? 'code' : 'none';
+}
+
 export class Announcer {
     private readonly parts: AnnouncerParts;
-    private isMoving = false;
+    private movement: 'none' | 'code' | 'play' = 'none';
     private isWaiting = false;
     private due: string[] = [];
     private last = '';
@@ -28,9 +35,9 @@ export class Announcer {
 
     /** fallen: text for a robot that lies or is held; '' otherwise. */
     look(state: SessionState, fallen: string): void {
-        const moves = state.where !== null && state.where.state !== 'idle' && state.where.state !== 'ready';
-        if (moves !== this.isMoving) this.tell(startText(state));
-        this.isMoving = moves;
+        const movement = movementOf(state);
+        if (movement !== this.movement) this.tell(startText(state));
+        this.movement = movement;
         if (fallen !== this.lastFallen && fallen !== '') this.tell(fallen);
         this.lastFallen = fallen;
         const isOff = state.source === 'simulated' && !state.isPowered;
@@ -41,7 +48,7 @@ export class Announcer {
         if (trouble !== this.lastTrouble && trouble !== '') this.tell(trouble);
         this.lastTrouble = trouble;
         const isReady = state.connection === 'ready';
-        if (isReady && !this.wasReady && !moves) this.tell(startText(state));
+        if (isReady && !this.wasReady && movement === 'none') this.tell(startText(state));
         this.wasReady = isReady;
     }
 

@@ -61,7 +61,7 @@ function robotText(state: SessionState, where: Where | null): string {
     switch (where.state) {
         case 'idle':
         case 'ready':
-            return isEdit ? status.editRuns : status.waits;
+            return isEdit ? status.editRuns : movedText(where) || status.waits;
         case 'approach':
             return where.page === 0 ? status.moves : status.approaches(motionTitle(state, where.page));
         case 'paused':
@@ -90,13 +90,18 @@ export function startText(state: SessionState): string {
     return where.state === 'paused' ? TEXTS.status.pauses(motion) : TEXTS.status.plays(motion);
 }
 
+/** The joints moved by code; '' if there are none. */
+function movedText({ aimed }: Where): string {
+    const ids = Array.from({ length: JOINTS }, (_, id) => id).filter(id => (aimed >>> id) & 1);
+    return ids.length > 0 ? TEXTS.layers.moved(ids) : '';
+}
+
 /** The second page that plays and the joints moved by code, as the robot reports them. The page may be one beyond the document's. */
 export function layersText(state: SessionState): string {
-    const fields = state.where?.fields;
-    const page = Number(fields?.get('layer') ?? 0);
-    const aimed = Number.parseInt(fields?.get('aim') ?? '0', 16);
-    const ids = Array.from({ length: JOINTS }, (_, id) => id).filter(id => (aimed >>> id) & 1);
-    const parts = [page > 0 ? TEXTS.layers.laid(motionTitle(state, page)) : '', ids.length > 0 ? TEXTS.layers.moved(ids) : ''];
+    const { where } = state;
+    if (where === null) return TEXTS.layers.none;
+    const page = Number(where.fields.get('layer') ?? 0);
+    const parts = [page > 0 ? TEXTS.layers.laid(motionTitle(state, page)) : '', movedText(where)];
     return parts.filter(Boolean).join(' ') || TEXTS.layers.none;
 }
 
