@@ -420,17 +420,17 @@ def test_files_are_replaced_whole_or_not_at_all(files, monkeypatch):
 
     monkeypatch.setattr(os, "fsync", full)
     with pytest.raises(FileError, match="No space left"):
-        storage.write(target, b"half")
+        storage.write(target, b"half", replace=True)
     assert target.read_bytes() == before and sorted(path.name for path in files.iterdir()) == ["hand.m512", "own.m512", "x.bin"]
     monkeypatch.undo()
-    storage.write(target, b"whole")
+    storage.write(target, b"whole", replace=True)
     assert target.read_bytes() == b"whole" and target.stat().st_mode == mode
 
 
 @pytest.mark.parametrize("name", ["x" * 255, "\u00e9" * 127])
 def test_the_longest_name_that_a_folder_takes_is_written(files, name):
     for data in (b"new", b"replaced"):
-        storage.write(files / name, data)
+        storage.write(files / name, data, replace=True)
         assert (files / name).read_bytes() == data
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from datetime import datetime, timezone
@@ -18,11 +17,11 @@ from m512.board.loaders import Loader
 from m512.board.memory import APP, EEPROM_BYTES, FLASH_PAGE, MOTIONS, Record
 from m512.crc16 import crc16
 from m512.errors import BoardError, FileError, NoAnswerError
-from m512.files import formats, storage
+from m512.files import storage
 from m512.files.page import PAGE_BYTES, Fault, Page
 
 AREAS = {"motions": MOTIONS, "app": APP, "eeprom": (0, EEPROM_BYTES)}
-MANIFEST, FORMAT = formats.BACKUP_MANIFEST, formats.BACKUP_FORMAT
+MANIFEST, FORMAT = storage.BACKUP_MANIFEST, storage.BACKUP_FORMAT
 VERSION = 1
 # Transient state of the loaders, which must not be restored: a page waiting in the mailbox would be written at the next start.
 MAILBOX_CELLS = range(0xFF4, 0xFF6)
@@ -39,20 +38,8 @@ class Backup:
     data: dict[str, bytes]
 
 
-def must_be_possible(folder: Path) -> None:
-    """FileError if no backup can be written there. Checked before the board is put into its loader."""
-    try:
-        if folder.exists() and any(folder.iterdir()):
-            raise FileError(f"{folder} is there already and not empty")
-    except OSError as error:
-        raise FileError(f"cannot make {folder}: {error.strerror}") from None
-    there = next(place for place in (folder, *folder.absolute().parents) if place.exists())
-    if not there.is_dir() or not os.access(there, os.W_OK):
-        raise FileError(f"cannot make {folder}: nothing can be written in {there}")
-
-
-def take(loader: Loader, folder: Path, areas: list[str], phase: PhaseMaker) -> Backup:
-    """Reads the areas of the board and writes the folder, the manifest last."""
+def take(loader: Loader, folder: Path, areas: list[str], phase: PhaseMaker, numbered: bool = False) -> Backup:
+    """Reads the areas of the board and writes the folder, the manifest last. `numbered`: as storage.write_folder()."""
     data = {}
     for area in areas:
         with phase(f"Reading {area}") as progress:
@@ -60,10 +47,6 @@ def take(loader: Loader, folder: Path, areas: list[str], phase: PhaseMaker) -> B
             data[area] = read(*AREAS[area], progress)
         if isinstance(loader, FactoryLoader):
             data[area] = _certain(read, area, data[area], phase)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise FileError(f"cannot make {folder}: {error.strerror}") from None
     record = Record.of(data.get("app", b""))
     manifest = {
         "format": FORMAT,
@@ -83,9 +66,8 @@ def take(loader: Loader, folder: Path, areas: list[str], phase: PhaseMaker) -> B
             for area in areas
         },
     }
-    for area in areas:
-        storage.write(folder / f"{area}.bin", data[area])
-    storage.write(folder / MANIFEST, (json.dumps(manifest, indent=2) + "\n").encode())
+    files = {f"{area}.bin": data[area] for area in areas}
+    folder = storage.write_folder(folder, {**files, MANIFEST: (json.dumps(manifest, indent=2) + "\n").encode()}, numbered)
     return Backup(folder, manifest, data)
 
 

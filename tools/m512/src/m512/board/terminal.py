@@ -19,7 +19,7 @@ from typing import Any, BinaryIO, Callable
 from m512.board.factory_line import PROMPT
 from m512.board.link import Link
 from m512.board.loaders import BANNER
-from m512.errors import FileError, M512Error, PortError, RefusedError
+from m512.errors import FileError, M512Error, PortError
 from m512.files import storage
 
 KEY = "\x1d"  # Ctrl-]
@@ -40,7 +40,7 @@ HIDDEN = (XON, XOFF, 0xFF)  # flow control, and the byte that a controller sends
 
 
 class Terminal:
-    def __init__(self, url: str, log: Path | None = None, image: str = "edit"):
+    def __init__(self, url: str, log: Path | None = None, image: str = "edit", force: bool = False):
         self.log: BinaryIO | None = None
         self.log_lock = threading.Lock()  # one thread writes it, the other opens and closes it
         self.running, self.held, self.trouble = True, False, ""
@@ -50,17 +50,17 @@ class Terminal:
         self.link = Link(url, image=image)
         if log:
             try:
-                self._open_log(log)
+                self._open_log(log, force)
             except M512Error:
                 self.link.close()
                 raise
 
-    def _open_log(self, path: Path) -> None:
-        """Overwrites an existing file."""
-        try:
-            self.log = open(path, "wb")
-        except OSError as error:
-            raise FileError(f"cannot write {path}: {error.strerror}") from None
+    def _open_log(self, path: Path, force: bool = False) -> None:
+        """M512Error: no new file can be made there, or `force` is given and the old one not to be replaced (storage.write)."""
+        log, losses = storage.begin(path, force)
+        self.log = log
+        for loss in losses:
+            self._say(f"loss: {loss}")
 
     def _to_log(self, data: bytes) -> None:
         try:
@@ -225,10 +225,8 @@ class Terminal:
             try:
                 storage.must_be_free(Path(name), False)
                 self._open_log(Path(name))
-            except RefusedError:
-                self._say(f"{name} is there already; name another file")
-            except FileError as error:
-                self._say(str(error))
+            except M512Error as error:
+                self._say(str(error).replace(" (--force overwrites it)", "; name another file"))
 
     def _ask(self, console: Any, prompt: str) -> str:
         sys.stderr.write("\r\n-- " + prompt)

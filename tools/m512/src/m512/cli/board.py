@@ -282,22 +282,26 @@ Examples:
 @board_option
 @wait_option
 @json_option
-def backup(folder: Path, what: str, yes: bool, port: str, board: str, wait: float, as_json: bool) -> None:
+def backup(folder: Path | None, what: str, yes: bool, port: str, board: str, wait: float, as_json: bool) -> None:
     """Read motions, EEPROM and application into FOLDER, with a manifest (date, board, CRCs)."""
     from m512.board import backup as backups
     from m512.board import loaders
+    from m512.files import storage
 
     areas = _areas(what)
+    numbered = folder is None  # two robots backed up in the same second get a folder each
     folder = folder or Path(datetime.now().strftime("backup-%Y%m%d-%H%M%S"))
-    backups.must_be_possible(folder)
+    storage.must_take_files(folder, numbered)
     link, loader = connect(port, wait, yes, board)
     with link:
         with loaders.as_found(loader):
-            made = backups.take(loader, folder, areas, ui.phase)
+            made = backups.take(loader, folder, areas, ui.phase, numbered)
         after = loaders.give_back(loader)
     if as_json:
         ui.show(json.dumps(made.manifest, indent=2))
-    ui.say(f"{folder}: " + ", ".join(f"{area} {len(made.data[area]):,} bytes" for area in areas) + ("" if loader.was_at_prompt else f". {after}"))
+    ui.say(
+        f"{made.folder}: " + ", ".join(f"{area} {len(made.data[area]):,} bytes" for area in areas) + ("" if loader.was_at_prompt else f". {after}")
+    )
 
 
 @click.command(

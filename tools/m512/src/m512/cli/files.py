@@ -132,7 +132,7 @@ def convert(
     bad = conversion.treat_damaged(image, source, damaged, notes)
     image, lost = conversion.fitted(image, count and int(count), target)
     losses += lost
-    losses += formats.save(target, image)
+    losses += formats.save(target, image, replace=force)
     if as_json:
         ui.show(
             json.dumps(

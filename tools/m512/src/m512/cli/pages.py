@@ -15,7 +15,7 @@ from m512 import ui
 from m512.cli.board import FilePath, Finite, board_option
 from m512.cli.files import PAGE_NUMBER, page_moves, page_numbers
 from m512.errors import EXIT_DIFFERENT, EmptyPageError, FileError, WordError
-from m512.files import conversion, formats, selection
+from m512.files import conversion, formats, selection, storage
 from m512.files.page import Page
 from m512.files.wording import field_text
 
@@ -50,9 +50,9 @@ class Source:
             ui.say(f"note: {note}")
         return image
 
-    def store(self, remarks: Iterable[str], output: Any, in_place: bool, yes: bool, other: tuple[Image, Path] | None = None) -> None:
-        """Writes the changed image to `output`, or else back to its file or board. `other`: a second file that the motions come from, read
-        and by name."""
+    def store(self, remarks: Iterable[str], output: Any, force: bool, in_place: bool, yes: bool, other: tuple[Image, Path] | None = None) -> None:
+        """Writes the changed image to `output`, or else back to its file or board. force: `output` may be replaced. other: a second file
+        that the motions come from, read and by name."""
         for remark in remarks:
             ui.say(f"note: {remark}")
         target = output or ("" if self.board else self.word)
@@ -61,12 +61,12 @@ class Source:
                 formats.keep_text(image, source, Path(target))
         if output:
             fitted, lost = conversion.fitted(self.image, None, Path(output))
-            for loss in lost + formats.save(Path(output), fitted):
+            for loss in lost + formats.save(Path(output), fitted, replace=force):
                 ui.say(f"loss: {loss}")
         elif self.board:
             self._to_board(yes)
         else:
-            for loss in formats.save(Path(self.word), self.image, kind=self.image.form):
+            for loss in formats.save(Path(self.word), self.image, self.image.form, replace=True):
                 ui.say(f"loss: {loss}")
 
     def _to_board(self, yes: bool) -> None:
@@ -88,15 +88,15 @@ def changes(function: Any) -> Any:
     """Decorator with the options of actions that change pages. Checks the destination before a file or board is read."""
 
     @wraps(function)
-    def action(source: Source, force: bool, **options: Any) -> None:
+    def action(source: Source, **options: Any) -> None:
         if options["output"] and options["in_place"]:
             raise click.UsageError("-o FILE or --in-place: say one of the two")
         if not (options["output"] or options["in_place"] or source.board):
             raise click.UsageError("say where the result goes: -o FILE, or --in-place")
         if options["output"]:
-            formats.must_be_writable(Path(options["output"]), force)
+            formats.must_be_writable(Path(options["output"]), options["force"])
         elif not source.board:
-            formats.keep_backup(Path(source.word))
+            storage.keep_backup(Path(source.word))
         try:
             function(source, **options)
         except WordError as error:

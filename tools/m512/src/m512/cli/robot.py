@@ -349,7 +349,7 @@ def get(pages: Sequence[str], output: Any, force: bool, **options: Any) -> None:
             for done, number in enumerate(numbers):
                 image[number] = client.page(number)
                 progress(done + 1, len(numbers))
-    for loss in formats.save(output, image):
+    for loss in formats.save(output, image, replace=force):
         ui.say(f"loss: {loss}")
     ui.say(f"{output}: pages {' '.join(map(str, numbers))}")
     if options["as_json"]:

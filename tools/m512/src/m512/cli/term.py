@@ -53,11 +53,11 @@ def term(port: str, log: Path | None, force: bool, send: Path | None, listing: b
         from m512.board.sim import Simulator
 
         with Simulator(image, motions) as simulator:
-            Terminal(simulator.url, log).run(send, data)
+            Terminal(simulator.url, log, force=force).run(send, data)
         return
     if not is_bus(port):
         refuse_words({"image"}, "is for --sim or -p bus:...")
     program = next((name for name in ("play", "edit") if name in image), None)
     if not program:
         raise MissingError(f"no program for an adapter is called {image!r}: --image play or edit")
-    Terminal(ports.pick(port), log, program).run(send, data)
+    Terminal(ports.pick(port), log, program, force).run(send, data)

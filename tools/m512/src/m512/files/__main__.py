@@ -12,6 +12,6 @@ from m512.files import formats
 
 if __name__ == "__main__":
     try:
-        formats.save(Path(sys.argv[2]), formats.load(Path(sys.argv[1])))
+        formats.save(Path(sys.argv[2]), formats.load(Path(sys.argv[1])), replace=True)
     except M512Error as error:
         sys.exit(f"m512: {error}")

@@ -6,8 +6,6 @@ load() puts its assumptions into Image.notes. save() returns the losses: what th
 
 from __future__ import annotations
 
-import json
-import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -20,7 +18,6 @@ from m512.files.wording import counted
 
 TEXT, BINARY, HEX, MTN = "text", "image", "Intel HEX", "RoboPlus .mtn"
 BY_SUFFIX = {".m512": TEXT, ".bin": BINARY, ".img": BINARY, ".hex": HEX, ".ihex": HEX, ".mtn": MTN}
-BACKUP_MANIFEST, BACKUP_FORMAT = "manifest.json", "m512-backup"  # in the folder of a backup (board/backup.py)
 
 
 def recognise(data: bytes, path: Path) -> str:
@@ -98,10 +95,11 @@ def _image(kind: str, data: bytes, path: Path, bits: int | None) -> Image:
     return mtn.read(data, str(path), bits)
 
 
-def save(path: Path, image: Image, kind: str | None = None) -> list[str]:
-    """Writes an image in the format of the path's suffix, or as `kind`. Returns the losses, also those of a file that was replaced."""
+def save(path: Path, image: Image, kind: str | None = None, replace: bool = False) -> list[str]:
+    """Writes an image in the format of the path's suffix, or as `kind`. Returns the losses, also those of a file that was replaced.
+    RefusedError: as storage.write()."""
     data, losses = encode(path, image, kind)
-    return losses + storage.write(path, data)
+    return losses + storage.write(path, data, replace)
 
 
 def kind_of(path: Path) -> str:
@@ -117,30 +115,12 @@ def must_be_writable(path: Path, force: bool) -> None:
     format, or the path is a folder."""
     storage.must_be_free(path, force)
     kind_of(path)
-    keep_backup(path)
-
-
-def keep_backup(path: Path) -> None:
-    """RefusedError if the path is a file of a backup: with other contents it would no longer be what its manifest says."""
-    if storage.is_stream(path):
-        return
-    real = Path(os.path.realpath(path))
-    try:
-        manifest = json.loads((real.parent / BACKUP_MANIFEST).read_bytes())
-        names = [entry["file"] for entry in manifest["files"].values()] if manifest["format"] == BACKUP_FORMAT else []
-    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
-        return  # no backup, or one that is unreadable already
-    if real.name in names:
-        raise RefusedError(
-            f"{path} belongs to the backup {real.parent if path.is_symlink() else path.parent}, which stays as it was read from the board. "
-            "Name another file for the result (of `m512 pages`: -o new.bin); `m512 flash new.bin` writes it to the board"
-        )
 
 
 def keep_text(image: Image, source: Path, target: Path) -> None:
     """RefusedError if a text, or one that it includes, would be overwritten by its own motions and would lose content, such as comments.
     `image` was read from `source`. Where a pipe does not tell from which file it comes, no such text is overwritten."""
-    if not (image.text and storage.exists(target)):
+    if not (image.text and storage.exists(target) and target.exists()):
         return
     if any(storage.exists(path) and target.samefile(path) for path in image.included):
         raise RefusedError(f"{target} is a text that {source} includes, and would be lost. Name another file for the result")

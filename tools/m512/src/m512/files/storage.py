@@ -1,22 +1,30 @@
 # SPDX-License-Identifier: MIT
-"""Reads and writes files, completely or not at all, and pipes ("-" is standard input or output)."""
+"""Reads and writes files, completely or not at all, and pipes ("-" is standard input or output).
+
+All that m512 writes to a disk it writes here. What may be replaced is judged when a file gets its name: what another program has made
+since an earlier look stays. The earlier look (must_be_free) saves the user the work that would be in vain.
+"""
 
 from __future__ import annotations
 
 import errno
+import json
 import os
 import re
 import stat
 import sys
 import tempfile
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
+from itertools import count
 from pathlib import Path
+from typing import BinaryIO
 
 from m512.errors import FileError, RefusedError
 from m512.streams import end_results
 
 MOST_BYTES = 4 << 20  # larger than any motion file, firmware or backup; stops /dev/zero. Readers take time in proportion to the size
-
+BACKUP_MANIFEST, BACKUP_FORMAT = "manifest.json", "m512-backup"  # in the folder of a backup (board/backup.py)
 
 _read_already: object = None  # the sys.stdin that has been read
 
@@ -61,16 +69,49 @@ def _source_status(path: Path) -> os.stat_result:
 
 
 def exists(path: Path) -> bool:
-    """Whether writing would overwrite something."""
-    return path.exists() and not is_stream(path)
+    """Whether writing would overwrite something, such as a link that leads to itself."""
+    try:
+        return os.path.lexists(os.path.realpath(path)) and not is_stream(path)
+    except OSError:  # the current folder is gone
+        return False
 
 
 def must_be_free(path: Path, force: bool) -> None:
-    """RefusedError: the file exists. FileError: the path is a folder."""
+    """RefusedError: the file exists and is not to be replaced, or belongs to a backup. FileError: the path is a folder."""
     if path.is_dir():
         raise FileError(f"{path} is a folder; name a file in it")
     if exists(path) and not force:
         raise RefusedError(f"{path} is there already (--force overwrites it)")
+    keep_backup(path)
+
+
+def keep_backup(path: Path) -> None:
+    """RefusedError if the path is a file of a backup: with other contents it would no longer be what its manifest says."""
+    if is_stream(path):
+        return
+    try:
+        real = Path(os.path.realpath(path))
+        manifest = json.loads((real.parent / BACKUP_MANIFEST).read_bytes())
+        names = [entry["file"] for entry in manifest["files"].values()] if manifest["format"] == BACKUP_FORMAT else []
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        return  # no backup, or one that is unreadable already
+    if real.name in (*names, BACKUP_MANIFEST) and names:
+        raise RefusedError(
+            f"{path} belongs to the backup {real.parent if path.is_symlink() else path.parent}, which stays as it was read from the board. "
+            "Name another file for the result (of `m512 pages`: -o new.bin); `m512 flash new.bin` writes it to the board"
+        )
+
+
+def must_take_files(folder: Path, numbered: bool = False) -> None:
+    """FileError if write_folder() can make no such folder."""
+    try:
+        if folder.exists() and any(folder.iterdir()) and not numbered:
+            raise FileError(f"{folder} is there already and not empty")
+    except OSError as error:
+        raise FileError(f"cannot make {folder}: {error.strerror}") from None
+    there = next(place for place in (folder, *folder.absolute().parents) if place.exists())
+    if not there.is_dir() or not os.access(there, os.W_OK):
+        raise FileError(f"cannot make {folder}: nothing can be written in {there}")
 
 
 def read(path: Path) -> bytes:
@@ -101,9 +142,9 @@ def must_fit(size: int, path: Path) -> None:
         raise FileError(f"cannot read {path}: more than {MOST_BYTES >> 20} MiB, which is no file for this program")
 
 
-def write(path: Path, data: bytes) -> list[str]:
-    """Replaces a file in one step: after a crash or on a full disk the old one remains. Returns what could not be kept of the old one
-    besides its contents."""
+def write(path: Path, data: bytes, replace: bool = False) -> list[str]:
+    """Writes a file in one step: after a crash or on a full disk an old one remains. Returns what could not be kept of the old one besides
+    its contents. RefusedError: it exists, and `replace` is false; or it belongs to a backup."""
     try:
         descriptor = _descriptor(path)
         if descriptor == 1:
@@ -122,17 +163,90 @@ def write(path: Path, data: bytes) -> list[str]:
             with open(path, "wb") as stream:
                 stream.write(data)
         else:
-            return _replace(Path(os.path.realpath(path)), path, data)
+            return _put(Path(os.path.realpath(path)), path, data, replace)
     except BrokenPipeError:  # its reader has gone (cli/__init__.py)
         raise
+    except FileExistsError:
+        raise RefusedError(f"{path} is there already (--force overwrites it)") from None
     except OSError as error:
         raise FileError(f"cannot write {path}: {error.strerror}") from None
     return []
 
 
-def _replace(path: Path, called: Path, data: bytes) -> list[str]:
-    """Replaces the file at `path`, or makes it. `called`: how the user names it. Returns what of the old file could not be kept."""
-    old = path.stat() if path.exists() else None
+def begin(path: Path, replace: bool = False) -> tuple[BinaryIO, list[str]]:
+    """Opens a file that grows, such as a log. An old one becomes empty first. Otherwise as write()."""
+    lost = [] if is_stream(path) else write(path, b"", replace)
+    descriptor = _descriptor(path)
+    try:
+        return (open(path, "wb" if is_stream(path) else "ab") if descriptor is None else os.fdopen(os.dup(descriptor), "wb")), lost
+    except OSError as error:
+        raise FileError(f"cannot write {path}: {error.strerror}") from None
+
+
+def write_numbered(path: Path, data: bytes) -> Path:
+    """Writes a new file under this name or, if that is taken, under one with a number behind it. Returns the name."""
+    for name in _numbered(path):
+        if not exists(name):
+            with suppress(RefusedError):  # it is there by now
+                write(name, data)
+                break
+    return name
+
+
+def write_folder(folder: Path, files: Mapping[str, bytes], numbered: bool = False) -> Path:
+    """Writes files into a folder that is new or empty, or nothing at all. `numbered`: into a new one, with a number behind its name if that
+    is taken. Returns its name. FileError: something else is there, or nothing can be written."""
+    made: list[Path] = []
+    written: list[Path] = []
+    try:
+        folder = _make_folder(folder, numbered, made)
+        for name, data in files.items():
+            try:
+                write(folder / name, data)
+            except RefusedError:  # another program writes into this folder, too
+                raise FileError(f"{folder} is there already and not empty") from None
+            written.append(folder / name)
+    except BaseException:
+        with suppress(OSError):
+            for path in written:
+                path.unlink()
+            for path in reversed(made):
+                path.rmdir()
+        raise
+    return folder
+
+
+def _make_folder(folder: Path, numbered: bool, made: list[Path]) -> Path:
+    """Makes the folder, and those that it is in. Adds what it made to `made`."""
+    try:
+        for place in reversed(folder.parents):
+            if not place.exists():
+                place.mkdir(exist_ok=True)
+                made.append(place)
+        for name in _numbered(folder):
+            try:
+                name.mkdir()
+                made.append(name)
+                return name
+            except FileExistsError:
+                if not numbered:
+                    must_take_files(folder)
+                    return folder
+    except OSError as error:
+        raise FileError(f"cannot make {folder}: {error.strerror}") from None
+    raise AssertionError
+
+
+def _numbered(path: Path) -> Iterator[Path]:
+    """name.hex, name-2.hex, name-3.hex ..."""
+    yield path
+    for number in count(2):
+        yield path.with_name(f"{path.stem}-{number}{path.suffix}")
+
+
+def _put(path: Path, called: Path, data: bytes, replace: bool) -> list[str]:
+    """Makes the file at `path`, or replaces it. `called`: how the user names it. Returns what of the old file could not be kept."""
+    old = path.stat() if replace and path.exists() else None
     if old and not (os.access(path, os.W_OK) and old.st_mode & 0o222):  # root has access to everything
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
     try:
@@ -147,7 +261,8 @@ def _replace(path: Path, called: Path, data: bytes) -> list[str]:
             os.fsync(file.fileno())
         lost = _keep_owner(name, old, called) if old else []
         os.chmod(name, old.st_mode & 0o7777 if old else 0o666 & ~_umask())
-        os.replace(name, path)
+        keep_backup(called)
+        (os.replace if replace else _name_new)(name, path)
     except BaseException:
         with suppress(FileNotFoundError):  # a signal during the replacement: the file has its new name already
             os.unlink(name)
@@ -155,6 +270,23 @@ def _replace(path: Path, called: Path, data: bytes) -> list[str]:
     if old and old.st_nlink > 1:
         lost.append(f"{called} had other names (hard links): they keep the old contents")
     return lost
+
+
+def _name_new(name: str, path: Path) -> None:
+    """Gives a file a name that nothing has. FileExistsError: something has it."""
+    try:
+        os.link(name, path)
+    except FileExistsError:
+        raise
+    except OSError:  # a file system without hard links, such as FAT: an empty file takes the name first
+        os.close(os.open(path, os.O_CREAT | os.O_EXCL | os.O_WRONLY))
+        try:
+            os.replace(name, path)
+        except BaseException:
+            os.unlink(path)
+            raise
+    else:
+        os.unlink(name)
 
 
 def _keep_owner(name: str, old: os.stat_result, called: Path) -> list[str]:
