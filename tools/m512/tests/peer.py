@@ -24,10 +24,13 @@ class Peer:
 
     def send(self, data):
         """Sends to the PC."""
-        if self.cut_after is None and self.garble is None:
-            self.moved += len(data)
+        if self.garble is None:
+            passes = data if self.cut_after is None else data[: max(self.cut_after - self.moved, 0)]
+            self.moved += len(passes)
             if self.plugged:
-                self._to_pc(data)
+                self._to_pc(passes)
+                if len(passes) < len(data):
+                    self._count("<-", data[len(passes)])
             return
         for byte in data:
             byte = self._count("<-", byte) if self.plugged else None

@@ -253,10 +253,3 @@ def test_drive_without_a_terminal_says_so(m512, monkeypatch):
     monkeypatch.setattr(shape, "robot", robot)
     result = m512("drive", "walk", "-p", "x")
     assert result.exit_code == 5 and "needs a terminal" in result.stderr
-
-
-@pytest.mark.parametrize("word", ["aim", "pose"])
-def test_a_position_without_its_joint_is_told_how_it_is_written(m512, word):
-    """Play's own syntax is `aim 2 600`. A user who types that here gets a hint."""
-    done = m512(word, "2", "600", "-p", "nowhere")
-    assert done.exit_code == 2 and "2: say ID:POSITION, such as 2:600" in done.stderr

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Flashing through a factory loader over bad lines, in simulated time: the reported cases, and whether the model of the loader agrees
-with the measurements in its description. `tools/prove links` runs thousands of schedules."""
+"""Flashing through a factory loader over bad lines, in simulated time: the reported cases. `tools/prove links` runs thousands of
+schedules."""
 
 import random
 
@@ -15,7 +15,7 @@ from m512.errors import CancelledError, M512Error, NoAnswerError
 from tests.campaigns.badlinks import runs
 from tests.campaigns.badlinks.factory_model import Board, Loader
 from tests.campaigns.badlinks.line import CANCELLED, KILLED, Killed, Line
-from tests.campaigns.badlinks.wire import BYTE_SECONDS, Conditions, Wire, wires
+from tests.campaigns.badlinks.wire import Conditions, wires
 
 GOOD = Conditions()
 
@@ -41,86 +41,6 @@ class Bench:
 
     def changed(self):
         return sorted({at // 256 for at in range(0x20000) if self.loader.flash[at] != self.before[at]})
-
-
-# The model against the table in the description (section 3): address 2000, n data bytes and a checksum byte
-
-
-@pytest.mark.parametrize("n, pages", [(1, 1), (254, 1), (255, 1), (256, 2), (257, 2), (512, 3), (1000, 4)])
-def test_model_writes_as_many_pages_as_were_measured(n, pages):
-    bench, data = Bench(), random.Random(n).randbytes(n)
-    assert b"Write Address : 00002000\r\n Ready.." in bench.say(b"load 2000\r", 0.1)
-    data += bytes([sum(data) & 0xFF])
-    answer = bench.say(data, 0.6)
-    assert answer.startswith(b"Success") and b"Size:0X%08X" % len(data) in answer
-    assert bench.changed() == list(range(0x20, 0x20 + pages))
-    assert bench.loader.flash[0x2000 : 0x2000 + len(data)] == data
-    rest = len(data) % 256
-    if rest:  # left over from the page before; 00 if there was none
-        last = 0x2000 + len(data) - rest
-        expected = bench.loader.flash[last - 256 + rest : last] if n > 255 else bytes(256 - rest)
-        assert bench.loader.flash[last + rest : last + 256] == expected
-
-
-@pytest.mark.parametrize(
-    "address, count, pages",
-    [
-        ("2080", 17, [0x20]),
-        ("20ff", 301, [0x21, 0x22]),
-        ("2001", 257, [0x21]),
-        ("1e000", 20, [0x1E0]),
-        ("1ff00", 400, [0, 0x1FF]),
-        ("e000 10", 5, [0]),
-        ("0xe000", 5, [0x1E0]),
-    ],
-)
-def test_model_takes_every_address(address, count, pages):
-    bench = Bench()
-    bench.say(b"load " + address.encode() + b"\r", 0.1)
-    bench.say(random.Random(3).randbytes(count), 0.6)
-    assert bench.changed() == pages
-
-
-@pytest.mark.parametrize("gap, over", [(0.105, False), (0.113, True)])
-def test_model_ends_a_download_by_silence(gap, over):
-    bench = Bench()
-    bench.say(b"load 2000\r", 0.1)
-    bench.say(b"a", gap)
-    bench.say(b"b" * 5, 0.6)
-    assert bench.loader.eeprom[0xFFB] == (1 if over else 6) and bool(bench.loader.line) == over
-
-
-def test_model_crashes_at_80_characters_and_empties_a_full_ring():
-    bench = Bench()
-    bench.say(b"x" * 79 + b"\r")
-    assert not bench.loader.crashes
-    bench.say(b"x" * 80 + b"\r")
-    assert bench.loader.crashes
-    bench = Bench()
-    bench.say(b"f 0\r" + b"a" * 256, 0.5)  # typed ahead while the loader is busy
-    assert len(bench.loader.line) < 256 - 80
-
-
-def test_model_copies_the_mailbox_and_brings_lines_back():
-    bench = Bench()
-    bench.loader.eeprom[0x800:0xA00] = b"q" * 512
-    bench.loader.eeprom[0xFF4], bench.loader.eeprom[0xFF5] = 0xAA, 120
-    assert b" Writing " in bench.say(b"reset\r") and bench.loader.eeprom[0xFF4] == 0x55
-    assert bench.changed() == [0x1D0, 0x1D1] and bench.loader.flash[0x1D000:0x1D200] == b"q" * 512
-    assert bench.say(b"help\r", 2) and b"help" in bench.say(b"\x01", 0.1)
-
-
-# The wire
-
-
-def test_wire_keeps_the_order_and_the_rate_and_outlives_the_sender():
-    wire = Wire(Conditions(speed=0.5, late=0.2), 1)
-    wire.send(10.0, bytes(range(100)))
-    assert wire.arrived(10.2) == b"" and wire.arrived(10.2 + 100 * BYTE_SECONDS) != bytes(range(100))
-    assert wire.next_arrival() < float("inf") and wire.arrived(99) and wire.next_arrival() == float("inf")
-
-
-# m512
 
 
 def motion_pages(*numbers):

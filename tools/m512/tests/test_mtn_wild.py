@@ -27,9 +27,8 @@ def pages_of(image):
 
 @pytest.mark.parametrize("accident", ACCIDENTS)
 @pytest.mark.parametrize("with_commas", [False, True])
-@pytest.mark.parametrize("version", ["1.00", "1.01"])
-def test_every_accident_is_read_and_told(accident, with_commas, version):
-    for seed in range(2):
+def test_every_accident_is_read_and_told(accident, with_commas):
+    for seed, version in enumerate(["1.00", "1.01"]):
         blocks = blocks_by_chance(random.Random(seed))
         data = made(blocks, version=version, full=not seed)
         data = commas(data) if with_commas else data

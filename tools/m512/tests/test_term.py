@@ -302,8 +302,3 @@ def test_what_is_sent_first_is_read_once(m512):
         assert m512("term", "-p", board.path, "--send", f"/dev/fd/{read}", input="").exit_code == 0
         assert board.lines == [b"list", b"play 1"]
     os.close(read)
-
-
-def test_what_cannot_be_sent_is_said_before_the_port_is_opened(m512, tmp_path):
-    result = m512("term", "-p", tmp_path / "no-port", "--send", tmp_path / "nothing", input="")
-    assert result.exit_code == 4 and "cannot read" in result.stderr and "nothing" in result.stderr
