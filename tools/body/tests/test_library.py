@@ -29,20 +29,16 @@ def promise_of(page):
     [
         ("kick_r", 30),
         ("kick_r", 52),  # fell while still on two feet, too far to the side
-        ("kick_r", 189),
         ("kick_r", 206),  # its hip gave way; the foot touched the floor too early and pushed the body over the other one
         ("cheer", 13),  # its arms pushed it forward as they came down
         ("get_up", 39),  # could not pull its feet to its hands: 9.2 V, a rough floor
-        ("get_up", 130),
         ("get_up", 1095),  # rolled onto its back as an arm came out from below
         ("get_up", 1070),  # a hand caught below the belly, until its servo was overloaded
         ("get_up_back", 31),
         ("get_up_back", 1081),  # rolled onto its face
         ("back", 394),  # leaned back because of its soles and trunk, and was pushed: hips too high, steps too long
-        ("back", 758),
         ("side_l", 394),
         ("right", 773),  # sagged backwards on soft ankles, without a push
-        ("left", 773),
     ],
 )
 def test_stands_on_a_body_on_which_it_fell(page, seed):
@@ -72,7 +68,7 @@ def deepest_mm(number):
     begin = first_pose(IMAGE, number, promises.ROBOT)
     physics.data.qpos[2] = 5  # far above the floor
     for tick in play(LIBRARY, number, [begin.get(joint, 512) for joint in range(31)], 512):
-        if tick.goals and tick.number % 2 == 0:
+        if tick.goals and tick.number % 4 == 0:
             physics.pose({servo: tick.goals[servo] for servo in promises.ROBOT.servos})
             for contact in physics.data.contact[: physics.data.ncon]:
                 geoms = contact.geom1, contact.geom2

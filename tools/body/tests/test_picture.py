@@ -4,6 +4,7 @@
 import importlib.machinery
 import importlib.util
 import pathlib
+import runpy
 import subprocess
 import sys
 
@@ -73,19 +74,20 @@ def test_the_nearest_is_drawn_last_and_backs_are_left_out():
     assert len(from_front) < len(faces)
 
 
-@pytest.mark.parametrize("ending, begins", [("png", b"\x89PNG"), ("svg", b"<?xml")])
-def test_command_makes_a_file_without_a_display(tmp_path, ending, begins):
-    path = tmp_path / f"a.{ending}"
+def test_command_makes_a_file_without_a_display(tmp_path):
+    """A .png: test_readmes_makes_all_pictures_of_the_motions_readme."""
+    path = tmp_path / "a.svg"
     subprocess.run([sys.executable, str(PICTURE), "ready", "walk", "bow:2", "-o", str(path)], check=True, env={"PATH": "/usr/bin:/bin"})
-    assert path.read_bytes().startswith(begins)
+    assert path.read_bytes().startswith(b"<?xml")
 
 
 @pytest.mark.parametrize(
     "words, says", [(["nix"], "no page is called 'nix'"), (["bow:9"], "has steps 1.."), (["bow", "--body", "x"], "known here: gp, humanoid")]
 )
-def test_command_says_what_is_wrong(tmp_path, words, says):
-    run = subprocess.run([sys.executable, str(PICTURE), *words, "-o", str(tmp_path / "a.png")], capture_output=True, text=True, check=False)
-    assert run.returncode == 1 and says in run.stderr
+def test_command_says_what_is_wrong(monkeypatch, tmp_path, words, says):
+    monkeypatch.setattr(sys, "argv", ["picture", *words, "-o", str(tmp_path / "a.png")])
+    with pytest.raises(SystemExit, match=f"^picture: .*{says}"):
+        runpy.run_path(str(PICTURE), run_name="__main__")
 
 
 def test_readmes_makes_all_pictures_of_the_motions_readme(tmp_path):

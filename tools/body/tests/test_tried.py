@@ -62,14 +62,6 @@ def test_parts_are_added_up_without_seeds_that_motions_were_made_with(library, t
     assert sorted(campaign(library, path, monkeypatch, add_up=True).results(never, BOW, 100)) == [1000, 1001, 2000, 2001]
 
 
-@pytest.mark.parametrize("how", [{"sample": True}, {"seed_of": 1001}])
-def test_a_sample_and_a_body_asked_for_are_tried_anew(library, tmp_path, monkeypatch, how):
-    path = tmp_path / "bodies.jsonl"
-    campaign(library, path, monkeypatch).results(odd_fall, BOW, 2)
-    with pytest.raises(AssertionError, match="is tried"):
-        campaign(library, path, monkeypatch, **how).results(never, BOW, 2)
-
-
 def test_a_torn_line_costs_one_body(tmp_path):
     path = tmp_path / "bodies.jsonl"
     first = bodies.Tried(path)
@@ -110,13 +102,3 @@ def test_a_result_counts_for_its_version_of_physics_alone(library, monkeypatch):
         monkeypatch.setattr("mujoco.__version__", version)
         keys.add(bodies.key_of(library, promises.number_of(library, "walk"), walk, promises.ROBOT, "player"))
     assert len(keys) == 2
-
-
-def test_seeds_are_said_as_people_write_them():
-    assert bodies.seeds_said([1002, 1000, 1001, 1010]) == "1000-1002, 1010"
-
-
-def test_a_figure_of_few_bodies_says_how_many_are_promised():
-    few = physics.share_figure("bow", "4 s", BOW, {1000: (True, "stands"), 1001: (False, "fell")}, 200)
-    assert few.measured.startswith("1 of 2 bodies, 200 are promised; seeds 1000-1001; not 1001") and not few.kept
-    assert physics.share_figure("bow", "4 s", BOW, {1000: (True, "stands")}, 1).measured == "1 of 1 bodies; seeds 1000"
