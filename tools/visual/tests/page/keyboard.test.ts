@@ -12,11 +12,10 @@ const WIDE = { width: 1440, height: 800 };
 const suite = pageSuite();
 const chosen = (person: Visitor) => person.page.getByRole('group', { name: 'Chosen joints' }).getByRole('spinbutton');
 const steps = (person: Visitor) => person.page.getByRole('button', { name: /^Step \d$/ });
-const place = (person: Visitor): Promise<string> =>
-    person.page.locator('robot-view').evaluate(view => {
-        const { x, y } = (view as unknown as { placeOf(name: string): { x: number; y: number } }).placeOf('right_hand');
-        return `${Math.round(x)} ${Math.round(y)}`;
-    });
+const place = async (person: Visitor): Promise<string> => {
+    const { x, y } = await person.placeOf('right_hand');
+    return `${Math.round(x)} ${Math.round(y)}`;
+};
 
 test('a pupil: walks, looks round, pushes it over, gets up; teaches a page, names it, plays it; sends it as a teacher does', async () => {
     const pupil = await Visitor.come(suite.browser, suite.address, { screen: WIDE, isNew: true });
@@ -96,7 +95,7 @@ test('a pupil: walks, looks round, pushes it over, gets up; teaches a page, name
 }, 900_000);
 
 test('a hobbyist: opens a file, goes where it is faulty, renames, copies and clears pages, links them, writes; somebody debugs', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { theme: 'dark', screen: WIDE, hasPicture: false });
+    const person = await Visitor.come(suite.browser, suite.address, { theme: 'dark', screen: WIDE, hasPicture: false, hasPhysics: false });
     const keys = new Keyboard(person);
     const { page } = person;
     const card = (name: RegExp) => page.getByRole('option', { name });

@@ -34,6 +34,7 @@ test('from a sub-path, and the second visit with the server stopped', async () =
     const asked: string[] = [];
     const visitor = await Visitor.come(browser, server.address, {
         keepsPage: true,
+        hasPicture: false,
         before: async page => {
             page.on('request', request => asked.push(request.url()));
         },

@@ -248,6 +248,36 @@ export class Visitor {
         await this.page.evaluate(() => new Promise(resolve => requestAnimationFrame(() => requestAnimationFrame(resolve))));
     }
 
+    /** The place of a part of the robot on the screen. */
+    placeOf(shape: string): Promise<{ x: number; y: number }> {
+        return this.page
+            .locator('robot-view')
+            .evaluate((view, name) => (view as unknown as { placeOf(name: string): { x: number; y: number } }).placeOf(name), shape);
+    }
+
+    /** Waits until the camera is still; it glides on a little after a gesture. */
+    async untilStill(): Promise<void> {
+        await this.page.waitForFunction(() => (document.querySelector('robot-view') as unknown as { isStill: boolean }).isStill);
+    }
+
+    /** The positions of these servos in the next picture. */
+    positions(ids: readonly number[]): Promise<number[]> {
+        return this.page.evaluate(
+            wanted =>
+                new Promise<number[]>(resolve => {
+                    type Frame = { servos: { id: number; position: number }[] };
+                    const { session } = document.querySelector('app-shell') as unknown as {
+                        session: { onFrame(l: (s: Frame) => void): () => void };
+                    };
+                    const stop = session.onFrame(state => {
+                        stop();
+                        resolve(wanted.map(id => state.servos.find(one => one.id === id)?.position ?? 0));
+                    });
+                }),
+            ids,
+        );
+    }
+
     /** Waits in the robot's own time, which is slower than the clock on a busy computer. */
     async robotSeconds(seconds: number): Promise<void> {
         await this.page.evaluate(ticks => {

@@ -2,7 +2,6 @@
 // What people do with the robot in the page, by mouse and keyboard, with elements found by their labels. Long motions are watched at four
 // times the speed.
 import { expect, test } from 'vitest';
-import { nameAndSave } from './edit-session.ts';
 import { Visitor } from './page-bench.ts';
 import { SHOTS, pageSuite } from './page-suite.ts';
 
@@ -52,27 +51,6 @@ test('a pupil: it stands, walks while the keys light up, is pushed over, gets up
     await pupil.leave();
 });
 
-/** The robot's flash as the browser stores it, as text. */
-function keptFlash(visitor: Visitor): Promise<string> {
-    return visitor.page.evaluate(
-        () =>
-            new Promise<string>((resolve, reject) => {
-                const opened = indexedDB.open('motion512');
-                opened.onerror = () => reject(opened.error);
-                opened.onsuccess = () => {
-                    const asked: IDBRequest<{ flash: Uint8Array } | undefined> = opened.result
-                        .transaction('robot')
-                        .objectStore('robot')
-                        .get('cm5');
-                    asked.onsuccess = () => {
-                        opened.result.close();
-                        resolve(new TextDecoder('latin1').decode(asked.result?.flash));
-                    };
-                };
-            }),
-    );
-}
-
 test('somebody leaves the terminal while Edit waits for a name: the robot plays all the same, the name goes on; Stop answers no question, and a key of the remote throws nothing away', async () => {
     const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
     const runs = person.doing.filter({ hasText: /^Edit runs/ });
@@ -118,22 +96,6 @@ test('somebody leaves the terminal while Edit waits for a name: the robot plays 
     await person.leave();
 });
 
-test('somebody who debugs: Edit in the terminal, a page saved, and the browser keeps it over a reload', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
-    await person.untilStanding();
-    await person.open('Robot');
-    await person.button('Run Edit').click();
-    await person.open('Terminal');
-    await nameAndSave(person, 'salute');
-    await expect.poll(() => keptFlash(person), PATIENT).toContain('salute');
-    await person.page.reload();
-    await person.untilStanding();
-    await person.open('Terminal');
-    await person.type('list\r');
-    await person.untilScreenSays(/100.*salute/);
-    await person.leave();
-});
-
 /** Finds a part of the robot in the picture by what lights up under the mouse. */
 async function find(visitor: Visitor, title: RegExp): Promise<{ x: number; y: number }> {
     const box = await visitor.page.getByRole('img', { name: 'The robot' }).boundingBox();
@@ -149,21 +111,8 @@ async function find(visitor: Visitor, title: RegExp): Promise<{ x: number; y: nu
 }
 
 /** Sum of the distances of the right arm's three joints from 512. */
-function rightArm(visitor: Visitor): Promise<number> {
-    return visitor.page.evaluate(
-        () =>
-            new Promise<number>(resolve => {
-                type Frame = { servos: { id: number; position: number }[] };
-                const { session } = document.querySelector('app-shell') as unknown as {
-                    session: { onFrame(l: (s: Frame) => void): () => void };
-                };
-                const stop = session.onFrame(state => {
-                    stop();
-                    const at = (id: number): number => state.servos.find(servo => servo.id === id)?.position ?? 0;
-                    resolve(Math.abs(at(1) - 512) + Math.abs(at(3) - 512) + Math.abs(at(5) - 512));
-                });
-            }),
-    );
+async function rightArm(visitor: Visitor): Promise<number> {
+    return (await visitor.positions([1, 3, 5])).reduce((sum, position) => sum + Math.abs(position - 512), 0);
 }
 
 test('a hand pulls a stiff arm and lets it go back; time slow, paused, tick by tick', async () => {

@@ -65,12 +65,6 @@ async function box(page: Page, what: string): Promise<{ x: number; y: number; wi
     return found;
 }
 
-function placeOf(page: Page, shape: string): Promise<{ x: number; y: number }> {
-    return page
-        .locator('robot-view')
-        .evaluate((view, name) => (view as unknown as { placeOf(name: string): { x: number; y: number } }).placeOf(name), shape);
-}
-
 /** What covers the picture at this place: text, or an element with its own background. */
 function textsOver(page: Page, place: { x: number; y: number }): Promise<string[]> {
     return page.evaluate(
@@ -179,7 +173,7 @@ test('on a phone the robot stands above the bar of motions, and the Tour leaves 
     // Bar and camera keep moving: the sentence about physics comes and goes, which makes the picture lower, and the robot's motions make
     // the bar higher.
     for (const foot of ['right_foot_front', 'left_foot_front']) {
-        const aboveBar = async (): Promise<number> => (await box(page, 'action-bar')).y - (await placeOf(page, foot)).y;
+        const aboveBar = async (): Promise<number> => (await box(page, 'action-bar')).y - (await person.placeOf(foot)).y;
         await expect.poll(aboveBar, { message: foot }).toBeGreaterThan(FOOT_PX);
     }
     await person.button('Tour').click();
@@ -207,13 +201,12 @@ test('the robot stands as high over the bar of motions when its rows have come a
     const person = await Visitor.come(suite.browser, suite.address, { screen: TABLET, hasPhysics: false });
     const { page } = person;
     await person.untilStanding();
-    const isStill = (): Promise<boolean> => page.locator('robot-view').evaluate(view => (view as unknown as { isStill: boolean }).isStill);
-    await expect.poll(isStill).toBe(true);
-    const { y } = await placeOf(page, 'right_foot_front');
+    await person.untilStill();
+    const { y } = await person.placeOf('right_foot_front');
     await page.setViewportSize({ width: TABLET.height, height: TABLET.width });
     await person.untilSeen();
     await page.setViewportSize({ width: TABLET.width, height: TABLET.height });
-    await expect.poll(async () => (await placeOf(page, 'right_foot_front')).y).toBeCloseTo(y, 0);
+    await expect.poll(async () => (await person.placeOf('right_foot_front')).y).toBeCloseTo(y, 0);
     await person.leave();
 });
 
@@ -225,7 +218,7 @@ async function checkInSight(person: Visitor, screens: readonly Screen[], shapes:
         await person.untilSeen();
         for (const shape of shapes)
             await expect
-                .poll(async () => textsOver(page, await placeOf(page, shape)), { message: `${shape}, ${width} x ${height}` })
+                .poll(async () => textsOver(page, await person.placeOf(shape)), { message: `${shape}, ${width} x ${height}` })
                 .toEqual([]);
     }
 }
@@ -282,7 +275,7 @@ test('nothing over the picture covers the hand that is dragged, wherever it goes
     await page.getByRole('option', { name: /^motion 2 bow/ }).click();
     await person.open('Steps');
     const view = page.locator('robot-view');
-    const hand = await placeOf(page, 'right_hand');
+    const hand = await person.placeOf('right_hand');
     const stage = await box(page, '.stage');
     await page.mouse.move(hand.x, hand.y);
     await page.mouse.down();

@@ -18,7 +18,7 @@ const figure = (visitor: Visitor) =>
     });
 
 test('Play after an edit: within 0.3 s the solid figure moves, no ghost is seen while anything plays, and the robot follows by itself', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { screen: { width: 1280, height: 800 } });
+    const person = await Visitor.come(suite.browser, suite.address, { screen: { width: 1280, height: 800 }, hasPhysics: false });
     await person.untilStanding();
     await person.open('Motions');
     await person.page.getByRole('option', { name: /^motion 3 wave/ }).dblclick();

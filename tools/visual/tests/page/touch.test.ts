@@ -17,27 +17,17 @@ const TARGET_PX = 24;
 const FINGER_MS = 500;
 const suite = pageSuite();
 
-/** The place of a part of the robot on the screen. */
-function placeOf(page: Page, shape: string): Promise<Point> {
-    return page.locator('robot-view').evaluate((view, name) => (view as unknown as { placeOf(name: string): Point }).placeOf(name), shape);
-}
-
-/** Waits until the camera is still; it glides on a little after a gesture. */
-async function untilStill(page: Page): Promise<void> {
-    await expect.poll(() => page.locator('robot-view').evaluate(view => (view as unknown as { isStill: boolean }).isStill)).toBe(true);
-}
-
-async function untilAt(page: Page, shape: string, { x, y }: Point): Promise<void> {
+async function untilAt(person: Visitor, shape: string, { x, y }: Point): Promise<void> {
     await expect
         .poll(async () => {
-            const at = await placeOf(page, shape);
+            const at = await person.placeOf(shape);
             return Math.hypot(at.x - x, at.y - y);
         })
         .toBeLessThan(2);
 }
 
-async function size(page: Page): Promise<number> {
-    const [face, sole] = [await placeOf(page, 'face'), await placeOf(page, 'right_sole')];
+async function size(person: Visitor): Promise<number> {
+    const [face, sole] = [await person.placeOf('face'), await person.placeOf('right_sole')];
     return Math.hypot(face.x - sole.x, face.y - sole.y);
 }
 
@@ -74,7 +64,7 @@ const takeBack = async (page: Page, what: RegExp): Promise<void> => {
 const position = (page: Page) => page.getByRole('group', { name: 'Chosen joints' }).getByRole('spinbutton').first();
 
 test('lying: the camera by one finger and by two, joints, a hand, steps, times and way-points dragged; nothing too small, nothing scrolls', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { screen: LYING });
+    const person = await Visitor.come(suite.browser, suite.address, { screen: LYING, hasPhysics: false });
     const { page } = person;
     const fingers = await Fingers.on(page);
     await person.untilStanding();
@@ -90,29 +80,29 @@ test('lying: the camera by one finger and by two, joints, a hand, steps, times a
     await page.getByRole('option', { name: /^motion 2 bow/ }).tap();
     await page.getByRole('tab', { name: 'Steps', exact: true }).tap();
     const ground = { x: 60, y: 560 };
-    const before = await placeOf(page, 'right_hand');
+    const before = await person.placeOf('right_hand');
     await fingers.drag(ground, 90, 0); // one finger on the ground orbits
-    await expect.poll(async () => Math.abs((await placeOf(page, 'right_hand')).x - before.x)).toBeGreaterThan(20);
+    await expect.poll(async () => Math.abs((await person.placeOf('right_hand')).x - before.x)).toBeGreaterThan(20);
     await fingers.drag(ground, -90, 0);
-    const small = await size(page);
+    const small = await size(person);
     await fingers.pinch(ground, { x: 520, y: 200 }, { x: -40, y: 40 }, { x: 50, y: -60 });
-    await expect.poll(() => size(page)).toBeGreaterThan(small * 1.1);
-    const large = await size(page);
-    await fingers.pinch(await placeOf(page, 'face'), await placeOf(page, 'right_thigh'), { x: 0, y: 60 }, { x: 0, y: -60 }); // both on the robot
-    await expect.poll(() => size(page)).toBeLessThan(large * 0.95);
+    await expect.poll(() => size(person)).toBeGreaterThan(small * 1.1);
+    const large = await size(person);
+    await fingers.pinch(await person.placeOf('face'), await person.placeOf('right_thigh'), { x: 0, y: 60 }, { x: 0, y: -60 }); // both on the robot
+    await expect.poll(() => size(person)).toBeLessThan(large * 0.95);
     expect(await undo(page).isDisabled()).toBe(true); // viewed, not changed
-    await untilStill(page);
+    await person.untilStill();
 
-    const forearm = await placeOf(page, 'right_forearm');
+    const forearm = await person.placeOf('right_forearm');
     await page.touchscreen.tap(forearm.x, forearm.y);
     await expect.poll(() => position(page).count()).toBe(1);
     const rest = await position(page).inputValue();
-    const hand = await placeOf(page, 'right_hand');
-    await fingers.drag(await placeOf(page, 'right_forearm'), 70, -40);
+    const hand = await person.placeOf('right_hand');
+    await fingers.drag(await person.placeOf('right_forearm'), 70, -40);
     await expect.poll(() => position(page).inputValue()).not.toBe(rest);
     await page.screenshot({ path: `${SHOTS}tablet-pose.png` });
     await takeBack(page, /^Undo: pose/);
-    await untilAt(page, 'right_hand', hand); // the picture follows the undo at the next drawing, later on a busy computer
+    await untilAt(person, 'right_hand', hand); // the picture follows the undo at the next drawing, later on a busy computer
     await fingers.drag(hand, -50, -90);
     await expect.poll(() => page.getByRole('group', { name: 'Chosen joints' }).getByRole('spinbutton').count()).toBeGreaterThan(2); // a limb
     await takeBack(page, /^Undo: pose/);
@@ -165,11 +155,11 @@ test('on end: a hand is taught by finger, the area scrolls, page and picture sta
     await page.getByRole('button', { name: 'New motion' }).tap();
     await page.getByRole('button', { name: 'Right arm' }).tap();
     await page.getByRole('status', { name: 'Teaching' }).filter({ hasText: 'Drag the limb' }).waitFor();
-    const before = await placeOf(page, 'right_hand');
+    const before = await person.placeOf('right_hand');
     await fingers.down(before);
     await fingers.to({ x: before.x - 30, y: before.y - 60 });
     await fingers.to({ x: before.x - 60, y: before.y - 120 });
-    await expect.poll(async () => before.y - (await placeOf(page, 'right_hand')).y).toBeGreaterThan(40);
+    await expect.poll(async () => before.y - (await person.placeOf('right_hand')).y).toBeGreaterThan(40);
     await fingers.up();
     expect(await page.evaluate(() => scrollY)).toBe(0);
     await page.getByRole('button', { name: 'Add step from the robot' }).tap();

@@ -81,6 +81,9 @@ test('a second tab says that it has a copy; what the first has saved stays, what
 
     await person.page.reload(); // it is still the first tab
     await person.untilStanding();
+    await person.open('Terminal');
+    await person.type('law\r');
+    await person.untilScreenSays(/\] law\s+classic/); // the robot of before
     await saveLaw(person.page, 'exact');
     await expect.poll(() => keptEeprom(person.page)).not.toBe(saved);
     await person.leave();
