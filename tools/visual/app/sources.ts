@@ -29,7 +29,7 @@ export interface SourcesParts {
 }
 
 function isMoving(where: Where | null): boolean {
-    return where !== null && (where.state === 'approach' || where.state === 'playing');
+    return where !== null && (where.state === 'approach' || where.state === 'playing' || where.aimed > 0);
 }
 
 export class RobotSources {
@@ -136,8 +136,8 @@ export class RobotSources {
         this.parts.editor.setRobot([]);
     }
 
-    /** A hidden page gets too little time to drive servos. What plays is ended before it stutters, and the person is told on return, which
-     *  may be before the program has answered. */
+    /** A hidden page gets too little time to drive servos. What plays or moves by code is ended before it stutters, and the person is told
+     *  on return, which may be before the program has answered. */
     private async lookHidden(): Promise<void> {
         this.tellHidden();
         if (!document.hidden || this.parts.state.get().source !== 'servos') return;

@@ -4,6 +4,7 @@
 import { readFile } from 'node:fs/promises';
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { RobotSession } from '../app/robot-session.ts';
+import { ServosSource } from '../app/servos-source.ts';
 import { SimulatedSource } from '../app/simulated-source.ts';
 import type { Body } from '../model/body.ts';
 import type { FormatsWorker } from '../model/file-formats.ts';
@@ -11,6 +12,7 @@ import { wallClock } from '../robot/clock.ts';
 import { Connection } from '../robot/connection.ts';
 import { BytePort } from '../sim/byte-port.ts';
 import { PassingStorage } from '../view/document-storage.ts';
+import { TEXTS } from '../view/texts/texts.ts';
 import { libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
 
 vi.mock('../app/assets.ts', () => ({}));
@@ -25,13 +27,13 @@ const tab = {
     addEventListener: (_: string, look: () => void) => void tab.looks.push(look),
 };
 
-/** A robot whose flash has no motions. sent: the words of all requests, and `remote` for a packet of the remote. */
-function scripted(image: 'play' | 'edit') {
+/** A robot whose flash has no motions. sent: the words of all requests, and `remote` for a packet of the remote. aim: as in `@where`. */
+function scripted(image: 'play' | 'edit', aim = '00000000') {
     const sent: string[] = [];
     const crc = format.crc(format.empty).toString(16).padStart(4, '0');
     const answers: Record<string, string> = {
         '@ver': `image=${image} version=1.0.0 board=cm5 protocol=1 can=list,page${image === 'edit' ? ',save' : ''}`,
-        '@where': 'state=idle page=0 step=0 repetition=0 code=0 dv=96 faulty=0',
+        '@where': `state=idle page=0 step=0 repetition=0 code=0 dv=96 faulty=0 aim=${aim}`,
         '@crc': crc,
         '@list': '20:4:"walk"',
     };
@@ -160,6 +162,31 @@ test('a page that is hidden lets go of the stick and of the keys', async () => {
     await soon();
     expect(yours.sent.slice(before)).not.toContain('@drive');
     expect(yours.sent.slice(before)).not.toContain('remote');
+});
+
+test.each([
+    ['swings by code', '00000004', true],
+    ['stands', '00000000', false],
+])('a hidden page ends what My servos do: a joint that %s', async (_, aim, ends) => {
+    const { session } = await page('play');
+    const { port, sent } = scripted('play', aim);
+    vi.spyOn(ServosSource.prototype, 'choose').mockResolvedValue(true);
+    vi.spyOn(ServosSource.prototype, 'start').mockResolvedValue();
+    vi.spyOn(ServosSource.prototype, 'close').mockResolvedValue();
+    vi.spyOn(ServosSource.prototype, 'connect').mockReturnValue();
+    const connection = new Connection(port, wallClock, { state: () => undefined, text: () => undefined });
+    open.push(connection);
+    vi.spyOn(ServosSource.prototype, 'connection', 'get').mockReturnValue(connection);
+    connection.connect();
+    await session.connectServos();
+    await vi.waitFor(() => expect(connection.state).toBe('ready'));
+    tab.hidden = true;
+    for (const look of tab.looks) look();
+    await soon();
+    expect(sent.includes('@break')).toBe(ends);
+    tab.hidden = false;
+    for (const look of tab.looks) look();
+    expect(session.state.get().message?.text).toBe(ends ? TEXTS.robot.errors['was-hidden'] : undefined);
 });
 
 test('the time of the robot in the page stands still; yours has its own, and the page sees what it does', async () => {
