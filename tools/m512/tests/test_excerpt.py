@@ -8,6 +8,7 @@ import pytest
 from mtn_files import Block, made, step
 
 from m512.errors import RefusedError
+from m512.files import formats
 from m512.files.image import Image
 from m512.files.page import Page
 from m512.pages.excerpt import excerpt
@@ -76,6 +77,44 @@ def test_a_damaged_page_stays_byte_for_byte_and_its_links_are_not_followed():
     image[201].seal()
     part = excerpt(image, [200], 128)
     assert part.moved == {200: 1} and part.image[1] == image[200] and part.left == [201]
+
+
+@pytest.mark.parametrize("words", [["--only", "200", "--pages", "128"], ["--joints", "1..2"], ["--pages", "128"], ["--bits", "12", "--scale", "10"]])
+@pytest.mark.parametrize("damage", ["position", "steps"])
+def test_what_is_called_kept_byte_for_byte_is(m512, tmp_path, words, damage):
+    """A position of 1500 is damage in a file of 10 bits, though not in one of 12."""
+    image, number = Image.empty(256), 1 if words == ["--pages", "128"] else 200
+    for page in (image[2], image[number]):
+        page.steps = 1
+        for joint in range(1, 19):
+            page.set_word(0, joint, 512)
+    if damage == "steps":
+        image[number].steps = 9
+    else:
+        image[number].set_word(0, 1, 5000 if "--scale" in words else 1500)
+    image[number].next = 201
+    image[number].seal(), image[2].seal()
+    (tmp_path / "x.bin").write_bytes(image.to_bytes())
+    result = m512("convert", tmp_path / "x.bin", tmp_path / "y.bin", *words)
+    assert result.exit_code == 0, result.stderr
+    pages = [bytes(page) for page in formats.load(tmp_path / "y.bin", 10).pages]
+    if "--scale" in words and damage == "position":
+        assert "kept byte for byte" not in result.stderr and "are now unused" in result.stderr
+    else:
+        assert "damaged, kept byte for byte" in result.stderr and bytes(image[number]) in pages, result.stderr
+
+
+def test_a_page_whose_damage_is_in_the_joints_left_out_is_mended(m512, tmp_path):
+    image = Image.empty()
+    image[1].steps = 1
+    image[1].set_word(0, 1, 512)
+    image[1].set_word(0, 25, 1500)
+    image[1].set_time(0, 50)
+    image[1].seal()
+    (tmp_path / "x.bin").write_bytes(image.to_bytes())
+    result = m512("convert", tmp_path / "x.bin", tmp_path / "y.bin", "--bits", "10", "--joints", "1..18")
+    assert result.exit_code == 0 and "damaged" not in result.stderr, result.stderr
+    assert m512("pages", tmp_path / "y.bin", "check").exit_code == 0
 
 
 def test_a_roboplus_file_of_240_pages(m512, tmp_path):

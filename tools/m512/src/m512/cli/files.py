@@ -114,13 +114,11 @@ def convert(
         part = excerpt(whole, wanted, count and int(count) or conversion.fitting(whole, target))
         image, moved, left = part.image, part.moved, part.left
         notes += part.notes(whole, wanted)
-    if joints is not None:
-        from m512.files.scale12 import keep_joints
-
-        losses += keep_joints(image, id_list(joints))
-    if scale:
+    if joints is not None or scale:
         from m512.files import scale12
-
+    if joints is not None:
+        losses += scale12.keep_joints(image, id_list(joints), scaled_later=bool(scale) and int(scale) != image.bits)
+    if scale:
         if not bits and image.form in (formats.BINARY, formats.HEX):
             scale12.must_be_clear(image, source)
     if scale and int(scale) == image.bits:

@@ -115,13 +115,13 @@ class Image:
             if number < count:
                 out[number] = page
                 if self.end > count:
-                    _cut_links(out[number], number, count, cut)
+                    _cut_links(out[number], number, self.kind, count, cut)
         return out, losses + cut.lines()
 
 
-def _cut_links(page: Page, number: int, count: int, cut: Findings) -> None:
+def _cut_links(page: Page, number: int, kind: Kind, count: int, cut: Findings) -> None:
     """Empties the links of an undamaged page that lead beyond the last page."""
-    if page.fault(Kind(256, TWELVE_BIT_MAX)) is Fault.OK:
+    if page.fault(kind) is Fault.OK:
         for link in page.LINKS:
             if getattr(page, link) >= count:
                 cut.add(number, page.title, "links to pages that are left out are now empty", f"{field_text(link)} {getattr(page, link)}")

@@ -6,6 +6,7 @@ One 12-bit unit is exactly 0.3 10-bit units. Positions out of range are clipped 
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
 from fractions import Fraction
 
@@ -66,11 +67,11 @@ def judged(image: Image, bits: int | None) -> Image:
 
 
 def scaled(image: Image, bits: int) -> tuple[Image, list[str]]:
-    """A copy of `image` with `bits` (10 or 12), and a report. Pages with a wrong checksum stay as they are."""
+    """A copy of `image` with `bits` (10 or 12), and a report. Pages with other damage than impossible positions stay as they are."""
     out = Image([page.copy() for page in image.pages], image.first, bits, list(image.notes), form=image.form, given=image.given)
     work = _Work(bits)
     for number, page in out.items():
-        if page.fault() is Fault.CHECKSUM:
+        if page.fault(image.kind) not in (Fault.OK, Fault.POSITION):
             work.damaged.append(number)
             continue
         if number == 0:
@@ -126,7 +127,7 @@ class _Work:
         return value
 
     def report(self, bits_before: int) -> list[str]:
-        out = [f"{pages_text(self.damaged)}: checksum wrong, not scaled"] if self.damaged else []
+        out = [f"{pages_text(self.damaged)}: damaged, not scaled"] if self.damaged else []
         if self.count:
             out.insert(
                 0,
@@ -160,18 +161,19 @@ def round_away(value: Fraction) -> int:
     return whole if value >= 0 else -whole
 
 
-def keep_joints(image: Image, joints: Iterable[int]) -> list[str]:
-    """Sets all other joints unused, in place. Returns a line with the number of dropped positions. Pages with a wrong checksum stay as
-    they are."""
-    kept = set(joints)
-    dropped: dict[int, int] = {}
+def keep_joints(image: Image, joints: Iterable[int], scaled_later: bool = False) -> list[str]:
+    """Sets all other joints unused, in place. Returns a line with the number of dropped positions. Pages that are damaged without these
+    joints, too, stay as they are; if they are `scaled_later`, which mends them, not those with impossible positions."""
+    others = set(range(JOINTS)) - set(joints)
+    dropped: Counter[int] = Counter()
     for number, page in image.items():
-        if page.fault() is Fault.CHECKSUM:
+        if page.fault(image.kind) not in (Fault.OK, Fault.POSITION):
             continue
-        for step in range(min(page.steps, STEPS)):
-            for joint in set(range(JOINTS)) - kept:
-                if is_used(page.word(step, joint)):
-                    dropped[joint] = dropped.get(joint, 0) + 1
-                    page.set_word(step, joint, POS_UNUSED)
-        page.seal()
+        gone = [(step, joint) for step in range(min(page.steps, STEPS)) for joint in others if is_used(page.word(step, joint))]
+        rest = page.copy()
+        for step, joint in gone:
+            rest.set_word(step, joint, POS_UNUSED)
+        if scaled_later or not rest.seal().fault(image.kind):
+            image[number] = rest.seal()
+            dropped.update(joint for _, joint in gone)
     return [f"{sum(dropped.values())} positions of joints left out (IDs " + " ".join(map(str, sorted(dropped))) + ")"] if dropped else []

@@ -12,8 +12,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from m512.errors import RefusedError
-from m512.files.image import TWELVE_BIT_MAX, Image
-from m512.files.page import Kind, Page
+from m512.files.image import Image
+from m512.files.page import Page
 from m512.files.wording import named_pages_text, pages_text
 
 LINKS = Page.LINKS + Page.PARTNERS
@@ -53,20 +53,16 @@ def excerpt(image: Image, wanted: Iterable[int], count: int) -> Excerpt:
         out[0] = image[0]
     for old, new in moved.items():
         out[new] = image[old]
-        if not _is_damaged(image[old]):
+        if not image[old].fault(image.kind):
             _follow(out[new], moved)
     return Excerpt(out, moved, sorted(used - taken - {0}))
-
-
-def _is_damaged(page: Page) -> bool:
-    return bool(page.fault(Kind(256, TWELVE_BIT_MAX)))
 
 
 def _reached(image: Image, start: set[int], used: set[int]) -> set[int]:
     found, todo = set(start), list(start)
     while todo:
         page = image[todo.pop()]
-        links = set() if _is_damaged(page) else {getattr(page, link) for link in LINKS} & used - found
+        links = set() if page.fault(image.kind) else {getattr(page, link) for link in LINKS} & used - found
         found |= links
         todo += links
     return found
