@@ -1,10 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The shipped player and accurate servo models move random bodies in MuJoCo. A yardstick comes first: the maker's own motions for its
 GP robot, which walk on the real robot, must walk here, and must fall when they are spoiled. Without that, the physics could not
-judge anything. Physics is a model, and no real robot has walked our motions yet.
-
-build/prove/bodies.jsonl keeps the bodies that were tried: an interrupted campaign resumes, and its parts are added up.
-"""
+judge anything. Physics is a model, and no real robot has walked our motions yet."""
 
 import functools
 import os
@@ -17,7 +14,7 @@ from body.description import load
 from body.trial import first_pose, try_motion
 from m512.files.formats import load as load_motions
 from motions import promises
-from tests.campaigns import bodies, proof
+from tests.campaigns import proof
 from tests.campaigns.onboard import try_on_board
 
 TITLE = "Motions in physics"
@@ -32,25 +29,13 @@ MODELS = {"AX-18": AX18, "AX-12": {}}
 EXPECTED = {("AX-18", FORWARD): 210, ("AX-18", BACK): -204, ("AX-12", FORWARD): 139, ("AX-12", BACK): -83}
 TOLERANCE = 0.25
 SECONDS = 10
-TRIED = proof.RESULTS / "bodies.jsonl"
 WALKS_ON_BOARD = 50
 FIRST_SEED = 1000  # lower seeds were used while the motions were made
 
 
 def add_arguments(group):
     group.add_argument("--only", metavar="PAGE", help="of our motions this one alone")
-    group.add_argument(
-        "--from",
-        type=int,
-        default=FIRST_SEED,
-        metavar="SEED",
-        dest="first",
-        help="the first body (default: %(default)s; those below were looked at while the motions were made)",
-    )
-    group.add_argument(
-        "--bodies", type=int, metavar="N", help="bodies for each motion (default: as promises.py says); those tried before are not tried again"
-    )
-    group.add_argument("--add-up", action="store_true", help="no new bodies: figures and page from all that were tried so far")
+    group.add_argument("--bodies", type=int, metavar="N", help="bodies for each motion (default: as promises.py says)")
     group.add_argument(
         "--on-board",
         type=int,
@@ -149,91 +134,55 @@ def library_image():
 
 
 def body_stands(image, number, item):
-    promise, seed = item
-    return promises.stands(image, number, promise, seed)
+    promise, seed, _ = item
+    stood, said = promises.stands(image, number, promise, seed)
+    return bool(stood), said
 
 
 def walk_on_board(image, number, ready, item):
-    promise, seed = item
+    promise, seed, _ = item
     outcome = try_on_board(image, number, promise.seconds, ready, variation=promises.body_of(promise, seed), keys=promise.keys)
-    return outcome.fell_s is None and outcome.on_feet, outcome.said()
+    return bool(outcome.fell_s is None and outcome.on_feet), outcome.said()
 
 
-def share_figure(what, how, promise, results, of):
-    """results: {seed: (kept, message)}, at least one. of: the number of bodies in a whole campaign; the figure says if there are fewer."""
+def share_figure(what, how, promise, results):
+    """results: {seed: (kept, message)}, at least one."""
     bad = {seed: said for seed, (kept, said) in sorted(results.items()) if not kept}
     stood = len(results) - len(bad)
-    part = f", {of} are promised" if len(results) < of else ""
-    measured = f"{stood} of {len(results)} bodies{part}; seeds {bodies.seeds_said(results)}"
+    measured = f"{stood} of {len(results)} bodies; seeds {min(results)}-{max(results)}"
     if bad:
         measured += f"; not {', '.join(str(seed) for seed in list(bad)[:60])}; the first: {next(iter(bad.values()))}"
     return proof.Figure(what, how, measured, stood >= promise.share * len(results), headline=promise.page == "walk")
 
 
-def as_on_page(what, promise):
-    """Returns [the figure on the page, with its commit], or []. Used when the bodies were tried only in another clone."""
-    found = []
-    for figure in proof.figures_on_page("physics"):
-        if figure["promise"] == what:
-            at = "" if "commit" in figure["how"] else f", commit {proof.commit_on_page('physics')}"
-            found.append(proof.Figure(**figure | {"how": figure["how"] + at, "headline": promise.page == "walk"}))
-    return found
+def results_of(work, promise, count, where, options):
+    """Returns {seed: (kept, message)} of a motion's bodies. work((promise, seed, where)) tries one; where: what leads it."""
+    seeds = [options.seed_of] if options.seed_of is not None else range(FIRST_SEED, FIRST_SEED + count)
+    results = options.kept.each(work, [(promise, seed, where) for seed in seeds], f"{promise.page}, {where}", options.jobs)
+    return dict(zip(seeds, results))
 
 
-class Campaign:
-    """The bodies of one run: those tried earlier, and those that it tries."""
-
-    def __init__(self, options, library):
-        self.options, self.library, self.commit = options, library, proof.commit()
-        self.tried = None if options.sample or options.seed_of else bodies.Tried(TRIED)
-
-    def results(self, work, promise, count, where="player"):
-        """Returns {seed: (kept, message)} of a motion's bodies. work((promise, seed)) tries one."""
-        if self.options.seed_of:
-            seeds = [self.options.seed_of]
-        else:
-            seeds = range(self.options.first, self.options.first + count)
-        key = bodies.key_of(self.library, promises.number_of(self.library, promise.page), promise, promises.ROBOT, where)
-        old = self.tried.of(key) if self.tried else {}
-        if self.options.add_up:
-            return {seed: result for seed, result in old.items() if seed >= FIRST_SEED}
-        todo = [(promise, seed) for seed in seeds if seed not in old]
-        done = functools.partial(self._keep, key, where) if self.tried else None
-        new = proof.each(work, todo, f"{promise.page}, {where}", self.options.jobs, done=done)
-        old |= {seed: result for (_, seed), result in zip(todo, new)}
-        return {seed: old[seed] for seed in seeds}
-
-    def _keep(self, key, where, item, result):
-        promise, seed = item
-        self.tried.add(key, seed, result, page=promise.page, how=promise.how, where=where, commit=self.commit)
-
-
-def stand_figures(options, image, library, campaign):
+def stand_figures(options, image, library):
     figures = []
     for promise in promises.STANDS:
         if options.only not in (None, promise.page) or (options.sample and promise.page not in promises.EASY):
             continue
         count = promise.bodies if options.bodies is None else options.bodies
         work = functools.partial(body_stands, image, promises.number_of(library, promise.page))
-        results = campaign.results(work, promise, 1 if options.sample else count)
+        results = results_of(work, promise, 1 if options.sample else count, "player", options)
         begin = f", from its {promise.lie}, arms anyhow" if promise.lie else ""
         how = f" {promise.how}" if promise.how else ""
         what = f"`{promise.page}`{how}{begin}: it ends on its feet."
-        if results:
-            figures.append(share_figure(what, f"{promise.seconds:.0f} s, bodies by chance", promise, results, promise.bodies))
-        else:
-            figures += as_on_page(what, promise)
+        figures.append(share_figure(what, f"{promise.seconds:.0f} s, bodies by chance", promise, results))
     return figures
 
 
-def board_figures(options, image, library, campaign):
+def board_figures(options, image, library):
     walk = next(promise for promise in promises.STANDS if promise.page == "walk")
     work = functools.partial(walk_on_board, image, promises.number_of(library, "walk"), promises.number_of(library, "ready"))
-    results = campaign.results(work, walk, options.on_board, "board")
+    results = results_of(work, walk, options.on_board, "board", options)
     what = "`walk` led by the shipped image: it ends on its feet."
-    if not results:
-        return as_on_page(what, walk)
-    return [share_figure(what, "the same, on the simulated board with a remote", walk, results, WALKS_ON_BOARD)]
+    return [share_figure(what, "the same, on the simulated board with a remote", walk, results)]
 
 
 def nominal_figure(image, library):
@@ -282,15 +231,16 @@ def run(options):
         print(f"   the maker's motions are not here ({DATA.name}): no yardstick")
     library = library_image()
     image = library.to_bytes()
-    campaign = Campaign(options, library)
-    figures += stand_figures(options, image, library, campaign)
+    if options.only or options.bodies is not None or options.seed_of is not None:
+        options.keep = False  # a partial run
+    options.kept = proof.Kept("physics", not options.sample and options.seed_of is None)
+    figures += stand_figures(options, image, library)
     if not options.only and options.seed_of is None:
         figures.append(eases_figure(options, image, library))
     if not options.sample and options.seed_of is None:
         if options.only in (None, "walk") and options.on_board:
-            figures += board_figures(options, image, library, campaign)
+            figures += board_figures(options, image, library)
         if not options.only:
             figures += [nominal_figure(image, library), bears_figure(image, library)]
-    if options.only or options.bodies is not None or options.seed_of:
-        options.keep = False  # a partial run
+    options.kept.finish()
     return figures

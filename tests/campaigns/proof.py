@@ -14,16 +14,13 @@ tools/prove runs the proofs and writes two kinds of pages: tests/PROOFS.md with 
 for each figure. A proof does not stop at the first fault. It counts all faults and says how to repeat each.
 """
 
-import ast
 import dataclasses
 import hashlib
-import io
 import json
 import pathlib
 import re
 import shutil
 import subprocess
-import tokenize
 
 from campaign import Progress, cores, each  # noqa: F401  (what proofs run their work with)
 
@@ -35,8 +32,8 @@ DETAILS = TOP / "tests" / "proofs"
 
 
 IMAGES = ("firmware", "hal", "linker", "motion")
-MOTIONS = ("tools/body/src", "tools/body/humanoid.xml", "tools/motions", "tools/sim/servo")
-JUDGED = {  # the code that each part's figures judge
+MOTIONS = ("motion", "tools/body/src", "tools/body/humanoid.xml", "tools/motions", "tools/sim/servo")
+JUDGED = {  # the parts, and the code that each one's figures judge
     "power": IMAGES,
     "fuzz": (*IMAGES, "tools/m512/src"),
     "faults": IMAGES,
@@ -44,11 +41,9 @@ JUDGED = {  # the code that each part's figures judge
     "endurance": IMAGES,
     "static": IMAGES,
     "physics": MOTIONS,
-    "shape": ("firmware/common", "firmware/play", "hal", ":!hal/host", "linker", "motion", *MOTIONS),
+    "shape": ("firmware/common", "firmware/play", "hal", ":!hal/host", "linker", *MOTIONS),
     "sessions": IMAGES,
 }
-BY_GOALS = ("physics",)  # parts that judge the player by its goals (goals_of_motions), not by its source
-STOP, STOP_TICK, TICKS = 255, 1200, 4000
 CODE = (".c", ".h", ".in", ".py", ".m512", ".xml", ".json")
 
 
@@ -81,45 +76,9 @@ def git_files(*places):
     return [TOP / name for name in sorted(listed.split("\0")) if name and (TOP / name).exists()]
 
 
-def goals_of_motions():
-    """Returns a digest of the goals of our motion library. The exact law plays each page once from its first pose, with a stop on the
-    way so that exit pages play too. Needs a built C player (host:played)."""
-    from m512.files.formats import load  # imported here: no other part needs the C player
-    from tests.models.played import ENDED, EXACT, JOINTS, Played
-
-    image, found = load(TOP / "tools" / "motions" / "motions.m512"), hashlib.sha256()
-    for number, page in image.items():
-        if not number or not page.is_playable:
-            continue
-        words = {joint: page.word(0, joint) for joint in range(JOINTS)}
-        play = Played(image.to_bytes(), number, EXACT, positions={joint: word for joint, word in words.items() if word < 1024})
-        for tick in range(TICKS):
-            if tick == STOP_TICK:
-                play.code(STOP)
-            has_ended = play.tick() & ENDED
-            found.update(f"{number} {tick} {play.goals()}".encode())
-            if has_ended:
-                break
-    return found.hexdigest()
-
-
-def python_without_comments(text):
-    """Returns the source without comments, docstrings, empty lines and blanks at the end of a line."""
-    lines = text.splitlines()
-    for token in tokenize.generate_tokens(io.StringIO(text).readline):
-        if token.type == tokenize.COMMENT:
-            row, column = token.start
-            lines[row - 1] = lines[row - 1][:column]
-    for node in ast.walk(ast.parse(text)):
-        if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)) and ast.get_docstring(node) is not None:
-            lines[node.body[0].lineno - 1 : node.body[0].end_lineno] = [""] * (node.body[0].end_lineno - node.body[0].lineno + 1)
-    return "\n".join(line.rstrip() for line in lines if line.strip())
-
-
 def code(part):
-    """Returns ten digits that change when the part's subject changes: its code (without comments and whitespace), or the goals of our
-    motions."""
-    found = hashlib.sha256((goals_of_motions() if part in BY_GOALS else "").encode())
+    """Returns ten digits that change when the part's subject changes: its code, without comments (docstrings of Python count)."""
+    found = hashlib.sha256()
     for path in git_files(*JUDGED.get(part, ())):
         if path.suffix not in CODE or "tests" in path.relative_to(TOP).parts:
             continue
@@ -127,7 +86,7 @@ def code(part):
         if path.suffix in (".c", ".h", ".in"):
             text = "".join(re.sub(r"/\*.*?\*/|//[^\n]*", "", text, flags=re.S).split())
         elif path.suffix == ".py":
-            text = python_without_comments(text)
+            text = "\n".join(line.rstrip() for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#"))
         found.update(f"{path.relative_to(TOP)}\0{text}\0".encode())
     return found.hexdigest()[:10]
 
@@ -189,17 +148,6 @@ def table(figures):
     return rows
 
 
-def figures_on_page(name):
-    """Returns the figures of tests/proofs/NAME.md as given to write_details(), but without their headlines; [] if there is no such page."""
-    path = DETAILS / f"{name}.md"
-    text = path.read_text(encoding="utf-8") if path.exists() else ""
-    found = []
-    for line in [line for line in text.splitlines() if line.startswith("| ")][2:]:
-        promise, how, measured, kept = (cell.replace("\\|", "|") for cell in re.split(r" (?<!\\)\| ", line[2:-2]))
-        found.append(dataclasses.asdict(Figure(promise, how, measured, kept == "kept")))
-    return found
-
-
 def headline(figures):
     """Returns the text on the short page for a part's figures."""
     broken = [figure for figure in figures if not figure["kept"]]
@@ -210,7 +158,6 @@ def headline(figures):
 
 
 FOUND = "Found: {found}; by `{command}` at commit {commit}, code {code}."
-AGAIN = "A sample again at commit {commit}: {found}."
 
 
 def pattern(line):
@@ -226,41 +173,23 @@ def write_details(name, part):
     (DETAILS / f"{name}.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def note_sample(name, figures):
-    """Writes a sample's result on the page of the last whole run, below that run's result. It replaces the previous sample's."""
-    path = DETAILS / f"{name}.md"
-    text = path.read_text(encoding="utf-8")
-    before = pattern(AGAIN).search(text)
-    if before:
-        text = text[: before.start()].rstrip() + text[before.end() :]
-    found = pattern(FOUND).search(text)
-    note = AGAIN.format(commit=commit(), found=headline([dataclasses.asdict(figure) for figure in figures]))
-    path.write_text(f"{text[: found.end()]}\n\n{note}{text[found.end() :]}", encoding="utf-8")
-
-
 def is_current(name):
     """Returns whether the last whole run judged the present code."""
     return pattern(FOUND).search((DETAILS / f"{name}.md").read_text(encoding="utf-8"))["code"] == code(name)
-
-
-def commit_on_page(name):
-    """Returns the commit of the last whole run, from the part's page."""
-    return pattern(FOUND).search((DETAILS / f"{name}.md").read_text(encoding="utf-8"))["commit"]
 
 
 def row_of(name):
     """Returns a part's row of the short page, made from the part's page."""
     text = (DETAILS / f"{name}.md").read_text(encoding="utf-8")
     title, promise = re.match(r"# (.*)\n\n(.*)\n", text).groups()
-    found, again = pattern(FOUND).search(text), pattern(AGAIN).search(text)
-    at = found["commit"] + (f"; a sample again at {again['commit']}: {again['found']}" if again else "")
+    found = pattern(FOUND).search(text)
     age = "" if is_current(name) else "\U0001f534 older than the code"
-    return f"| [{title}](proofs/{name}.md) | {promise} | {found['found']} | `{found['command']}` | {at} | {age} |"
+    return f"| [{title}](proofs/{name}.md) | {promise} | {found['found']} | `{found['command']}` | {found['commit']} | {age} |"
 
 
-def write_page(names):
-    """Writes tests/PROOFS.md: one row for each part that has a page in tests/proofs/, in the order of `names`."""
-    rows = [row_of(name) for name in names if (DETAILS / f"{name}.md").exists()]
+def write_page():
+    """Writes tests/PROOFS.md: one row for each part that has a page in tests/proofs/."""
+    rows = [row_of(name) for name in JUDGED if (DETAILS / f"{name}.md").exists()]
     PAGE.write_text(
         "\n".join(
             [

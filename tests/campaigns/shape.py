@@ -4,18 +4,15 @@ would. The bodies are random: friction 0.5..1.1, 9.6..12 V, masses +-15 %, joint
 varied servo friction and rotor. With --hard they are those of the part physics, whose servo zeros are off by a degree as well.
 Physics is a model, and no real robot has walked our motions yet."""
 
-import dataclasses
 import functools
-import pathlib
 import random
-import re
 
 from body.chance import NOMINAL, body_of_the_bench, random_body
 from body.description import load
 from body.trial import pace
 from m512.files.formats import load as load_motions
 from motions import promises
-from tests.campaigns import proof, shape_player
+from tests.campaigns import proof
 from tests.campaigns.driven import Eight, Stick, drive, rounds
 
 TITLE = "Driven motions in physics"
@@ -35,7 +32,6 @@ def add_arguments(group):
     group.add_argument("--bodies", type=int, metavar="N", help=f"bodies by chance for each row (default: {BODIES})")
     group.add_argument("--seed-of", type=int, metavar="SEED", help="repeat this body alone; 0 is the nominal one")
     group.add_argument("--hard", action="store_true", help="bodies whose servo zeros are off, too")
-    group.add_argument("--picture", type=pathlib.Path, metavar="FILE", help="draws the figures of eight")
 
 
 def body_of(seed, robot, hard=False):
@@ -158,15 +154,13 @@ def rode_eight(walk, seed):
     left, right = (rounds(outcome.track, (0, side * hand.radius)) for side in (1, -1))
     eight = left > 0.9 and right < -0.9
     said = outcome.said() + f", {left:.1f} and {right:.1f} times round, at most {hand.farthest_mm:.0f} mm beside its path"
-    return outcome.ended and outcome.on_feet and eight, said, hand.farthest_mm, [(seen.x_mm, seen.y_mm) for seen in outcome.track]
+    return outcome.ended and outcome.on_feet and eight, said, hand.farthest_mm
 
 
 def eight_figures(walk, seeds, options):
     results = proof.each(functools.partial(rode_eight, walk), seeds, "figure of eight", options.jobs)
-    bad = [(seed, said) for seed, (kept, said, _, _) in zip(seeds, results) if not kept]
-    beside = sorted(farthest for _, _, farthest, _ in results)
-    if options.picture:
-        draw_eights(options.picture, [track for _, _, _, track in results])
+    bad = [(seed, said) for seed, (kept, said, _) in zip(seeds, results) if not kept]
+    beside = sorted(farthest for _, _, farthest in results)
     return [
         proof.Figure(
             "A figure of eight of 1 m by `@drive` alone, without a fall.",
@@ -176,25 +170,6 @@ def eight_figures(walk, seeds, options):
             not bad,
         )
     ]
-
-
-def draw_eights(path, tracks):
-    """Draws the view from above: the path in black, and the trunk's track for each body."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-
-    figure, axis = pyplot.subplots(figsize=(6, 3.6), layout="constrained")
-    for track in tracks:
-        axis.plot([-y / 1000 for _, y in track], [x / 1000 for x, _ in track], linewidth=0.7, alpha=0.8)
-    wanted = [Eight().path(turns / 100)[:2] for turns in range(201)]
-    axis.plot([-y / 1000 for _, y in wanted], [x / 1000 for x, _ in wanted], color="black", linewidth=1.5, linestyle="--")
-    axis.set_aspect("equal")
-    axis.set_xlabel("m to the right")
-    axis.set_ylabel("m to the front")
-    figure.savefig(path, dpi=100)
-    pyplot.close(figure)
 
 
 # --- a second page over the walk ---
@@ -246,50 +221,10 @@ def library():
 
 ROWS = {
     **{kind: functools.partial(lambda kind, walk, seeds, options: sweep_figures(walk, kind, seeds, options), kind) for kind in VALUES},
-    "player": lambda walk, seeds, options: shape_player.law_figures(options),
-    "layer": lambda walk, seeds, options: shape_player.hand_over_figures(options),
     "cable": cable_figures,
     "eight": eight_figures,
     **{name: functools.partial(lambda name, walk, seeds, options: layer_figures(walk, seeds, options, name), name) for name in LAYERS},
 }
-
-
-def keep_row(row, figures):
-    """Replaces a row's last run on tests/proofs/shape.md by this complete one. The other rows stay there with their commits: the page is
-    the only record."""
-    kept = {}
-    for figure in proof.figures_on_page("shape"):
-        kept.setdefault(row_of(figure), []).append(figure)
-    how = f"`--only {row}`, commit {proof.commit()}, code {proof.code('shape')}: "
-    kept[row] = [{**dataclasses.asdict(figure), "how": how + figure.how} for figure in figures]
-    write_rows(kept)
-
-
-def row_of(figure):
-    """Returns the row that a figure on the page came from."""
-    found = re.match(r"`--only (\w+)`, commit ", figure["how"])
-    if not found:
-        raise ValueError(f"tests/proofs/shape.md: a figure that names no row: {figure['how']}")
-    return found[1]
-
-
-def write_rows(kept):
-    """Writes tests/proofs/shape.md from {row: figures}, and its row of the short page."""
-    figures = [figure for row in ROWS for figure in kept.get(row, ())]
-    commits = dict.fromkeys(re.search(r"commit (\w+)", figure["how"])[1] for figure in figures)
-    codes = {re.search(r"commit \w+(?:, code (\w+))?", figure["how"])[1] for figure in figures}
-    proof.write_details(
-        "shape",
-        {
-            "title": TITLE,
-            "promise": PROMISE,
-            "about": " ".join(__doc__.split()),
-            "command": "tools/prove shape",
-            "commit": ", ".join(commits),
-            "code": codes.pop() if len(codes) == 1 and None not in codes else "of several states",
-            "figures": figures,
-        },
-    )
 
 
 SAMPLE = {"cable": 1, "eight": 1, "look": 1}  # rows of a sample and their number of bodies; tests/models has samples of the other rows
@@ -303,9 +238,7 @@ def run(options):
             continue
         count = options.bodies or (SAMPLE[row] if options.sample else BODIES)
         seeds = [options.seed_of] if options.seed_of is not None else list(range(options.seed, options.seed + count))
-        found = make(walk, seeds, options)
-        figures += found
-        if not (options.sample or options.bodies or options.seed_of is not None or options.hard):
-            keep_row(row, found)
-    options.keep = False  # keep_row has written the page
+        figures += make(walk, seeds, options)
+    if options.only or options.bodies or options.seed_of is not None or options.hard:
+        options.keep = False  # a partial run
     return figures
