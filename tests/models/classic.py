@@ -4,44 +4,14 @@
 
     tests/models/classic.py [--first SEED] [--count N]     10,000 cases by default; exit code 1 when one differs
 
-Equal means: the same calls have output, every goal of every joint is the same, the play ends in the same call. Where the page leaves two
-readings open (tests/models/README.md) a case that is equal under ours counts as equal and is told apart.
+Equal means: the same calls have output, every goal of every joint is the same, the play ends in the same call.
 """
 
 import argparse
-import pathlib
 import sys
-import types
 
 from tests.models import classic_law, random_pages
 from tests.models.played import CLASSIC, ENDED, OUTPUT, Played
-
-READING = "reading"
-# The player's choice where the page can be read in two ways (readings 4, 5 and 6 of tests/models/README.md). A page left by its exit link
-# counts as passed. A linked page of the call's code has priority over NEXT_PAGE. Pages are passed over by the code that decided the link.
-OURS = (
-    ("            if link in self.exit_pages:", "            self.exit_pages.add(page.number)\n            if link in self.exit_pages:"),
-    ("elif self.code and self.code != self.call:", "elif self.code:"),
-    ("        self.repeat = self.repetitions > 0\n", "        self.repeat, self.decided_by = self.repetitions > 0, self.code\n"),
-    (
-        "            number = self.follow(page)\n",
-        "            code, self.code = self.code, getattr(self, 'decided_by', self.code)\n            number, self.code = self.follow(page), code\n",
-    ),
-)
-
-
-def model_with_our_readings():
-    text = pathlib.Path(classic_law.__file__).read_text(encoding="utf-8")
-    for old, new in OURS:
-        assert text.count(old) == 1, old
-        text = text.replace(old, new)
-    module = types.ModuleType("our_readings")
-    sys.modules[module.__name__] = module  # dataclasses look up their module
-    exec(compile(text, module.__name__, "exec"), module.__dict__)
-    return module
-
-
-our_readings = model_with_our_readings()
 
 
 def play_in_c(case):
@@ -65,13 +35,10 @@ def play_in_c(case):
 
 
 def differs(case):
-    """Returns None if equal, READING if equal under our readings, otherwise a description of the first difference."""
-    ours = play_in_c(case)
-    theirs = random_pages.result(case)[:2]
+    """Returns None if equal, otherwise a description of the first difference."""
+    ours, theirs = play_in_c(case), random_pages.result(case)
     if ours == theirs:
         return None
-    if ours == random_pages.result(case, our_readings)[:2]:
-        return READING
     for mine, model in zip(ours[0], theirs[0]):
         if mine != model:
             return f"DIFFERS: call {mine[0]} {mine[1]}, model {model[0]} {model[1]}"
@@ -79,9 +46,9 @@ def differs(case):
 
 
 def compare(first, count):
-    """Returns (number of cases equal only under our readings, [(seed, difference)])."""
-    found = [(seed, differs(random_pages.case(seed))) for seed in range(first, first + count)]
-    return sum(what == READING for _, what in found), [(seed, what) for seed, what in found if what not in (None, READING)]
+    """Returns [(seed, difference)]."""
+    found = ((seed, differs(random_pages.case(seed))) for seed in range(first, first + count))
+    return [(seed, what) for seed, what in found if what]
 
 
 def main():
@@ -89,13 +56,10 @@ def main():
     parser.add_argument("--first", type=int, default=1, metavar="SEED")
     parser.add_argument("--count", type=int, default=10_000, metavar="N")
     asked = parser.parse_args()
-    readings, different = compare(asked.first, asked.count)
+    different = compare(asked.first, asked.count)
     for seed, what in different[:20]:
         print(f"seed {seed}: {what}")
-    print(
-        f"{asked.count} motion areas by chance from seed {asked.first}: {len(different)} differ, "
-        f"{readings} are equal under our readings of what the page leaves open"
-    )
+    print(f"{asked.count} motion areas by chance from seed {asked.first}: {len(different)} differ")
     return 1 if different else 0
 
 

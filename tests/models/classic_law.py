@@ -118,13 +118,14 @@ class ClassicPlay:
 
     def __init__(self, image, page, joints, positions, schedule=None, call=None):
         self.image, self.schedule = image, schedule or {}
-        self.call = self.code = call
+        self.code = call
         self.joints = [Joint(i, positions[i], positions[i], positions[i]) for i in range(JOINTS) if joints >> i & 1]
         self.section, self.num, self.c = "", 0, 0  # no section is running
         self.A = self.N = self.P = 0
         self.page: Page = None  # type: ignore[assignment]  # until the first step begins
         self.step, self.repetitions, self.repeat = 0, 0, False
         self.next, self.exit_pages = page, set()
+        self.decided_by = None  # the code in force when the last link was decided
         self.ended = None  # DONE, REFUSED, PASSED_TWICE or EXIT_CIRCLE; None if the limit of ticks came first
         self.reason = DONE  # why there is no next page
 
@@ -205,35 +206,34 @@ class ClassicPlay:
     # Rule 2: pages
 
     def decide_link(self):
-        """Decides the link at the beginning of the last step of a page. READING 4: an exit link back to a page that an exit link has
-        already led to counts as link 0, so this step is the final one."""
+        """Decides the link at the beginning of the last step of a page."""
         self.repetitions = (self.repetitions - 1) % 256
         if self.code == STOP:
             self.repetitions = 0
         self.repeat = self.repetitions > 0
-        self.next = self.page.number if self.repeat else self.follow(self.page)
+        self.decided_by = self.code
+        self.next = self.page.number if self.repeat else self.follow(self.page, self.code)
 
-    def follow(self, page):
-        """Returns the link of a page by the code in force; 0 if nothing follows, with the cause in self.reason. READING 5: the code of
-        the call follows NEXT_PAGE even if a linked page has the same code."""
+    def follow(self, page, code):
+        """Returns the link of a page by a code; 0 if nothing follows, with the cause in self.reason. READING 4: an exit link back to a
+        page that was left by its exit link, or that one has led to, counts as link 0. READING 5: a linked page of the call's own code
+        has priority over NEXT_PAGE."""
         link = page.next_page
-        if self.code == STOP:
+        if code == STOP:
             link = page.exit_page
+            self.exit_pages.add(page.number)
             if link in self.exit_pages:
                 self.reason = EXIT_CIRCLE
                 return 0
             self.exit_pages.add(link)
-        elif self.code and self.code != self.call:
-            for code, linked in page.linked:
-                if code == self.code:
-                    link, self.call = linked, code
-                    break
+        elif code:
+            link = next((linked for its_code, linked in page.linked if its_code == code), link)
         return 0 if link > LAST_PAGE else link
 
     def enter(self, number):
         """Makes the page of this number, or the one it passes over to, the current page. Returns false if the play ends; self.reason is
-        the cause. READING 6: pages are passed over along the link of the code in force at the join."""
-        passed_over = set()
+        the cause. READING 6: pages are passed over along the link of the code that decided the link."""
+        passed_over, code = set(), self.code if self.page is None else self.decided_by
         while number != 0:
             if number > LAST_PAGE:
                 return False
@@ -248,7 +248,7 @@ class ClassicPlay:
                 self.reason = PASSED_TWICE
                 return False
             passed_over.add(number)
-            number = self.follow(page)
+            number = self.follow(page, code)
         return False
 
     def is_final(self):

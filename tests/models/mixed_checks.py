@@ -2,19 +2,20 @@
 """The checks of mixed.py. Each compares two plays that are equal by the specification, or checks a bound. A check takes a Case and its
 Run, and returns the fault or None."""
 
+import bisect
 import itertools
 import math
 from fractions import Fraction
 
-from tests.models import classic_law, hand_over, mixed_cases, shaping
+from tests.models import classic_law, mixed_cases, shaping
 from tests.models.mixed_cases import LAYER_ACTIONS, SHAPE_ACTIONS, TICKS, play
-from tests.models.mixed_facts import bits, dropped, ends_of, first_difference, halts_of, in_force, is_broken, lent, owners, paused_ticks
+from tests.models.mixed_facts import bits, dropped, ends_of, first_difference, halts_of, in_force, is_broken, lent, model_pose, owners, paused_ticks
 from tests.models.played import CLASSIC, ENDED, EXACT, JOINTS, OUTPUT, STOPPED
-from tests.models.shaped import model_pose
 
 BYTES_PAGE, UNROLLED = 512, 109  # the number of pages that an unrolled play may have
 COMBINATIONS = 64
 BRAKES_TICKS = 8
+UNITS_A_TICK = 1024 / 300 / 128  # units per tick for 1 degree/s
 BESIDE_TARGET = 3 * JOINTS  # units, over all joints: the classic law ends a step slightly off its target
 
 
@@ -115,8 +116,45 @@ def check_layers(case, run):
 # --- hands, and motion by code ---
 
 
+def bounded_until(row, begin, per_tick):
+    """Returns the last tick up to which the joint keeps to the speed between any two ticks from `begin` on."""
+    # row[b] - row[a] <= per_tick (b - a) + 1 for all a < b, in both directions: it is enough to keep the extreme lines.
+    above = below = None
+    for tick in range(begin, len(row)):
+        up, down = row[tick] - per_tick * tick, row[tick] + per_tick * tick
+        above, below = up if above is None else min(above, up), down if below is None else max(below, down)
+        if up > above + 1.001 or down < below - 1.001:
+            return tick - 1
+    return len(row) - 1
+
+
+def check_hand_over(row, steps, at, end, per_tick):
+    """Checks a joint that changes hands after tick `at`: it keeps to the speed until it has completed its new owner's first step.
+    Returns the fault or None."""
+    free = bounded_until(row[:end], at, per_tick) + 1
+    firsts = [step[0] for step in steps]
+    k = bisect.bisect_right(firsts, at)
+    if free < end and (k + 1 >= len(firsts) or free < firsts[k + 1]):
+        return f"tick {free}: faster than the approach in its new owner's first step, {row[free - 1]} -> {row[free]}"
+    return None
+
+
+def check_return(row, source, at, end, per_tick):
+    """Checks a joint that returns to the walk after tick `at`. Until it meets the walk without a layer it keeps to the speed; from then
+    on it equals that walk. Returns the fault or None."""
+    met = end = min(end, len(row), len(source))
+    while met > at + 1 and row[met - 1] == source[met - 1]:
+        met -= 1
+    free = bounded_until(row[:met], at, per_tick) + 1
+    if free < met:
+        return f"tick {free}: faster than the approach, {row[free - 1]} -> {row[free]}"
+    if met < end and abs(row[met] - row[met - 1]) > max(per_tick + 1, abs(source[met] - source[met - 1])):
+        return f"tick {met}: leaps from {row[met - 1]} to the walk at {row[met]}"
+    return None
+
+
 def check_hands(case, run):
-    per_tick, paused = case.deg_s * hand_over.UNITS_A_TICK, paused_ticks(run)
+    per_tick, paused = case.deg_s * UNITS_A_TICK, paused_ticks(run)
     layer_ends = [(tick + 1, 0, 0) for tick in range(run.ticks) if run.layer_events[tick] & ENDED]
     steps = sorted(run.layer_steps + layer_ends)
     plain = play(case, actions=[action for action in case.actions if action[1] not in LAYER_ACTIONS])
@@ -127,9 +165,9 @@ def check_hands(case, run):
             if tick == 0 or tick >= end:
                 continue
             if owner == "main":
-                wrong = hand_over.check_return(row, plain.columns[joint], tick - 1, end, per_tick)
+                wrong = check_return(row, plain.columns[joint], tick - 1, end, per_tick)
             elif owner == "page":
-                wrong, _ = hand_over.check_hand_over(row, steps, tick - 1, end, per_tick)
+                wrong = check_hand_over(row, steps, tick - 1, end, per_tick)
             elif owner == "code":
                 wrong = by_code(row, action, tick, end, per_tick, paused)
             else:
@@ -148,7 +186,7 @@ def by_code(row, action, begin, end, per_tick, paused):
         most = max(per_tick, 6.3 * action[3] / action[4]) + 2
         fast = [tick for tick in moves if abs(row[tick] - row[tick - 1]) > most]
         return f"tick {fast[0]}: a swing of {most:.1f} units a tick goes {row[fast[0] - 1]} -> {row[fast[0]]}" if fast else None
-    slow = hand_over.bounded_until(row[:end], begin - 1, per_tick) + 1
+    slow = bounded_until(row[:end], begin - 1, per_tick) + 1
     if slow < end:
         return f"tick {slow}: an aim is too fast, {row[slow - 1]} -> {row[slow]}"
     most_left = max(0, abs(row[begin - 1] - action[2]) - per_tick * len(moves) + 2)

@@ -7,9 +7,44 @@ from fractions import Fraction
 from tests.models import classic_law, shaping
 from tests.models.mixed_cases import SHAPE_ACTIONS
 from tests.models.played import ENDED, JOINTS, OUTPUT, STEP, STOPPED
-from tests.models.shaped import apply
 
 TIMING = STEP | ENDED | STOPPED | OUTPUT
+
+
+def apply(shape, kind, *values):
+    """Returns the model's Shape after a change, as a new object."""
+    made = shaping.Shape(shape.blend, dict(shape.amplitude), shape.rate, shape.centre_page, shape.volts)
+    if kind == "amplitude":
+        made.amplitude.update({j: values[0] for j in range(JOINTS) if values[1] >> j & 1})
+    elif kind == "reset":
+        made.blend, made.amplitude, made.rate = 0, {}, 100
+    else:
+        setattr(
+            made,
+            {"rate": "rate", "blend": "blend", "centre": "centre_page", "voltage": "volts"}[kind],
+            Fraction(values[0], 10) if kind == "voltage" else values[0],
+        )
+    return made
+
+
+def model_pose(image, place, shape):
+    """Returns the shaped pose. Centre page 0 means that nothing is scaled."""
+    if shape.centre_page == 0:
+        scaled = shaping.Shape(shape.blend, {}, shape.rate, place[0], shape.volts)
+        page = classic_law.Page(image, place[0])
+        other = shaping.partner(image, page, shape.blend)
+        return {
+            j: shaping.shaped_position(
+                page.word(place[1], j),
+                None if other is None or not shaping.used(other.word(place[1], j)) else other.word(place[1], j),
+                None,
+                scaled.blend,
+                100,
+            )
+            for j in range(JOINTS)
+            if shaping.used(page.word(place[1], j))
+        }
+    return shaping.shaped_pose(image, place[0], place[1], shape)
 
 
 def in_force(case, run):

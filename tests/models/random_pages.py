@@ -1,16 +1,7 @@
-#!/usr/bin/env -S sh -c 'exec "${0%/*}/../../tools/dev/python" "$0" "$@"'
 # SPDX-License-Identifier: MIT
-"""Motion areas by chance, over the whole input space of the classic law, to compare players with classic_law.py.
+"""Motion areas by chance, over the whole input space of the classic law, to compare players with classic_law.py. `case(seed)` gives the
+same case for the same seed, always. A call is one tick. A code with tick t arrives before call t."""
 
-    random_pages.py write DIR [--first SEED] [--count N]   each case as SEED.bin, SEED.case and SEED.csv, for a reader in any language
-
-`case(seed)` gives the same case for the same seed, always. SEED.case holds lines of "word value ...": page, call (0 = called by number), joints
-(mask in hex), position ID POS, code TICK CODE, limit TICKS. SEED.csv holds "call,goals in the order of the IDs" for each call with
-output and ends with "end,CALL,REASON" (REASON "limit" when the play goes on).
-"""
-
-import argparse
-import pathlib
 import random
 from dataclasses import dataclass, field
 
@@ -33,9 +24,9 @@ class Case:
     schedule: dict = field(default_factory=dict)
     limit: int = 1500
 
-    def play(self, model=law):
-        """Plays this case with a model that has the interface of classic_law."""
-        return model.ClassicPlay(self.image, self.page, self.joints, self.positions, self.schedule, self.call)
+    def play(self):
+        """Plays this case with the model."""
+        return law.ClassicPlay(self.image, self.page, self.joints, self.positions, self.schedule, self.call)
 
 
 def one_of(chance, *choices):
@@ -137,39 +128,11 @@ def case(seed, limit=1500):
     return made
 
 
-def result(case, model=law):
-    """Returns a model's result of a case: [(call, goals)] with output, the number of the last call, the reason or "limit"."""
-    play = case.play(model)
+def result(case):
+    """Returns the model's result of a case: [(call, goals)] with output, and the number of the last call."""
+    play = case.play()
     last, sent = -1, []
     for last, goals in enumerate(play.ticks(case.limit)):
         if goals is not None:
             sent.append((last, goals))
-    return sent, last, play.ended or "limit"
-
-
-def write(case, folder):
-    base = pathlib.Path(folder) / f"{case.seed}"
-    base.with_suffix(".bin").write_bytes(case.image)
-    lines = [f"page {case.page}", f"call {case.call or 0}", f"joints {case.joints:08X}"]
-    lines += [f"position {i} {at}" for i, at in case.positions.items()]
-    lines += [f"code {tick} {code}" for tick, code in sorted(case.schedule.items())] + [f"limit {case.limit}"]
-    base.with_suffix(".case").write_text("\n".join(lines) + "\n", encoding="ascii")
-    sent, last, reason = result(case)
-    rows = [",".join(map(str, (number, *goals))) for number, goals in sent] + [f"end,{last},{reason}"]
-    base.with_suffix(".csv").write_text("\n".join(rows) + "\n", encoding="ascii")
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=("write",))
-    parser.add_argument("folder")
-    parser.add_argument("--first", type=int, default=1, metavar="SEED")
-    parser.add_argument("--count", type=int, default=100, metavar="N")
-    asked = parser.parse_args()
-    pathlib.Path(asked.folder).mkdir(parents=True, exist_ok=True)
-    for seed in range(asked.first, asked.first + asked.count):
-        write(case(seed), asked.folder)
-
-
-if __name__ == "__main__":
-    main()
+    return sent, last

@@ -107,18 +107,3 @@ def ideal_pause(page, step, shape):
     pause = page.pause(step)
     nominal = Fraction(pause * page.speed, 32) if page.schedule == TIME_BASE else Fraction(pause * 32, page.speed)
     return nominal * 100 / shape.rate
-
-
-def carried(ideals):
-    """Returns integer lengths for ideal ones, with the fraction carried on. Each end is at the last whole tick up to the ideal end. The
-    specification promises only `within_one_tick`; a player may carry differently. Steps below one tick: see there."""
-    made, end = [], Fraction(0)
-    for length in ideals:
-        end += length
-        made.append(math.floor(end) - sum(made))
-    return made
-
-
-def within_one_tick(made, ideals):
-    """Returns whether every end is right to one tick. Only for sections of at least one tick: a shorter step still takes one."""
-    return all(abs(sum(made[:n]) - sum(ideals[:n])) <= 1 for n in range(1, len(ideals) + 1))

@@ -17,9 +17,9 @@ def recorded(name):
         return [tuple(map(int, row)) for row in list(csv.reader(file))[1:]]
 
 
-def played(name, model=classic_law):
+def played(name):
     """Returns the rows of the recording by the model, and how the play ended. Ticks count from the first output."""
-    play = model.ClassicPlay(SETS[name].read_bytes(), 1, 0x1FFE, {i: 512 for i in range(1, 13)})
+    play = classic_law.ClassicPlay(SETS[name].read_bytes(), 1, 0x1FFE, {i: 512 for i in range(1, 13)})
     rows = [(tick, *goals) for tick, goals in enumerate(play.ticks(100_000)) if goals is not None]
     return [(row[0] - rows[0][0], *row[1:]) for row in rows], play.ended
 

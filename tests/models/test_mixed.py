@@ -5,4 +5,4 @@ from tests.models import mixed
 
 
 def test_everything_at_once_by_chance():
-    assert not mixed.objections(1, 40)
+    assert not mixed.objections(1, 50)

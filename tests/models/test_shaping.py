@@ -123,12 +123,3 @@ def test_lengths_by_hand_in_speed_base():
     page = Page(area(p2={"steps": [({0: 1}, 8, 64)], "schedule": 0, "speed": 16}), 2)
     assert shaping.ideal_step(page, 1, 240, Shape()) == Fraction(40 * 240 * 32, 3 * 64 * 16)
     assert shaping.ideal_pause(page, 1, Shape(rate=50)) == 32
-
-
-def test_the_fraction_is_carried():
-    assert shaping.carried([Fraction(10, 3)] * 6) == [3, 3, 4, 3, 3, 4]
-    chance = random.Random(3)
-    for _ in range(200):
-        ideals = [Fraction(chance.randint(100, 9000), chance.randint(10, 100)) for _ in range(chance.randint(1, 40))]
-        assert shaping.within_one_tick(shaping.carried(ideals), ideals)
-    assert not shaping.within_one_tick([10] * 6, [Fraction(31, 3)] * 6)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * test_shape.c - shaping during a play: ranges, neutral values, and effect on steps. Values by hand from SHAPING.md;
- * tests/models/shaped.py compares any values with a model. */
+ * tests/models/mixed.py compares any values with a model. */
 #include <string.h>
 #include "player.h"
 #include "shape.h"
