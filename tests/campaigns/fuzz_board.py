@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Noise for whole shipped images on the strict board. Used by fuzz.py.
 
-An input is a class. One session is one board and one seed. pieces() is the list of events (verb, data). It depends on the seed alone, so
-any subset can be repeated. A fault is an AssertionError or a Violation.
+An input is a class. One session is one board and one seed. pieces() is the list of events (verb, data). It depends on the seed alone. A fault is an AssertionError or a Violation.
 
 Every session of an application checks, in addition to what its input checks:
   * no violation of the board, no reset, and the stack keeps its headroom

@@ -249,7 +249,7 @@ def test_of_the_other_serial_instructions_only_chip_erase_is_accepted(stk, instr
 
 @pytest.mark.parametrize("byte", [0x00, 0x01, 0x31, 0xFF])
 def test_a_byte_that_is_no_command_ends_the_session(stk, byte):
-    """0, which ends the table of commands, was once accepted as a command (found by tests/campaigns/fuzz)."""
+    """0, which ends the table of commands, was once accepted as a command."""
     stk.send(bytes([byte, 0x20]))
     stk.expect(PROMPT, ms=500)
 

@@ -115,6 +115,9 @@ static void test_names_end_at_the_first_odd_byte(void)
     memcpy(flash_of(2), "Bow\0garbage..", 14);
     page_store_name(2, name);
     TEST_ASSERT_EQUAL_STRING("Bow", name);
+    memcpy(flash_of(2), "Bow~\x7Fgarbage.", 14);
+    page_store_name(2, name);
+    TEST_ASSERT_EQUAL_STRING("Bow~", name);
     memcpy(flash_of(3), "ABCDEFGHIJKLMNOP", 16);
     page_store_name(3, name);
     TEST_ASSERT_EQUAL_STRING("ABCDEFGHIJKLM", name);

@@ -156,6 +156,27 @@ static void test_record_of_an_older_program_keeps_its_settings(void)
     TEST_ASSERT_EQUAL(10, loaded.drive_ds);
 }
 
+/* A newer program may have more settings, up to what fits into the place of a record. A longer record is none. */
+static void test_record_of_a_newer_program_gives_the_settings_that_are_known(void)
+{
+    uint8_t *record = fake_eeprom_bytes() + MEM_EE_SETTINGS;
+    const uint8_t most = 64u - 4u - 2u;
+    const uint8_t head[] = {'S', 1, 5, most};
+    memset(record, 0, 64);
+    memcpy(record, head, sizeof head);
+    settings.law = 1;
+    memcpy(record + sizeof head, &settings, sizeof settings);
+    const uint16_t crc = crc16_bytes(CRC16_START, record, 62);
+    record[62] = (uint8_t)crc;
+    record[63] = (uint8_t)(crc >> 8);
+    TEST_ASSERT_EQUAL(SETTINGS_OK, settings_load(&store, &loaded));
+    TEST_ASSERT_EQUAL_MEMORY(&settings, &loaded, sizeof settings);
+    record[3] = (uint8_t)(most + 1u);
+    TEST_ASSERT_EQUAL(SETTINGS_DAMAGED, settings_load(&store, &loaded));
+    record[3] = (uint8_t)(most + 2u);
+    TEST_ASSERT_EQUAL(SETTINGS_DAMAGED, settings_load(&store, &loaded));
+}
+
 static void test_saving_in_steps_never_blocks_and_ends(void)
 {
     uint16_t calls = 0;

@@ -30,7 +30,6 @@ static const struct {
     {"The layer ended after", "layer ended by itself"},
     {"The computer came 0.1 s late", "computer late in a play"},
     {"Nobody drives any more", "drive lost"},
-    {"messages were dropped", "messages dropped"},
     {"The line is too long", "line too long"},
     {"No page has code", "code without a page"},
     {"Busy: stop what is playing", "play refused while playing"},
@@ -147,9 +146,6 @@ void marks_printed(const char *line)
     } else if (strstr(line, " OK") != NULL && marks.last[0] != '\0') {
         answered(marks.last);
         marks.last[0] = '\0';
-    }
-    if (strstr(line, "bytes of this line were lost") != NULL) {
-        reached("bytes of a line lost");
     }
 }
 

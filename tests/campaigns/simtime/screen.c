@@ -102,7 +102,7 @@ void screen_byte(uint8_t byte)
 /* Returns a number of `digits` digits, or UNKNOWN. */
 static int number_at(const char *text, unsigned digits, bool is_hex)
 {
-    char copy[8] = "", *end;
+    char copy[9] = "", *end;
     memcpy(copy, text, digits);
     if (is_hex && copy[digits - 1] == ' ') {
         copy[digits - 1] = '\0';   /* a byte has two hexadecimal digits and a space */

@@ -1,2 +1,0 @@
-/* SPDX-License-Identifier: MIT
- * No registers: the code built here uses none. */
