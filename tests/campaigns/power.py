@@ -16,14 +16,12 @@ import time
 import zlib
 
 from tests.campaigns import proof
-from tests.campaigns.powercuts import lives, loads, robot, saves, settings
+from tests.campaigns.powercuts import loads, saves, settings
 from tests.campaigns.powercuts.cutter import PHASES, Cutter, path_of
 
 TITLE = "Power cuts"
 PROMISE = "Whenever the power fails, each motion page, setting and download is old or new, and the robot starts again."
 SCENES = {scene.name: scene for scene in (*saves.SCENES, *loads.SCENES, *settings.SCENES)}
-LIVES = {life.name: life for life in lives.LIVES}
-LIFE_COUNT = 5
 SAMPLED = (
     "save",
     "save-factory",
@@ -37,7 +35,6 @@ SAMPLED = (
     "taken",
     "settings",
     "pairs-save",
-    "life",
 )
 SAMPLE_STATES = 2  # per scene
 DEEPEST = 3
@@ -45,8 +42,8 @@ SHOWN = 12  # failures that are printed individually
 
 
 def add_arguments(group):
-    group.add_argument("--only", metavar="STATE", help="repeat one state: scene:operation:phase[/operation:phase], or life-N:STEP")
-    group.add_argument("--scene", metavar="NAME", help="one scene alone: " + ", ".join([*SCENES, *LIVES, lives.Wear.name]))
+    group.add_argument("--only", metavar="STATE", help="repeat one state: scene:operation:phase[/operation:phase]")
+    group.add_argument("--scene", metavar="NAME", help="one scene alone: " + ", ".join(SCENES))
 
 
 def chooser(scene, seed, sample, chunk):
@@ -77,28 +74,16 @@ def play(work):
 
 
 def play_one(name, part, seed, sample):
-    if name in LIVES:
-        life = LIVES[name](seed)
-        life.steps = 8 if sample else life.steps
-        return name, life.play(seed, part), life.board.operations
-    if name == lives.Wear.name:
-        wear = lives.Wear(seed)
-        return name, wear.spread(), wear.saves
     cutter = Cutter(SCENES[name](seed), chooser(SCENES[name], seed, sample, part), seed=seed)
     return name, cutter.play(), cutter.operations
 
 
 def repeat(state, seed):
     """Repeats a single state."""
-    name, _, rest = state.partition(":")
-    life, _, number = name.rpartition("-")
-    if not rest or (life not in LIVES and name not in SCENES):
+    name, path = path_of(state)
+    if name not in SCENES or not path:
         raise SystemExit(f"prove: {state} is no state of power; see --help")
-    if life in LIVES:
-        results = LIVES[life](seed).play(seed, int(number), int(rest))[-1:]
-    else:
-        name, path = path_of(state)
-        results = Cutter(SCENES[name](seed), None, only=path, seed=seed).play()
+    results = Cutter(SCENES[name](seed), None, only=path, seed=seed).play()
     state, outcome, fault = results[-1]
     if outcome == "same":
         outcome = "the same contents as before or after the operation: counted there"
@@ -107,11 +92,8 @@ def repeat(state, seed):
 
 def pieces(names, seed, sample):
     """Returns all pieces of work, the longest first."""
-    work = []
-    for name in names:
-        parts = 1 if sample else LIFE_COUNT if name in LIVES else SCENES[name].chunks if name in SCENES else 1
-        work += [(name, part, seed, sample) for part in range(parts)]
-    return sorted(work, key=lambda piece: -SCENES[piece[0]].about if piece[0] in SCENES else -300)
+    work = [(name, part, seed, sample) for name in names for part in range(1 if sample else SCENES[name].chunks)]
+    return sorted(work, key=lambda piece: -SCENES[piece[0]].about)
 
 
 def run(options):
@@ -119,25 +101,21 @@ def run(options):
     options.keep = not only and not one
     if only:
         return repeat(only, options.seed)
-    names = [one] if one else SAMPLED if options.sample else [*SCENES, *LIVES, lives.Wear.name]
+    names = [one] if one else SAMPLED if options.sample else list(SCENES)
     begun, spent = time.monotonic(), 0
-    results, operations, wear = collections.defaultdict(list), {}, None
+    results, operations = collections.defaultdict(list), {}
     kept = proof.Kept("power", options.keep and not options.sample)
     for name, found, count, seconds in kept.each(play, pieces(names, options.seed, options.sample), "pieces of work", options.jobs):
         spent += seconds
         operations[name] = max(count, operations.get(name, 0))
-        if name == lives.Wear.name:
-            wear = found, count
-        else:
-            results[name] += found
+        results[name] += found
     kept.finish()
     figures = [figure_of(name, results[name], operations[name]) for name in names if name in results]
-    figures += [wear_figure(*wear)] if wear else []
     return [total_figure(results, time.monotonic() - begun, spent), *figures]
 
 
 def figure_of(name, states, operations):
-    scene = SCENES.get(name) or LIVES[name]
+    scene = SCENES[name]
     states = [state for state in states if state[1] != "same"]
     counts = collections.Counter(outcome for _, outcome, fault in states if not fault)
     faults = [(state, fault) for state, _, fault in states if fault]
@@ -151,7 +129,7 @@ def figure_of(name, states, operations):
     )
     if faults:
         text += f"; {len(faults)} BROKEN, such as `tools/prove power --only {faults[0][0]}`: {faults[0][1]}"
-    return proof.Figure(scene.promise, f"`{name}`: {about(scene)}" + ("" if name in LIVES else f"; {operations} operations"), text, not faults)
+    return proof.Figure(scene.promise, f"`{name}`: {about(scene)}; {operations} operations", text, not faults)
 
 
 def about(scene):
@@ -166,24 +144,10 @@ def tell(faults):
 def total_figure(results, seconds, spent):
     states = [state for found in results.values() for state in found if state[1] != "same"]
     broken = sum(fault is not None for _, _, fault in states)
-    kinds = sum(name in SCENES for name in results)
     return proof.Figure(
         "After a power cut everything is old or new, the loader answers, and the robot goes on",
-        f"{kinds} scenes and {LIFE_COUNT} lives of each kind below",
+        f"{len(results)} scenes",
         f"{len(states):,} states, {broken} broken; {seconds / 60:.1f} min, {spent / 60:.1f} min of one core",
         broken == 0,
         headline=True,
-    )
-
-
-def wear_figure(found, count):
-    fewest, most, target = found
-    lasting = min(lives.ENDURANCE // -(-target // count), lives.ENDURANCE * count // most)
-    return proof.Figure(
-        "The journal wears evenly, and no faster than a page that is saved each time",
-        f"`wear`: {count} saves of one page, erases of the journal's flash pages and of the page's",
-        f"{fewest} to {most} erases in {robot.SLOTS} slots, page {target}: at {lives.ENDURANCE:,} erases the journal lasts "
-        f"{lives.ENDURANCE * count // most:,} saves, a page {lives.ENDURANCE * count // target:,} of its own; "
-        f"the first to go after {lasting:,}",
-        most - fewest <= 1 and most <= target,
     )

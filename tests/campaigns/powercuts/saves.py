@@ -10,7 +10,7 @@ from tests.sim.boot_board import APP_END, BOOT_MODE, BOOT_START, JOURNAL_START, 
 from tests.sim.edit_robot import seal
 
 from . import robot
-from .robot import DAMAGED, ERASED, MOTIONS, PAGE_BYTES, SLOT_BYTES, SLOTS, Memories
+from .robot import ERASED, MOTIONS, PAGE_BYTES, SLOTS, Memories
 
 OPENED = 5
 MAIL_STATE, MAIL_PAGE = MAP["MEM_EE_MAILBOX_STATE"], MAP["MEM_EE_MAILBOX_PAGE"]
@@ -102,64 +102,6 @@ class Save:
         robot.loader_answers(self.board)
 
 
-class SaveHalf(Save):
-    """The second half of the page alone has changed."""
-
-    name, about = "save-half", 9
-
-    def act(self):
-        """Makes two changes that leave the checksum in the first half as it is."""
-        data = bytearray(self.memories.page(OPENED))
-        data[510] = (data[510] + sum(data[454:456]) - sum(b"\xf7\x01")) & 0xFF
-        data[454:456] = b"\xf7\x01"
-        assert data == seal(data)
-        self.type(f"page {OPENED}", "goto 7 3", "set 503", "goto 7 31", f"set {data[510]}")
-        self.save(OPENED, bytes(data))
-
-
-class SaveUndo(Save):
-    """SAVE, UNDO of both changes, SAVE: the old page comes back as a new one."""
-
-    name, about, rates = "save-undo", 22, (2, 24, 200)
-    promise = "SAVE, UNDO, SAVE: each leaves the page before or the page after it"
-
-    def act(self):
-        old = self.memories.page(OPENED)
-        self.save(OPENED, self.edited(OPENED))
-        self.type("undo", "undo")
-        self.save(OPENED, old)
-
-
-class SaveErased(Save):
-    """SAVE n into an erased page."""
-
-    name = "save-erased"
-    promise = "SAVE into an erased page leaves it erased, or complete"
-
-    def act(self):
-        self.save(ERASED, self.edited(OPENED), f"save {ERASED}")
-
-
-class SaveDamaged(Save):
-    """SAVE over a page whose checksum is wrong."""
-
-    name = "save-damaged"
-    promise = "SAVE over a damaged page leaves it as it was, or complete"
-
-    def act(self):
-        self.save(DAMAGED, self.edited(DAMAGED), "save", sure=True)
-
-
-class SaveOther(Save):
-    """SAVE n over another page, after the question; with three servos on the bus."""
-
-    name, servos = "save-other", range(1, 4)
-    promise = "SAVE over another page leaves that one old or new, the opened one untouched"
-
-    def act(self):
-        self.save(17, self.edited(OPENED), "save 17", sure=True)
-
-
 class SaveCm2(Save):
     """The CM-2's images."""
 
@@ -182,30 +124,6 @@ class Saves(Save):
             self.memories.saving(number, new)
             self.client.save_page(number, new)
             self.memories.saved(number)
-
-
-class SaveWrap(Saves):
-    """The journal's sequence number passes 65,535."""
-
-    name, about, chunks, rates = "save-wrap", 33, 1, (2, 24, 200)
-    promise = "The same where the journal's numbers begin again at 0"
-
-    def prepare(self):
-        """Fills all slots with old records, as many saves would. The newest has number 65,534."""
-        for slot in range(SLOTS):
-            at = JOURNAL_START + SLOT_BYTES * slot
-            data = robot.made(3, slot)
-            record = struct.pack("<2sHBBH", b"MJ", 0xFFFE - (SLOTS - 1 - slot), 3, 1, crc16(data))
-            record += struct.pack("<HH", crc16(record), 0)
-            self.board.flash[at : at + PAGE_BYTES] = data
-            self.board.flash[at + PAGE_BYTES : at + PAGE_BYTES + len(record)] = record
-
-    def act(self):
-        for turn in range(3):
-            new = robot.made(OPENED, turn)
-            self.memories.saving(OPENED, new)
-            self.client.save_page(OPENED, new)
-            self.memories.saved(OPENED)
 
 
 class Repair(Save):
@@ -307,19 +225,4 @@ class Mailbox(Save):
         return outcome
 
 
-SCENES = (
-    Save,
-    SaveHalf,
-    SaveUndo,
-    SaveErased,
-    SaveDamaged,
-    SaveOther,
-    SaveCm2,
-    Saves,
-    SaveWrap,
-    Repair,
-    SaveFactory,
-    RepairFactory,
-    SavePlay,
-    Mailbox,
-)
+SCENES = (Save, SaveCm2, Saves, Repair, SaveFactory, RepairFactory, SavePlay, Mailbox)

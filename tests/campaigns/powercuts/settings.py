@@ -125,65 +125,12 @@ class Settings:
         assert values == {field: body[at] for field, at in PLACES.items()}, f"kept {body.hex()}, shown {values}"
 
 
-class SettingsWrap(Settings):
-    """The numbers of the copies pass 255."""
-
-    name, about = "settings-wrap", 30
-    promise = "The same where their numbers begin again at 0"
-    rates, chunks = (2, 1, 1), 2
-    copies = (record(defaults(), 254), record(defaults(), 255))
-
-
-class SettingsDamaged(Settings):
-    """Both copies damaged before."""
-
-    name, about = "settings-damaged", 86
-    promise = "The same over damaged settings: until the first save is whole, the defaults with a message"
-    rates, chunks = (6, 1, 1), 2
-    copies = (b"S" + bytes(range(40)), b"\x00" * 47)
-    changes = Settings.changes[:2]
-
-
-class SettingsQuick(Settings):
-    """Each set while the one before is still being written."""
-
-    name, about = "settings-quick", 35
-    promise = "Settings set faster than they can be written: one of those that were set"
-    rates, chunks = (2, 1, 1), 2
-    waits = False
-
-
-class Pairs(Settings):
-    """Edit: MIRROR's partners."""
-
-    name, about, app = "pairs", 73, "edit"
-    promise = "Partners set by PAIRS in Edit are the old or the new ones"
-    rates, chunks = (4, 1, 1), 3
-
-    def act(self):
-        for one, other in ((1, 3), (5, 5), (2, 4)):
-            self.allowed.append(paired(self.allowed[-1], one, other))
-            self.board.run(ms=100)
-            self.board.send(f"pairs {one} {other}\r")
-            self.board.run(ms=50)
-            self.saved()
-
-    def shown(self, body, damaged, greeting):
-        """Edit does not report damage. It must show the stored pairs."""
-        pair = body[len(FIELDS) :]
-        self.board.send("pairs\r", wait=True)
-        text = robot.quiet(self.board).decode("latin-1")
-        shown = {(int(a), int(b)) for a, b in re.findall(r"\b(\d+)-(\d+) ", text)}
-        wanted = {(joint, pair[joint]) for joint in range(JOINTS) if joint < pair[joint] < JOINTS}
-        assert shown == wanted, f"kept {sorted(wanted)}, shown {sorted(shown)}"
-
-
-class PairsAndSave(Pairs):
+class PairsAndSave(Settings):
     """Edit: PAIRS, and SAVE of a page while the settings are still being written byte by byte."""
 
-    name, about, chunks, rates = "pairs-save", 44, 2, (2, 24, 200)
+    name, about, app, chunks, rates = "pairs-save", 44, "edit", 2, (2, 24, 200)
     copies = (record(defaults(), 1), b"")
-    promise = "A page saved while settings are being written: both old or new"
+    promise = "Partners and a page saved while settings are being written: both old or new"
 
     def act(self):
         new = robot.made(5, 1)
@@ -197,6 +144,15 @@ class PairsAndSave(Pairs):
         self.board.expect("@save OK", ms=3000)
         self.memories.saved(5)
         self.saved()
+
+    def shown(self, body, damaged, greeting):
+        """Edit does not report damage. It must show the stored pairs."""
+        pair = body[len(FIELDS) :]
+        self.board.send("pairs\r", wait=True)
+        text = robot.quiet(self.board).decode("latin-1")
+        shown = {(int(a), int(b)) for a, b in re.findall(r"\b(\d+)-(\d+) ", text)}
+        wanted = {(joint, pair[joint]) for joint in range(JOINTS) if joint < pair[joint] < JOINTS}
+        assert shown == wanted, f"kept {sorted(wanted)}, shown {sorted(shown)}"
 
 
 class SettingsDriven(Settings):
@@ -254,4 +210,4 @@ class SettingsDriven(Settings):
         return super().verdict(cut)
 
 
-SCENES = (Settings, SettingsWrap, SettingsDamaged, SettingsQuick, SettingsDriven, Pairs, PairsAndSave)
+SCENES = (Settings, SettingsDriven, PairsAndSave)
