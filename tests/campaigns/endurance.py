@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A robot walks for an hour under a remote control, with randomly called pages, stops, breaks, pauses, a serial line that is full in
-both directions, and servos that fail from time to time. Another one with 31 joints does the same for ten minutes. An editor saves
-thousands of times. Nothing may be lost or late, and the end state must equal the start state.
+both directions, and servos that fail from time to time. Another one with 31 joints does the same for ten minutes. Nothing may
+be lost or late, and the end state must equal the start state.
 
 The hour is one run of one robot. Everything is drawn from --seed.
 """
@@ -12,23 +12,17 @@ import traceback
 from cm5sim import Violation
 from m512.files.image import Image
 from tests.campaigns import proof
-from tests.campaigns.endure.edit import FIRST, LAST, MOTION_START, Editor
-from tests.campaigns.endure.walk import DOWN, LEFT, RIGHT, UP, Walker
-from tests.campaigns.powercuts.robot import SLOT_BYTES, SLOTS
-from tests.sim.boot_board import MAP
+from tests.campaigns.walker import DOWN, LEFT, RIGHT, UP, Walker
 from tests.sim.made_page import page
 
 TITLE = "Endurance"
-PROMISE = "Hours of walking and thousands of saves lose no tick, no character and no page."
+PROMISE = "An hour of walking loses no tick and no character."
 
 TICK_CYCLES, CYCLES_PER_US = 125_000, 16
 ENTRY_CYCLES = 200  # between a tick and its interrupt's first instruction, including other interrupts
 MEASURE_MINUTES = 10  # the interval between two plays of the reference page
-FLASH_CYCLES, EEPROM_CYCLES = 10_000, 100_000  # guaranteed by the data sheet
-PLAY_HEADROOM, EDIT_HEADROOM = 512, 384
-FLASH_PAGE = MAP["MEM_FLASH_PAGE_BYTES"]
-SLOT_PAGES = SLOT_BYTES // FLASH_PAGE
-JOURNAL = MAP["MEM_JOURNAL_START"], MAP["MEM_JOURNAL_START"] + SLOTS * SLOT_BYTES  # the two flash pages after it are not a slot
+EEPROM_CYCLES = 100_000  # guaranteed by the data sheet
+PLAY_HEADROOM = 512
 ALL_JOINTS = range(31)
 BOW = 2
 WAVE_OVER, CROWDED_LAYER = 60, 9  # pages layered over a driven walk
@@ -36,7 +30,6 @@ WAVE_OVER, CROWDED_LAYER = 60, 9  # pages layered over a driven walk
 
 def add_arguments(group):
     group.add_argument("--minutes", type=float, default=60, help="of walking (default: %(default)s)")
-    group.add_argument("--saves", type=int, default=3000, help="of the editor (default: %(default)s)")
 
 
 # ---- walking ----
@@ -106,40 +99,6 @@ def walk(seed, joints, motions, minutes, layer):
     }
 
 
-# ---- editing ----
-
-
-def edit(seed, saves):
-    editor = Editor(seed)
-    board = editor.board
-    while editor.saves < saves:
-        editor.episode()
-    editor.check_all()
-    slots = [at // FLASH_PAGE for at in range(*JOURNAL, FLASH_PAGE)]
-    saved = {MOTION_START // FLASH_PAGE + 2 * number + half for number in range(FIRST, LAST + 1) for half in (0, 1)}
-    return {
-        "saves": editor.saves,
-        "done": editor.done,
-        "complaints": editor.complaints,
-        "bus": vars(editor.bus),
-        "resets": board.resets - editor.resets,
-        "overruns": board.uart(0).overruns + board.uart(1).overruns,
-        "headroom": board.stack_headroom,
-        "journal": [board.wear(number) for number in slots],
-        "motions": [board.wear(number) for number in saved],
-        "other wear": max(board.wear(number) for number in set(range(512)) - set(slots) - saved),
-        "eeprom wear": max(board.eeprom_wear(at) for at in range(4096)),
-        "minutes": board.now_ms / 60_000,
-    }
-
-
-def wears_evenly(journal):
-    """Returns whether the wear is even. Saves rewrite the slots' records in turn (a record is SLOT_PAGES - 1 pages after its slot's
-    start). A slot's data is rewritten unless it is already there."""
-    records = journal[SLOT_PAGES - 1 :: SLOT_PAGES]
-    return max(records) - min(records) <= 1 and all(wear <= records[number // SLOT_PAGES] for number, wear in enumerate(journal))
-
-
 # ---- all of it ----
 
 
@@ -147,8 +106,6 @@ def work(item):
     """Runs one robot to its end. A violation or a missing answer ends the run."""
     what, seed, amount = item
     try:
-        if what == "edit":
-            return edit(seed, amount)
         if what == "walk":
             return walk(seed, range(1, 19), library(), amount, layer=WAVE_OVER)
         return walk(seed, ALL_JOINTS, crowded(seed), amount, layer=CROWDED_LAYER)
@@ -202,53 +159,13 @@ def walked(result, joints):
     ]
 
 
-def edited(results):
-    """Returns the figures of all editors."""
-    complaints = [text for result in results for text in result["complaints"]]
-    for complaint in complaints[:10]:
-        print(f"   {complaint}")
-    saves, bus = sum(result["saves"] for result in results), [result["bus"] for result in results]
-    missed, overruns = sum(one["missed"] + one["doubled"] for one in bus), sum(result["overruns"] for result in results)
-    resets, headroom = sum(result["resets"] for result in results), min(result["headroom"] for result in results)
-    low, high = min(min(result["journal"]) for result in results), max(max(result["journal"]) for result in results)
-    even = all(wears_evenly(result["journal"]) for result in results)
-    worst = max(results, key=lambda result: max(result["journal"]) / result["saves"])
-    lasts = FLASH_CYCLES * worst["saves"] // max(1, max(worst["journal"]))
-    target = max(max(result["motions"]) for result in results)
-    plays, edits = (sum(result["done"][what] for result in results) for what in ("plays", "edits"))
-    return [
-        proof.Figure(
-            "What was saved is what the flash holds, and nothing else changes.",
-            f"Edit in {len(results)} runs of {max(result['minutes'] for result in results):.0f} simulated minutes: {edits} edits with "
-            f"undo, saves by key and by program, {plays} plays",
-            f"{saves} saves, {len(complaints)} complaints, {resets} resets, "
-            f"{missed} ticks missed in plays, {overruns} overruns; stack headroom {headroom} bytes (at least {EDIT_HEADROOM})",
-            not (complaints or resets or missed or overruns) and headroom >= EDIT_HEADROOM,
-            headline=True,
-        ),
-        proof.Figure(
-            "The journal wears evenly, and lasts.",
-            f"erases of each of its flash pages in the same runs, extrapolated to the {FLASH_CYCLES} that the data sheet allows",
-            f"{low}..{high} erases a journal page ({worst['saves']} saves a run): {lasts} saves until {FLASH_CYCLES}; a motion page "
-            f"saved every time lasts {FLASH_CYCLES}; busiest motion page here {target}; other flash "
-            f"{max(result['other wear'] for result in results)}, EEPROM {max(result['eeprom wear'] for result in results)}",
-            even and not max(result["other wear"] for result in results),
-        ),
-    ]
-
-
 def run(options):
-    minutes, saves = options.minutes, options.saves
-    options.keep = minutes >= 60 and saves >= 3000
+    minutes = options.minutes
+    options.keep = minutes >= 60
     if options.sample:
-        items = [("walk", options.seed, 0.5), ("crowd", options.seed, 0.2), ("edit", options.seed, 15)]
+        items = [("walk", options.seed, 0.5), ("crowd", options.seed, 0.2)]
     else:
-        items = [
-            ("walk", options.seed, minutes),
-            ("crowd", options.seed, minutes / 6),
-            ("edit", options.seed, saves // 2),
-            ("edit", options.seed + 1, saves - saves // 2),
-        ]
+        items = [("walk", options.seed, minutes), ("crowd", options.seed, minutes / 6)]
     kept = proof.Kept("endurance", options.keep and not options.sample)
     results = kept.each(work, items, "lives", options.jobs)
     kept.finish()
@@ -263,9 +180,7 @@ def run(options):
             not died,
         )
     ]
-    lives = [(item[0], result) for item, result in zip(items, results) if "died" not in result]
-    for what, result in lives:
-        if what != "edit":
-            figures += walked(result, 18 if what == "walk" else len(ALL_JOINTS))
-    editors = [result for what, result in lives if what == "edit"]
-    return figures + (edited(editors) if editors else [])
+    for item, result in zip(items, results):
+        if "died" not in result:
+            figures += walked(result, 18 if item[0] == "walk" else len(ALL_JOINTS))
+    return figures
