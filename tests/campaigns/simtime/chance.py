@@ -673,7 +673,7 @@ class Editor(Person):
         self.act(typed("\r"), SECOND)
 
     def asks(self):
-        too_much = (f"@data 0 {'5a' * self.rng.randrange(33, 60)}", f"@data {self.rng.randrange(481, 600)} {'5a' * 32}")
+        too_much = (f"@data 0 {'5a' * self.rng.randrange(33, 36)}", f"@data {self.rng.randrange(481, 600)} {'5a' * 32}")
         self.line(self.rng.choice(("@where", "@pose", "@crc", "@ver", "@list 1 9", "@page 1", "@watch 50", "@watch 0", *too_much)))
 
     def uploads(self):
