@@ -11,7 +11,7 @@ import type { Requests } from '../robot/requests.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { Overlay, SessionState } from '../view/session/session.ts';
 import type { Store } from '../view/store.ts';
-import { aborted } from './aborted.ts';
+import { orAborted } from './aborted.ts';
 import type { DocumentEditor } from './editor.ts';
 import type { RobotTransfer } from './transfer.ts';
 import { Turns } from './turns.ts';
@@ -65,7 +65,7 @@ export class RobotPlays {
     }
 
     private orDropped(play: Promise<boolean>): Promise<boolean> {
-        return Promise.race([play, aborted(this.dropping.signal)]);
+        return orAborted(play, this.dropping.signal);
     }
 
     /** Cancels requested plays that still wait. */

@@ -22,7 +22,7 @@ import type { Requests } from '../robot/requests.ts';
 import { errorText } from '../view/texts/robot.ts';
 import type { Transfer, TransferEnd, TransferState } from '../view/session/transfer.ts';
 import { Store } from '../view/store.ts';
-import { aborted } from './aborted.ts';
+import { orAborted } from './aborted.ts';
 
 export interface TransferParts {
     readonly format: PageFormat;
@@ -133,7 +133,7 @@ export class RobotTransfer implements Transfer {
 
     /** Edit takes time to start. Cancelling does not wait for it. */
     private orStopped(action: Promise<void>): Promise<void> {
-        return Promise.race([action, aborted(this.stop.signal)]);
+        return orAborted(action, this.stop.signal);
     }
 
     private tell(left: AbortSignal, change: Partial<TransferState>): void {
@@ -223,7 +223,7 @@ export class RobotTransfer implements Transfer {
         const account = phase === 'reading' ? IDLE.account : this.state.get().account;
         this.state.set({ phase, trouble: null, putBack: null, done: 0, total: 0, account });
         try {
-            await Promise.race([action(left), aborted(left)]); // a robot in the page that is paused does not answer
+            await orAborted(action(left), left); // a robot in the page that is paused does not answer
             return { isDone: true };
         } catch (error) {
             if (!(error instanceof RobotError)) this.tell(left, { phase: 'stopped', trouble: String(error) });

@@ -9,7 +9,7 @@ import type { StepTouch, Touch, TrialRecord, TrialRequest } from '../model/trial
 import type { TrialClient } from '../sim/trial-client.ts';
 import { Store } from '../view/store.ts';
 import type { Trials, TrialsState } from '../view/session/trials.ts';
-import { aborted } from './aborted.ts';
+import { orAborted } from './aborted.ts';
 import type { DocumentEditor } from './editor.ts';
 
 /** A looping motion is stopped after this: 6 s. */
@@ -49,7 +49,7 @@ export class MotionTrials implements Trials {
         const { signal } = this.stop;
         this.state.set({ phase: 'loading', done: 0, total: due.length, trouble: null });
         try {
-            const client = await Promise.race([this.ready(), aborted(signal)]); // a stalled network can be stopped, too
+            const client = await orAborted(this.ready(), signal); // a stalled network can be stopped, too
             for (const [done, page] of due.entries()) {
                 signal.throwIfAborted();
                 this.state.set({ phase: 'trying', page, done });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Play on your robot: it plays what the document has, or nothing. With the real firmware, in simulated time.
-import { expect, test, vi } from 'vitest';
+import { expect, onTestFinished, test, vi } from 'vitest';
 import { RobotPlays } from '../app/robot-plays.ts';
 import { RobotTransfer } from '../app/transfer.ts';
 import { DocumentEditor } from '../app/editor.ts';
@@ -145,4 +145,26 @@ test('a second play takes the place of one that still waits for the robot to sta
     await first;
     await bench.until(second);
     expect(played()).toEqual([`@play ${WAVE}`]);
+});
+
+test('a play leaves nothing behind that listens for its end', async () => {
+    const { plays } = await inPage(library);
+    const listening = new Set<unknown>();
+    onTestFinished(() => void vi.restoreAllMocks());
+    const isOne = (target: unknown, type: string): boolean => target instanceof AbortSignal && type === 'abort';
+    const { addEventListener, removeEventListener } = EventTarget.prototype;
+    vi.spyOn(EventTarget.prototype, 'addEventListener').mockImplementation(function (this: EventTarget, type, listener, options) {
+        if (isOne(this, type)) listening.add(listener);
+        addEventListener.call(this, type, listener, options);
+    });
+    vi.spyOn(EventTarget.prototype, 'removeEventListener').mockImplementation(function (this: EventTarget, type, listener, options) {
+        if (isOne(this, type)) listening.delete(listener);
+        removeEventListener.call(this, type, listener, options);
+    });
+    const [first, second] = [plays.play(2), plays.playEdited(2)];
+    expect(listening.size).toBe(2);
+    expect(await first.catch(() => false)).toBe(false); // the second takes its place
+    await second;
+    await Promise.resolve();
+    expect(listening.size).toBe(0);
 });
