@@ -96,6 +96,38 @@ def test_a_trim_is_scaled_with_the_positions(m512, tmp_path, steps):
     assert (tmp_path / "z.bin").read_bytes() == (tmp_path / "x.bin").read_bytes()
 
 
+def trimmed(steps, trims, name=b""):
+    """An image whose page 0 has these trims, by joint, and says so many steps."""
+    image = Image.empty()
+    image[0].steps, image[0].name = steps, name
+    for joint, trim in trims.items():
+        for step, word in enumerate((512, 512 + trim, trim & 0xFFFF)):
+            image[0].set_word(step, joint, word)
+    image[0].seal()
+    return image
+
+
+@pytest.mark.parametrize("steps", [0, 2, 3, 7])
+def test_joints_that_are_left_out_take_their_trims_along(m512, tmp_path, steps):
+    """A word of -5 has the bits of an unused joint, as a position; as a trim it has its sign."""
+    formats.save(tmp_path / "x.bin", trimmed(steps, {1: 5, 2: -5, 3: 5, 4: -5, 5: 0}))
+    result = m512("convert", tmp_path / "x.bin", tmp_path / "y.bin", "--joints", "1..2")
+    assert result.exit_code == 0 and "loss: 2 trims of page 0 left out (IDs 3 4)" in result.stderr, result.stderr
+    assert "loss: 6 positions of joints left out (IDs 3 4 5)" in result.stderr
+    page = formats.load(tmp_path / "y.bin", 10)[0]
+    assert page.trims()[:6] == [0, 5, -5, 0, 0, 0] and not page.fault()
+    assert [page.word(step, 3) for step in (0, 1, 2)] == [0x4000] * 3 and [page.word(step, 1) for step in (0, 1)] == [512, 517]
+
+
+@pytest.mark.parametrize("steps", [0, 2, 3])
+def test_trims_that_differ_are_told_as_trims(m512, tmp_path, steps):
+    for name, trim in (("x.bin", 5), ("y.bin", -7)):
+        formats.save(tmp_path / name, trimmed(steps, {2: trim}, b"robot"))
+    lines = m512("diff", tmp_path / "x.bin", tmp_path / "y.bin").stdout.splitlines()
+    assert lines == ["page 0, ID 2: trim 5 -> -7", 'page 0 "robot", step 2, ID 2: 517 -> 505 (-12)']
+    assert "   0  (trim)" in m512("pages", tmp_path / "x.bin", "list").stdout
+
+
 def image_of(bits, pages, high=None):
     """Pages of two steps about the centre for `bits`. `high`: the page with one position beyond 1023."""
     image = Image.empty(256)

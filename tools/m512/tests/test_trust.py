@@ -124,6 +124,16 @@ def test_a_page_0_without_a_trim_leaves_the_robot_its_own(m512, tmp_path, page, 
         assert bytes(board.flash[0xE000:0xE200]) == bytes(page)
 
 
+def test_a_damaged_trim_leaves_the_robot_its_own(tmp_path):
+    """A robot takes no trim from a damaged page 0."""
+    image = read_text("motion512 1\npage 0\n  offset 3:-5\npage 1 stand\n  step 1s | 1..18:512\n")
+    image[0].checksum ^= 1
+    (tmp_path / "x.bin").write_bytes(image.to_bytes())
+    left = plan(tmp_path / "x.bin", damaged="keep")
+    assert min(left.pages) == 0xE200 // 256 and any("page 0: damaged, so the robot adds nothing" in remark for remark in left.remarks)
+    assert min(plan(tmp_path / "x.bin", damaged="keep", with_trim=True).pages) == 0xE000 // 256
+
+
 def test_a_link_beyond_the_last_page_is_flashed_as_it_is(tmp_path):
     """An image without page 0 has no more pages than the board, so that none is left out."""
     image = read_text(TEXT)

@@ -92,8 +92,12 @@ class Image:
         return word in self._words().values()
 
     def used(self) -> list[int]:
-        """Pages that hold something, including damaged ones and page 0 (the trim)."""
-        return [number for number, page in self.items() if not is_erased(page) and (not page.is_empty or page.fault(self.kind))]
+        """Pages that hold something, including damaged ones and page 0 if it holds a trim, however many steps it says."""
+        return [
+            number
+            for number, page in self.items()
+            if not is_erased(page) and (not page.is_empty or page.fault(self.kind) or number == 0 and any(page.trims()))
+        ]
 
     def _words(self) -> dict[int, str]:
         """The names as a user types them."""

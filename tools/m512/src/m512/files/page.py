@@ -22,6 +22,7 @@ SCHEDULE_SPEED = 0x00
 SCHEDULE_TIME = 0x0A
 POS_UNUSED = 0x4000  # joint not used in this step: it keeps its last target
 POS_TORQUE_OFF = 0x2000  # Edit's work pose only
+TRIM_STEP = 2  # of page 0
 TRIM_MAX = 300  # the robot treats a larger trim as damaged and as 0
 
 
@@ -206,15 +207,27 @@ class Page:
         more = f" and {len(bad) - 3} more" if len(bad) > 3 else ""
         return f"position beyond {kind.pos_max}: " + ", ".join(bad[:3]) + more
 
+    def poses(self, number: int) -> list[int]:
+        """The steps that hold poses: those used. Of page 0 the first two, too, however many it says, and not the third, the trim's."""
+        used = set(range(min(self.steps, STEPS)))
+        return sorted(used if number else (used | {0, 1}) - {TRIM_STEP})
+
+    def set_trim(self, joint: int, trim: int | None) -> None:
+        """For page 0. None: the joint is not used."""
+        self.set_word(TRIM_STEP, joint, POS_UNUSED if trim is None else trim & 0xFFFF)
+
     def trims(self) -> list[int]:
-        """For page 0: what a robot adds to its joints' goals. The third step holds it, signed (motion/PAGE_FORMAT.md)."""
+        """For page 0: what a robot adds to its joints' goals if the page is good, however many steps it says. The third step holds it,
+        signed (motion/PAGE_FORMAT.md)."""
         if self.data == b"\xff" * PAGE_BYTES:
             return [0] * JOINTS
-        return [0 if POS_UNUSED <= word < POS_UNUSED + 0x2000 else word - 0x10000 if word & 0x8000 else word for word in self.words(2)]
+        return [0 if POS_UNUSED <= word < POS_UNUSED + 0x2000 else word - 0x10000 if word & 0x8000 else word for word in self.words(TRIM_STEP)]
 
     def trim_problem(self) -> str:
-        """For page 0: why it cannot be a trim, or an empty text. Where the first two steps both hold a pose, a joint's trim must be the
+        """For page 0 of 10 bits: why a robot cannot take it for a trim, or an empty text. Where the first two steps both hold a pose, a joint's trim must be the
         second step's position minus the first's."""
+        if any(self.trims()) and self.fault():
+            return f"damaged, so the robot adds nothing ({self.fault_text()})"
         for joint, trim in enumerate(self.trims()):
             master, own = self.word(0, joint), self.word(1, joint)
             if master <= 1023 and own <= 1023 and trim != own - master:

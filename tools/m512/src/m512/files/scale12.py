@@ -95,15 +95,14 @@ class _Work:
         self.impossible: list[tuple[int, int]] = []  # page, joint
 
     def scale_trim(self, page: Page) -> None:
-        """Page 0 as the robot reads it, whatever number of steps it says: two poses, and the trim in the third step. Where the trim is the
-        difference of the poses, it stays so."""
+        """Page 0: its poses and its trim. Where the trim is the difference of the first two poses, it stays so."""
         before, trims = page.copy(), page.trims()
-        self.scale_steps(0, page, {0, 1, *range(min(page.steps, STEPS))} - {2})
+        self.scale_steps(0, page, page.poses(0))
         for joint, trim in enumerate(trims):
             if trim:
                 master, own = page.word(0, joint), page.word(1, joint)
                 is_difference = is_used(master) and is_used(own) and trim == before.word(1, joint) - before.word(0, joint)
-                page.set_word(2, joint, (own - master if is_difference else round_away(self.factor * trim)) & 0xFFFF)
+                page.set_trim(joint, own - master if is_difference else round_away(self.factor * trim))
                 self.trims += 1
 
     def scale_steps(self, number: int, page: Page, steps: Iterable[int]) -> None:
@@ -162,18 +161,24 @@ def round_away(value: Fraction) -> int:
 
 
 def keep_joints(image: Image, joints: Iterable[int], scaled_later: bool = False) -> list[str]:
-    """Sets all other joints unused, in place. Returns a line with the number of dropped positions. Pages that are damaged without these
+    """Sets all other joints unused, in place. Returns a line with what was dropped. Pages that are damaged without these
     joints, too, stay as they are; if they are `scaled_later`, which mends them, not those with impossible positions."""
     others = set(range(JOINTS)) - set(joints)
     dropped: Counter[int] = Counter()
+    untrimmed: set[int] = set()
     for number, page in image.items():
         if page.fault(image.kind) not in (Fault.OK, Fault.POSITION):
             continue
-        gone = [(step, joint) for step in range(min(page.steps, STEPS)) for joint in others if is_used(page.word(step, joint))]
+        gone = [(step, joint) for step in page.poses(number) for joint in others if is_used(page.word(step, joint))]
+        trims = {joint for joint, trim in enumerate(page.trims()) if trim and joint in others} if not number else set()
         rest = page.copy()
         for step, joint in gone:
             rest.set_word(step, joint, POS_UNUSED)
+        for joint in trims:
+            rest.set_trim(joint, None)
         if scaled_later or not rest.seal().fault(image.kind):
             image[number] = rest.seal()
             dropped.update(joint for _, joint in gone)
-    return [f"{sum(dropped.values())} positions of joints left out (IDs " + " ".join(map(str, sorted(dropped))) + ")"] if dropped else []
+            untrimmed |= trims
+    out = [f"{sum(dropped.values())} positions of joints left out (IDs {_ids(dropped)})"] if dropped else []
+    return out + ([f"{counted(len(untrimmed), 'trim')} of page 0 left out (IDs {_ids(untrimmed)})"] if untrimmed else [])

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from m512.files.image import Image, is_erased
-from m512.files.page import EMPTY, JOINTS, SCHEDULE_SPEED, SCHEDULE_TIME, STEPS, Fault, Kind, Page
+from m512.files.page import EMPTY, JOINTS, SCHEDULE_SPEED, SCHEDULE_TIME, STEPS, TRIM_STEP, Fault, Kind, Page
 from m512.files.text.words import code_text, position_text
 from m512.files.wording import pages_text
 
@@ -107,18 +107,24 @@ def pages(number: int, a: Page, b: Page, kind: Kind = BOARD, other: Kind = BOARD
     add("reserved bytes", bytes(a.data[14:15] + a.data[19:20]).hex(" "), bytes(b.data[14:15] + b.data[19:20]).hex(" "))
     for joint in range(JOINTS):
         add("softness", _softness(a, joint), _softness(b, joint), joint=joint)
-    used = min(max(a.steps, b.steps), STEPS)
-    for step in range(used):
+    trims = [] if number else _trims(a, b)
+    out += trims
+    used = sorted({*a.poses(number), *b.poses(number)})
+    for step in used:
         add("pause", a.pause(step), b.pause(step), step)
         add("time" if b.schedule == SCHEDULE_TIME else "speed", a.time(step), b.time(step), step)
         for joint in range(JOINTS):
             add("", position_text(a.word(step, joint), kind.pos_max), position_text(b.word(step, joint), other.pos_max), step, joint)
-    unused = [step for step in range(used, STEPS) if a.step_bytes(step) != b.step_bytes(step)]
+    unused = [step for step in range(STEPS) if step not in used and a.step_bytes(step) != b.step_bytes(step) and not (trims and step == TRIM_STEP)]
     if unused:
         out.append(Change(number, name, f"contents of unused steps differ ({', '.join(str(step + 1) for step in unused)})", "", ""))
     if Fault.CHECKSUM in (a.fault(), b.fault()):
         add("checksum", f"0x{a.checksum:02X}", f"0x{b.checksum:02X}")
     return out
+
+
+def _trims(a: Page, b: Page) -> list[Change]:
+    return [Change(0, "", "trim", str(x), str(y), joint=joint) for joint, (x, y) in enumerate(zip(a.trims(), b.trims())) if x != y]
 
 
 def _schedule(page: Page) -> str:
@@ -132,7 +138,7 @@ def _softness(page: Page, joint: int) -> str:
 def _whole(number: int, a: Page, b: Page, kind: Kind, other: Kind) -> list[Change]:
     """The change as a whole, for pages that appear, disappear or have nothing in common; else an empty list."""
     if number == 0 and all(is_erased(page) or page.is_empty and not page.fault() for page in (a, b)):
-        trims = [Change(0, "", "trim", str(x), str(y), joint=joint) for joint, (x, y) in enumerate(zip(a.trims(), b.trims())) if x != y]
+        trims = _trims(a, b)
         if trims:
             return trims
     if is_erased(a) or is_erased(b):

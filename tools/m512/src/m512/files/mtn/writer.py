@@ -9,10 +9,10 @@ from functools import partial
 from typing import Callable
 
 from m512.errors import RefusedError
-from m512.files.image import Image, is_erased
+from m512.files.image import Image
 from m512.files.mtn.envelope import BOM, file_checksum
 from m512.files.mtn.reader import IDS, PAGES, UNITS_PER_SECOND, UNUSED_WORD
-from m512.files.page import JOINTS, POS_UNUSED, SCHEDULE_TIME, STEPS, Fault, Kind, Page, is_used
+from m512.files.page import JOINTS, SCHEDULE_TIME, STEPS, Fault, Kind, Page, is_used
 from m512.files.wording import Findings, counted, named_pages_text, ranges
 
 MIDDLE = 512  # of a joint whose position is not known
@@ -32,7 +32,7 @@ def write(image: Image) -> tuple[bytes, list[str]]:
     losses = Findings()
     enabled = _enabled(image)
     lines = ["type=motion", "version=1.01", "enable=" + " ".join(str(int(e)) for e in enabled), "motor_type=" + " ".join(["0"] * IDS)]
-    if image.first == 0 and not is_erased(image[0]) and any(image[0].word(2, j) not in (POS_UNUSED, 0) for j in range(JOINTS)):
+    if image.first == 0 and any(image[0].trims()):
         losses.add(0, "", "the robot's trim is not in a .mtn")
     used = set(image.used())
     blank = 0
