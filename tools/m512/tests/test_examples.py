@@ -195,7 +195,7 @@ def test_an_example_does_what_it_says(m512, world, tmp_path, monkeypatch, words,
     command = words[0]
     robot = world(words) if "--sim" not in words and not is_about_files(words) else None
     if "merge" in words:  # into free pages
-        formats.save(Path(words[1]), Image.empty())
+        formats.save(Path(words[1]), Image.empty(), replace=True)
     if robot:
         before(m512, command, words, robot)
     outputs = [words[words.index("-o") + 1]] if "-o" in words else words[2:3] if command == "convert" and "--force" not in words else []
