@@ -73,12 +73,15 @@ export class RobotSources {
     useSimulated(): void {
         this.chosen++;
         if (this.isSimulated) return;
+        const { source, where } = this.parts.state.get();
+        const goesOn = source === 'yours' && isMoving(where);
         this.parts.left();
         this.parts.state.set({ source: 'simulated', adapter: null, image: this.simulated.image });
         void this.yours.close();
         void this.servos.close();
         this.simulated.resume();
         this.parts.editor.setRobot(this.inPage);
+        if (goesOn) this.parts.fail(new RobotError('goes-on'));
     }
 
     async connectYours(): Promise<void> {

@@ -61,9 +61,9 @@ afterEach(async () => {
 });
 
 /** The page with its own robot, which runs Play and answers. Yours runs `image`. */
-async function page(image: 'play' | 'edit') {
+async function page(image: 'play' | 'edit', aim?: string) {
     const inPage = scripted('play');
-    const yours = scripted(image);
+    const yours = scripted(image, aim);
     const port = Object.assign(yours.port, { getInfo: () => ({}) });
     vi.stubGlobal('navigator', { serial: { getPorts: () => Promise.resolve([port]), addEventListener: () => undefined } });
     vi.spyOn(SimulatedSource.prototype, 'start').mockImplementation(async function (this: SimulatedSource) {
@@ -162,6 +162,17 @@ test('a page that is hidden lets go of the stick and of the keys', async () => {
     await soon();
     expect(yours.sent.slice(before)).not.toContain('@drive');
     expect(yours.sent.slice(before)).not.toContain('remote');
+});
+
+test.each([
+    ['swings by code', '00000004', true],
+    ['stands', '00000000', false],
+])('your robot that is left for the one in the page while it %s: it is said that it goes on', async (_, aim, isSaid) => {
+    const { session, connect } = await page('play', aim);
+    await connect();
+    await vi.waitFor(() => expect(session.state.get().where).toMatchObject({ aimed: Number.parseInt(aim, 16) }));
+    session.useSimulated();
+    expect(session.state.get().message?.text === TEXTS.robot.errors['goes-on']).toBe(isSaid);
 });
 
 test.each([

@@ -236,6 +236,8 @@ const DE: Texts = {
                 'Die Firmware konnte nicht geladen werden; der Roboter läuft weiter wie bisher. Ist dieser Computer online? Dann versuche es noch einmal.',
             'new-version':
                 'Es gibt eine neue Version dieser Seite, und die nötige Datei ist nicht mehr da; der Roboter läuft weiter wie bisher. Lade die Seite neu.',
+            'goes-on':
+                'Dein Roboter macht weiter, was er tat, und „Stopp“ erreicht ihn nicht mehr. Um ihn anzuhalten, wähle im Menü wieder „Dein Roboter …“.',
             'was-hidden':
                 'Diese Seite war verdeckt, deshalb wurde die Bewegung sanft beendet. Eine verdeckte Seite kann den Takt nicht halten: Lass sie sichtbar.',
             cancelled: 'Angehalten.',

@@ -231,6 +231,7 @@ const ES: Texts = {
                 'No se pudo cargar el firmware, así que el robot sigue como estaba. ¿Hay conexión a internet? Entonces inténtalo de nuevo.',
             'new-version':
                 'Hay una versión nueva de esta página y el archivo necesario ya no está, así que el robot sigue como estaba. Vuelve a cargar la página.',
+            'goes-on': 'Tu robot sigue con lo que hacía, y «Parar» ya no le llega. Para pararlo, elige de nuevo «Tu robot …» en el menú.',
             'was-hidden':
                 'Esta página estaba oculta, así que el movimiento terminó con suavidad. Una página oculta no puede llevar el tiempo: mantenla a la vista.',
             cancelled: 'Detenido.',
