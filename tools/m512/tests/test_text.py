@@ -205,6 +205,7 @@ def test_text_continued_line_and_comments():
         ("joint 1 a; joint 2 a", "a is joint 1 already"),
         ("pose p | 1:1; pose p | 1:2", "pose p is there already"),
         ('include "nowhere.m512"', "cannot read nowhere.m512"),
+        (f'include "{"x" * 300}.m512"', "cannot read xx"),  # an error of the folder, as that of one without rights
         ("bits 11", "bits are 10 or 12"),
         ("page 5; offset 1:2", "offset belongs into page 0"),
         ("page 5; next 1; next 2", "page 5: next is here a second time, after line 3"),

@@ -117,9 +117,9 @@ def must_take_files(folder: Path, numbered: bool = False) -> None:
 def read(path: Path) -> bytes:
     """All bytes of a file or pipe. FileError: also when standard input is read a second time."""
     global _read_already
-    if path.is_dir():
-        raise FileError(f"{path} is a folder; name a file in it")
     try:
+        if path.is_dir():
+            raise FileError(f"{path} is a folder; name a file in it")
         if _descriptor(path) == 0 or str(path) == "-":
             if sys.stdin is None:
                 raise FileError("cannot read -: standard input is closed")
