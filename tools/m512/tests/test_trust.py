@@ -586,6 +586,15 @@ def test_a_change_that_ends_half_way_says_what_was_written(m512, monkeypatch, tm
     assert all(flash[0xE000 + 512 * number :][:4] == b"walk" for number in (3, 20))
 
 
+def test_edit_that_has_edits_is_not_changed_and_no_file_says_so(m512, monkeypatch, tmp_path, started):
+    edit = started("boot-cm5.hex", "edit-cm5.hex", text=TEXT, applied=True)
+    with VirtualLink(edit.path) as link:
+        Client(link).ask("data 64 0102")
+    monkeypatch.chdir(tmp_path)
+    result = m512("pages", edit.path, "renumber", "3", "20", "--yes")
+    assert result.exit_code == 8 and "puts back" not in result.stderr and not list(tmp_path.iterdir()), result.stderr
+
+
 def test_a_page_that_a_person_saves_in_edit_during_the_writing_is_not_put_back(m512, monkeypatch, tmp_path, started):
     """Page 20 is written; then page 3 is another."""
     edit = started("boot-cm5.hex", "edit-cm5.hex", text=TEXT, applied=True)
