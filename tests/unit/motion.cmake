@@ -11,10 +11,10 @@ m512_unit_test(test_fix SOURCES motion/page.c)
 # The same vectors judge the C codec and m512's.
 m512_unit_test(test_page_vectors SOURCES motion/page.c)
 if(TARGET test_page_vectors)
-    set(vectors ${CMAKE_SOURCE_DIR}/tests/models/golden/page_vectors)
+    set(vectors ${CMAKE_SOURCE_DIR}/tests/models/golden/page_vectors.py)
     add_custom_command(OUTPUT page_vectors.h
-        COMMAND ${M512_PYTHON} ${vectors}_table.py ${vectors}.json ${CMAKE_CURRENT_BINARY_DIR}/page_vectors.h
-        DEPENDS ${vectors}_table.py ${vectors}.json)
+        COMMAND ${M512_PYTHON} ${vectors} ${CMAKE_CURRENT_BINARY_DIR}/page_vectors.h
+        DEPENDS ${vectors})
     target_sources(test_page_vectors PRIVATE page_vectors.h)
     target_include_directories(test_page_vectors PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
 endif()

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * test_page_vectors.c - the C codec and m512's Python codec must agree on the pages of
- * tests/models/golden/page_vectors.json. */
+ * tests/models/golden/page_vectors.py. */
 #include "page.h"
 #include "unity.h"
 

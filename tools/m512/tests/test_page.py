@@ -1,16 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""Tests the page codec with page_vectors.json (as for the C codec) and with facts of the specification."""
-
-import json
+"""Tests the page codec with the vectors of tests/models/golden (as for the C codec) and with facts of the specification."""
 
 import pytest
 from chance import given
-from conftest import REPO
 from hypothesis import strategies as st
 
 from m512.files.page import EMPTY, Fault, Kind, Page, is_used
+from tests.models.golden.page_vectors import VECTORS
 
-VECTORS = json.loads((REPO / "tests" / "models" / "golden" / "page_vectors.json").read_text())["vectors"]
 FIELDS = {
     "play_count": "repeat",
     "play_code": "code",

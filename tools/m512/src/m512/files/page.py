@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The 512-byte motion page: layout, checks, field access. The same as motion/page.h; both are tested with page_vectors.json.
+"""The 512-byte motion page: layout, checks, field access. The same as motion/page.h; both are tested with page_vectors.py.
 
 A Page accepts any bytes, because damaged pages must be shown, kept and repaired. `fault()` and `faults()` report what is wrong, in
 the order of page_status_t.

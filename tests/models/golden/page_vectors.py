@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes page_vectors.json, the pages that the C codec and the Python codec must read in the same way.
+"""The pages that the C codec and the Python codec must read in the same way: VECTORS. page_vectors.py OUT.H writes them as a C table for
+tests/unit/test_page_vectors.c.
 
 Based only on the specification of the page: it builds bytes by offset and states by hand what each page means. It must not
-import m512, so that no codec checks itself. Usage: make_page_vectors.py > tests/models/golden/page_vectors.json
+import m512, so that no codec checks itself.
 """
 
-import json
+import sys
 
 ORDER = ["OK", "CHECKSUM", "STEPS", "SCHEDULE", "SPEED", "LINK", "POSITION"]
 
@@ -27,7 +28,7 @@ def put(page, step, joint, word):
     page[64 + 64 * step + 2 * joint + 1] = word >> 8
 
 
-vectors = []
+VECTORS = []
 
 
 def vector(name, page, fault, playable, checksum=None, words=(), **fields):
@@ -38,7 +39,7 @@ def vector(name, page, fault, playable, checksum=None, words=(), **fields):
         page[31] = (255 - sum(page) % 256) % 256
     else:
         page[31] = checksum
-    vectors.append(
+    VECTORS.append(
         {
             "name": name,
             "fault": fault,
@@ -125,16 +126,16 @@ def build():
         linked2_page=15,
         linked2_code=0x16,
     )
-    vectors[-1].update(title="wave", compliance={"2": 0x55, "3": 0x37}, pauses=[128, 0], times=[255, 1])
+    VECTORS[-1].update(title="wave", compliance={"2": 0x55, "3": 0x37}, pauses=[128, 0], times=[255, 1])
 
     page = pose()
     page[0:14] = b"old\0tail\0x\0\0\0\0"
     vector("name with a tail behind the NUL", page, "OK", True, None, **dict(DEFAULTS, steps=1))
-    vectors[-1]["title"] = "old"
+    VECTORS[-1]["title"] = "old"
     page = pose()
     page[0:14] = b"fourteen chars"
     vector("name without a NUL", page, "OK", True)
-    vectors[-1]["title"] = "fourteen chars"
+    VECTORS[-1]["title"] = "fourteen chars"
 
     vector("seven steps", pose(7), "OK", True, steps=7)
     vector("eight steps", pose(8), "STEPS", True, steps=8)
@@ -177,11 +178,22 @@ def build():
     vector("exchanged bytes pass the sum", page, "SCHEDULE", True, play_count=0x0A, schedule=1)
 
 
+def c_table():
+    yield "/* Made by page_vectors.py. */"
+    for number, vector in enumerate(VECTORS):
+        data = ", ".join(f"0x{byte:02X}" for byte in bytes.fromhex(vector["hex"]))
+        yield f"static const uint8_t page_{number}[512] = {{{data}}};"
+        words = ", ".join(f"{{{w['step']}, {w['joint']}, {w['word']}, {int(w['used'])}}}" for w in vector["words"])
+        yield f"static const word_vector_t words_{number}[] = {{{words or '{0, 0, 0, 0}'}}};"
+    yield "static const page_vector_t page_vectors[] = {"
+    for number, vector in enumerate(VECTORS):
+        name = vector["name"].replace('"', "'")
+        yield (f'    {{"{name}", page_{number}, {vector["fault_number"]}, {int(vector["playable"])}, words_{number}, {len(vector["words"])}}},')
+    yield "};"
+
+
+build()
+
 if __name__ == "__main__":
-    build()
-    print(
-        json.dumps(
-            {"note": "pages for the C and the Python codec; made by tools/m512/tests/make_page_vectors.py", "faults": ORDER, "vectors": vectors},
-            indent=1,
-        )
-    )
+    with open(sys.argv[1], "w", encoding="utf-8") as header:
+        header.write("\n".join(c_table()) + "\n")
