@@ -141,7 +141,6 @@ static void line_typed(void)
         slopes_typed(line);
         kept_typed(line);
         views_typed(line);
-        replies_typed(session.typed, line);
     } else {
         editor_line(line);
         editor_play_line(line);
@@ -479,7 +478,6 @@ void rules_printed(const char *line)
         slopes_printed(line);
         kept_printed(line);
         views_printed(line);
-        replies_printed(line);
     }
     if (strncmp(line, "Busy", 4) == 0) {
         rules.is_searching = rules.searches_again = false;   /* refused */
@@ -579,7 +577,6 @@ void rules_boot(void)
     answers_boot();
     calls_boot();
     views_boot();
-    replies_boot();
     rest_boot();
     presses_boot();
     stops_boot();

@@ -14,7 +14,6 @@
  *   kept.c      settings in EEPROM
  *   answers.c   answers to requests
  *   views.c     contents of lists
- *   replies.c   complete replies of Play
  *   handed.c    when packets are handed to the bus
  *   screen.c    a terminal for Edit, and the table shown on it
  *   table.c     such tables: loaded from flash, and compared
@@ -144,12 +143,6 @@ bool rules_is_well(void);         /* no fault of servo, line or computer, now or
 /* handed.c */
 void handed_left(void);           /* a packet has left the adapter */
 void handed_lost(void);           /* packets in transit are lost */
-
-/* replies.c */
-void replies_boot(void);
-void replies_typed(const char *typed, const char *line);
-void replies_printed(const char *line);
-void replies_prompt(void);
 
 /* law.c */
 void law_boot(void);

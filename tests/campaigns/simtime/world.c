@@ -142,9 +142,6 @@ static void show(uint8_t byte)
         session.column = (uint16_t)(session.column > 0 ? session.column - 1 : 0);
     } else if (byte >= ' ' && session.column < LINE_BYTES - 1) {
         session.line[session.column++] = (char)byte;
-        if (session.column == 2 && !session.is_edit && strcmp(session.line, "] ") == 0) {
-            replies_prompt();
-        }
     }
 }
 
