@@ -133,7 +133,7 @@ def figures(options, outcomes):
     made = [
         proof.Figure(
             "The rules hold at every tick",
-            "steps, links, goals and approaches by a second model of the exact law; aims arrive; pauses and breaks come to rest; no play begins without a call or a press; "
+            "steps and links as the pages say, approaches keep to their speed; aims arrive; pauses and breaks come to rest; no play begins without a call or a press; "
             "joints are as soft as their page says; nothing moves unasked or after it was let go or lost; one packet at a time is on the bus; a silent servo is named and a well one is not; requests "
             "are answered as their pages say, lists show what is so; typed text stands; Edit's table, cursor, work pose and answers by a second model of its lines "
             "and keys; pages and settings are old or new, settings those that were set, and a page of a program as it was sent",

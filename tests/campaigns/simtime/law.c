@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * law.c - the position of each joint in each tick of a play, and the next step: motion/LAWS.md 2 and PAGE_FORMAT.md
- * computed again in plain numbers, from the stored pages and the lines that name the steps.
- *
- * The exact start of a play is not known, only the line that reports it. So several start ticks are possible, and
- * each step rules out those that do not fit. If none remains, the goals are not those of the law. */
+ * law.c - the next step of a play, the speed of an approach, where aims and swings go: motion/LAWS.md 2 and
+ * PAGE_FORMAT.md, from the stored pages and the lines that name the steps. Goals within a step are tests/unit's
+ * (test_player_exact.c). */
 #include "session.h"
 
 #include <math.h>
@@ -11,15 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define KEPT 8192u                 /* ticks; longer steps are not checked */
-#define STEPS_KEPT 4u
-#define EARLIEST 8u                /* ticks before the line, and as many after it */
-#define MOMENTS 16u
-#define BETWEEN 0.05               /* ticks: the sum of rounding errors of lengths */
-#define NEAR 0.75                  /* units: half a unit is rounding */
-#define NO_APPROACH 3              /* units: joints this close to the first pose make no approach (motion/player.h) */
-#define UNUSED 0x4000u
-#define LAST_COMES (4u + MOMENTS)  /* ticks after the report that a play is over; nothing moves any more */
+#define KEPT 64u                   /* ticks */
+#define LAST_COMES 20u             /* ticks after the report that a play is over; nothing moves any more */
 #define DEGREES (1023.0 / 300.0)
 #define NEAR_TICKS 64u             /* a code this close to the start of a step may or may not count */
 #define ANY_CODE 0xFFFFu
@@ -27,21 +18,11 @@
 #define AT_ONCE 16u                /* ticks: lines that have waited are read together */
 #define SLOWEST 30u                /* degrees/s, in the random settings */
 
-enum { COUNT_AT = 15, SCHEDULE_AT = 16, STEPS_AT = 20, SPEED_AT = 22, ACCEL_AT = 24, NEXT_AT = 25,
-       EXIT_AT = 26, LINK1_AT = 27, LINK2_AT = 29, PAUSE_AT = 62, TIME_AT = 63 };
+enum { COUNT_AT = 15, STEPS_AT = 20, NEXT_AT = 25, EXIT_AT = 26, LINK1_AT = 27, LINK2_AT = 29 };
 
 typedef struct {
     unsigned page, number, repetition;
 } place_t;
-
-typedef struct {
-    place_t place;
-    uint32_t begin;                /* the tick before its first one, for a play with the earliest start */
-    unsigned ticks, hold, ramp;
-    bool is_first;                 /* the joints come from near its target */
-    bool uses[JOINTS];
-    double start[JOINTS], distance[JOINTS], in[JOINTS];   /* in: speed at its start in units per tick; else units */
-} step_t;
 
 static struct {
     int16_t now[JOINTS];           /* without trim; a joint may come from outside 0..1023 */
@@ -50,16 +31,10 @@ static struct {
     int twice[JOINTS];             /* a late tick sends two goals: the first of the last such pair */
     uint32_t ticks;
     uint32_t present;              /* joints of the last frame, one bit each */
-    step_t step[STEPS_KEPT];
-    unsigned head, tail;
-    double rest;                   /* the fraction of a tick that is carried on */
-    bool is_sure;                  /* all lengths since then are certain */
-    uint32_t moments;              /* start ticks that still fit, one bit each */
     place_t last;
     uint32_t ended_tick;           /* when the play was reported over; NEVER_TICK: not yet */
     bool knows_place;
     bool is_judged;                /* only the pages decide about this play */
-    bool is_first;                 /* its first step has not come */
     bool is_called, is_stopped;    /* a code, a stop since the play was requested */
     bool is_shaped, is_classic, is_quiet, has_modes;       /* by typed lines of this session, or since the start */
     bool was_classic, was_quiet;   /* ever: after a power cut the old setting may be back */
@@ -82,12 +57,6 @@ static struct {
     uint32_t asked_tick;
     bool is_mixed;                 /* typed before the last line was answered: unclear whose answer comes next */
 } law;
-
-static unsigned position(unsigned page, unsigned step, unsigned id)
-{
-    const uint8_t *at = page_at(page) + STEP_BYTES * step + 2 * id;
-    return at[0] | (unsigned)at[1] << 8;
-}
 
 static bool begins(const char *line, const char *word)
 {
@@ -115,7 +84,6 @@ static void judge_no_more(void)
 {
     law.is_judged = law.knows_place = false;
     law.ended_tick = NEVER_TICK;
-    law.head = law.tail = 0;
 }
 
 /* ---- the next step ---- */
@@ -195,131 +163,9 @@ static void must_be_over(unsigned page)
     }
 }
 
-/* ---- the exact law ---- */
-
 static int goal_at(uint32_t tick, unsigned id)
 {
     return law.goal[tick % KEPT][id];
-}
-
-/* Returns the whole ticks of a time and carries its fraction on. The nearest tick is taken: a page's length is right
- * to one tick. For a time about midway between two ticks the nearest one is uncertain. */
-static unsigned whole(double ideal)
-{
-    const double all = ideal + law.rest;
-    const double ticks = floor(all);
-    law.rest = all - ticks;
-    law.is_sure = law.is_sure && law.rest > BETWEEN && law.rest < 1 - BETWEEN;
-    return (unsigned)ticks;
-}
-
-static void plan(step_t *step, const step_t *before)
-{
-    const uint8_t *page = page_at(step->place.page);
-    const uint8_t *at = page + STEP_BYTES * step->place.number;
-    const double speed = page[SPEED_AT];
-    double most = 0, ideal, pause;
-    step->is_first = before == NULL;
-    for (unsigned id = 0; id < JOINTS; id++) {
-        const unsigned to = position(step->place.page, step->place.number, id);
-        step->uses[id] = (law.present >> id & 1u) != 0 && to < UNUSED;
-        if (before != NULL) {
-            step->start[id] = before->start[id] + before->distance[id];
-        } else {
-            step->start[id] = step->uses[id] ? (double)to : law.now[id];   /* the approach has arrived there */
-        }
-        step->distance[id] = step->uses[id] ? to - step->start[id] : 0;
-        most = fmax(most, fabs(step->distance[id]));
-    }
-    if (page[SCHEDULE_AT] == 0) {
-        ideal = fmax(1, 40 * most * 32 / (3 * at[TIME_AT] * speed));
-        pause = at[PAUSE_AT] * 32 / speed;
-    } else {
-        ideal = fmax(1, at[TIME_AT] * speed / 32);
-        pause = at[PAUSE_AT] * speed / 32;
-    }
-    step->begin = before != NULL ? before->begin + before->ticks + before->hold : law.ticks - EARLIEST;
-    step->ticks = whole(ideal);
-    step->hold = whole(pause);
-    step->ramp = page[ACCEL_AT] < step->ticks / 2 ? page[ACCEL_AT] : step->ticks / 2;
-}
-
-/* Returns the speed at which the joint passes from one step into the next. */
-static double through(const step_t *step, const step_t *next, unsigned id)
-{
-    if (next == NULL || step->hold > 0 || step->distance[id] * next->distance[id] <= 0) {
-        return 0;
-    }
-    const double here = step->distance[id] / step->ticks, there = next->distance[id] / next->ticks;
-    return fabs(here) < fabs(there) ? here : there;
-}
-
-/* Returns the position of a joint `tick` ticks after the start of a step. */
-static double place_in(const step_t *step, unsigned id, double out, unsigned tick)
-{
-    const double ramp = step->ramp, in = step->in[id], distance = step->distance[id];
-    if (tick >= step->ticks) {
-        return step->start[id] + distance;
-    }
-    const double speed = (distance - (in + out) * ramp / 2) / (step->ticks - ramp);
-    const double left = step->ticks - tick;
-    if (tick < ramp) {
-        return step->start[id] + in * tick + (speed - in) * tick * tick / (2 * ramp);
-    }
-    if (left < ramp) {
-        return step->start[id] + distance - out * left - (speed - out) * left * left / (2 * ramp);
-    }
-    return step->start[id] + (in + speed) * ramp / 2 + speed * (tick - ramp);
-}
-
-static void judge(const step_t *step, const step_t *next)
-{
-    uint32_t fit = law.moments;
-    char why[160] = "";
-    unsigned farthest = 0;
-    for (unsigned moment = 0; moment < MOMENTS; moment++) {
-        bool fits = (fit >> moment & 1u) != 0;
-        for (unsigned tick = 1; tick <= step->ticks + step->hold && fits; tick++) {
-            for (unsigned id = 0; id < JOINTS && fits; id++) {
-                if (!step->uses[id]) {
-                    continue;
-                }
-                const double must = place_in(step, id, next == NULL ? 0 : next->in[id], tick);
-                const int is = goal_at(step->begin + moment + tick, id);
-                const double off = NEAR + (step->is_first ? NO_APPROACH : 0);
-                if (fabs(must - is) > (tick < step->ticks ? off : 0)) {
-                    fits = false;
-                    if (tick <= farthest) {
-                        continue;
-                    }
-                    farthest = tick;
-                    snprintf(why, sizeof why, "page %u step %u tick %u of %u, servo %u: %.2f is right, %d is sent",
-                             step->place.page, step->place.number, tick, step->ticks, id, must, is);
-                }
-            }
-        }
-        fit &= fits ? UINT32_MAX : ~(1u << moment);
-    }
-    reached("step by the exact law");
-    if (fit == 0) {
-        session_fail("goals are those of the exact law", "%s", why);
-    }
-    law.moments = fit;
-}
-
-/* Checks the oldest steps that are over. */
-static void judge_done(bool is_end)
-{
-    while (law.tail != law.head && rules_is_well()) {
-        const step_t *step = &law.step[law.tail % STEPS_KEPT];
-        const step_t *next = law.tail + 1 != law.head ? &law.step[(law.tail + 1) % STEPS_KEPT] : NULL;
-        const uint32_t over = step->begin + step->ticks + step->hold;
-        if ((next == NULL && !is_end) || (!is_end && over + MOMENTS > law.ticks)) {
-            return;
-        }
-        judge(step, next);
-        law.tail++;
-    }
 }
 
 static void step_comes(place_t place)
@@ -331,27 +177,6 @@ static void step_comes(place_t place)
     law.knows_place = true;
     law.step_before_tick = law.step_tick;
     law.step_tick = session.tick;
-    const step_t *before = law.head != law.tail ? &law.step[(law.head - 1) % STEPS_KEPT] : NULL;
-    if (law.is_classic || law.is_shaped || law.head - law.tail == STEPS_KEPT || (before == NULL && !law.is_first)) {
-        law.head = law.tail = 0;
-        law.is_first = false;
-        return;
-    }
-    step_t *step = &law.step[law.head % STEPS_KEPT];
-    memset(step, 0, sizeof *step);
-    step->place = place;
-    plan(step, before);
-    if (!law.is_sure || step->ticks + step->hold + MOMENTS > KEPT / STEPS_KEPT) {
-        law.head = law.tail = 0;
-        law.is_first = false;
-        return;
-    }
-    for (unsigned id = 0; id < JOINTS; id++) {
-        step->in[id] = before == NULL ? 0 : through(before, step, id);
-    }
-    law.is_first = false;
-    law.head++;
-    judge_done(false);
 }
 
 /* ---- events ---- */
@@ -390,11 +215,6 @@ static void play_begins(void)
     law.is_judged = !law.is_quiet && rules_is_well();
     law.knows_place = false;
     law.ended_tick = NEVER_TICK;
-    law.head = law.tail = 0;
-    law.rest = 0.5;
-    law.is_sure = true;
-    law.moments = (1u << MOMENTS) - 1u;
-    law.is_first = true;
 }
 
 static void take_answer(void)
@@ -615,11 +435,7 @@ void law_tick(void)
 {
     law.ticks++;
     memcpy(law.goal[law.ticks % KEPT], law.now, sizeof law.now);
-    if (law.is_judged) {
-        judge_done(false);
-    }
     if (law.ended_tick != NEVER_TICK && session.tick > law.ended_tick + LAST_COMES) {
-        judge_done(true);
         judge_no_more();
     }
     for (unsigned id = 0; id < JOINTS; id++) {

@@ -4,7 +4,7 @@
  *   main.c      reads the list of actions, runs the programs, reports the result
  *   world.c     the servos and the serial line; carries out actions
  *   rules.c     what must hold at every tick
- *   law.c       the exact law: every goal of an unshaped play
+ *   law.c       steps, links and approaches of unshaped plays; aims
  *   rest.c      what must not move: after a break, in a pause
  *   presses.c   which buttons are a press
  *   calls.c     the page that a play begins with
