@@ -120,7 +120,7 @@ async function atTheRobot(image: 'play' | 'edit', action: (bench: Bench) => Prom
         args: FLAGS,
     });
     try {
-        const person = await Visitor.come(browser, server.address, { hasPicture: image === 'play', hasPhysics: image === 'play' });
+        const person = await Visitor.come(browser, server.address, { hasPicture: false, hasPhysics: false });
         await person.untilStanding();
         await new Keyboard(person).enter('Menu');
         await new Keyboard(person).enter('Your robot …'); // the policy allows the port, so no chooser opens
