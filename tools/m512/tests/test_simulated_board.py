@@ -164,6 +164,7 @@ def test_put_asks_before_it_replaces_a_damaged_page(m512, started, tmp_path, the
 
 
 def test_sim_option_plays_without_a_robot(m512, motions):
+    motions.write_text(MOTIONS.replace("page 100 nod", "page 100 nod\n  repeat 20"))  # 4 s, so that a busy computer sees it play
     result = m512("play", "nod", "--sim", "--motions", motions, "--json")
     assert result.exit_code == 0, result.stderr
     assert "playing: page 100" in result.stderr and json.loads(result.stdout)["state"] == "idle"
