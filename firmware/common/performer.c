@@ -431,9 +431,8 @@ static void act_on(performer_t *performer, performer_verdict_t verdict, uint32_t
 {
     drop(performer, joint);
     if (verdict == WATCH_LIMP) {
-        servo_link_t *servos = performer->servos;
-        (void)servo_link_torque_off(servos, joint);
-        servos->torque |= joint & servos->silent;   /* so that a servo that comes back limp is still reported as faulty */
+        (void)servo_link_torque_off(performer->servos, joint);
+        servo_link_assume_on(performer->servos, joint);
         return;
     }
     performer->end_reason = PERFORMER_END_SERVO; /* used only during a play or move */
@@ -450,7 +449,7 @@ static void watch_computer(performer_t *performer)
     if (bus_was_lost()) {
         performer_event_put(&performer->events, PERFORMER_EV_BUS_LOST, 0, 0, 0);
         release(performer, SERVO_LINK_ALL);
-        performer->servos->torque = 0;   /* until a servo answers */
+        servo_link_assume_off(performer->servos);
     }
     if (system_is_asked_to_end()) {
         performer_break(performer);

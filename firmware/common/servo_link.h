@@ -53,7 +53,7 @@ typedef struct {
 /* Public fields are read only for callers. Small fields come first: the AVR accesses 64 bytes from a pointer on cheaply. */
 typedef struct {
     uint32_t present;         /* answered the last scan at 1 Mbps and is a joint (`endless`); includes silent servos */
-    uint32_t torque;          /* torque is on, as last commanded or read (performer.c sets it for a silent one) */
+    uint32_t torque;          /* torque is on, as last commanded or read (servo_link_assume_on) */
     uint32_t silent;          /* present, but silent now */
     uint32_t no_sync;         /* present, but deaf to SYNC WRITE: served by REG WRITE and ACTION */
     uint32_t no_reply;        /* present, but answers only READ (status return level 1) */
@@ -158,6 +158,18 @@ uint32_t servo_link_torque_on(servo_link_t *link, uint32_t ids);
 /* Switches torque off: first of all servos at once by SYNC WRITE, then of each by a WRITE, which servos confirm. Returns
  * those that did; the others also count as off until a poll reads otherwise. */
 uint32_t servo_link_torque_off(servo_link_t *link, uint32_t ids);
+
+/* Those of the servos that are silent count as on, so that one that comes back limp is reported as faulty. */
+static inline void servo_link_assume_on(servo_link_t *link, uint32_t ids)
+{
+    link->torque |= ids & link->silent;
+}
+
+/* The bus is gone: no servo counts as on until it answers. */
+static inline void servo_link_assume_off(servo_link_t *link)
+{
+    link->torque = 0;
+}
 
 /* Prepares a servo that is present for a goal every tick: switches torque on as above, reads its position, and sets the
  * moving speed to 0, which means full speed. A servo with a slow one may still be on its way (a single move): it stops where

@@ -55,7 +55,7 @@ uint8_t views_list(const shell_args_t *args)
             }
             used++;
             print_page_line(page, header);
-        } else if (!page_store_is_erased(page)) {
+        } else if (page_store_is_damaged(&the_play.pages, page)) {
             damaged++;
             text_padded(page, 3, ' ');
             TEXT(" damaged: ");
