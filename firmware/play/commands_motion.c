@@ -157,6 +157,15 @@ static uint32_t centre_joints(void)
     return shape_steps_of(source, page) != 0 ? player_first_pose(source, NULL, page, pose_pos) : 0;
 }
 
+/* A person is refused an amplitude that does nothing; a program gets OK. */
+static uint8_t check_amplitude(uint16_t percent, uint32_t joints)
+{
+    if (percent == SHAPE_NORMAL || requests_from_program() || (centre_joints() & joints) != 0) {
+        return REQUEST_OK;
+    }
+    return requests_refuse(REQUEST_ERR_IDLE, TEXT_P("None is a joint of the centre page: settings centre"));
+}
+
 uint8_t commands_do_amplitude(const shell_args_t *args)
 {
     uint32_t joints = SERVO_LINK_ALL;
@@ -166,11 +175,11 @@ uint8_t commands_do_amplitude(const shell_args_t *args)
             return status;
         }
     }
-    if (args->number[0] != SHAPE_NORMAL && !requests_from_program() && (centre_joints() & joints) == 0) {
-        return requests_refuse(REQUEST_ERR_IDLE, TEXT_P("None is a joint of the centre page: settings centre"));
+    const uint8_t status = check_amplitude(args->number[0], joints);
+    if (status == REQUEST_OK) {
+        shape_set_amplitude(&the_play.performer.shape, (uint8_t)args->number[0], joints);
     }
-    shape_set_amplitude(&the_play.performer.shape, (uint8_t)args->number[0], joints);
-    return REQUEST_OK;
+    return status;
 }
 
 uint8_t commands_do_blend(const shell_args_t *args)
@@ -186,8 +195,11 @@ uint8_t commands_do_drive(const shell_args_t *args)
     if (!shell_take(args, 3, RANGE_AMPLITUDE, &amplitude)) {
         return SHELL_ERR_RANGE;
     }
-    performer_drive(&the_play.performer, (int8_t)args->number[0], args->number[1], (uint8_t)amplitude);
-    return REQUEST_OK;
+    const uint8_t status = check_amplitude(amplitude, SERVO_LINK_ALL);
+    if (status == REQUEST_OK) {
+        performer_drive(&the_play.performer, (int8_t)args->number[0], args->number[1], (uint8_t)amplitude);
+    }
+    return status;
 }
 
 uint8_t commands_do_shape(const shell_args_t *args)

@@ -72,7 +72,9 @@ def test_amplitude_is_refused_to_a_person_where_nothing_can_be_scaled(centre):
     assert where(board)["amplitude"] == "100"
     assert ask(board, "@amplitude 60") == "@amplitude OK" and where(board)["amplitude"] == "60"
     assert ask(board, "amplitude 100") == " OK" and where(board)["amplitude"] == "100"
-    assert ask(board, "settings centre 1") == ask(board, "amplitude 60") == " OK"
+    assert ask(board, "drive 0 150 60") == "None is a joint of the centre page: settings centre" and where(board)["rate"] == "100"
+    assert ask(board, "drive 0 150 100") == " OK" and ask(board, "@drive 0 150 60") == "@drive OK"
+    assert ask(board, "settings centre 1") == ask(board, "amplitude 60") == ask(board, "drive 0 150 60") == " OK"
 
 
 def test_amplitude_is_refused_to_a_person_for_joints_that_the_centre_pose_does_not_use():
