@@ -95,17 +95,21 @@ flash_status_t journal_save(uint8_t motion_page, const uint8_t data[JOURNAL_TARG
 
     record_t record;
     uint8_t slot = find_newest(&record);
-    uint16_t sequence = slot == NO_SLOT ? 1u : record.sequence + 1u;
-    slot = (slot == NO_SLOT || slot == JOURNAL_SLOTS - 1) ? 0 : slot + 1;
-    record = (record_t){.magic = MAGIC, .sequence = sequence, .target = motion_page,
-                        .layout = LAYOUT, .state = STATE_PENDING};
-    record.content_crc = crc16_bytes(CRC16_START, data, JOURNAL_TARGET_BYTES);
-    record.record_crc = crc16_bytes(CRC16_START, &record, RECORD_CRC_BYTES);
-
-    flash_status_t status = write_data(slot_page(slot), data);
-    if (status == FLASH_OK) {
-        status = flash_write(slot_page(slot) + TARGET_PAGES, (const uint8_t *)&record, sizeof record);
-    }
+    uint16_t sequence = slot == NO_SLOT ? 0 : record.sequence;
+    flash_status_t status;
+    uint8_t slots_left = JOURNAL_SLOTS;
+    do { /* a slot that is worn out is left for the next one */
+        sequence++;
+        slot = slot >= JOURNAL_SLOTS - 1u ? 0 : (uint8_t)(slot + 1u);   /* also from NO_SLOT */
+        record = (record_t){.magic = MAGIC, .sequence = sequence, .target = motion_page,
+                            .layout = LAYOUT, .state = STATE_PENDING};
+        record.content_crc = crc16_bytes(CRC16_START, data, JOURNAL_TARGET_BYTES);
+        record.record_crc = crc16_bytes(CRC16_START, &record, RECORD_CRC_BYTES);
+        status = write_data(slot_page(slot), data);
+        if (status == FLASH_OK) {
+            status = flash_write(slot_page(slot) + TARGET_PAGES, (const uint8_t *)&record, sizeof record);
+        }
+    } while (status == FLASH_ERR_VERIFY && --slots_left != 0);
     if (status == FLASH_OK) {
         status = write_data(target, data);
     }

@@ -15,7 +15,7 @@
  *
  * The newest record is the one with the highest sequence (modulo 65536) among those whose own CRC is correct. Only that one
  * takes effect; older ones count as done, whatever their state. A save uses the slot after the newest, so every flash page
- * of the area is erased once in JOURNAL_SLOTS saves.
+ * of the area is erased once in JOURNAL_SLOTS saves. A slot that does not take what is written is passed over.
  * A power cut before the record is complete leaves an invalid record, hence the old page. Once the record is complete, the
  * next start finishes the target, however often the power fails meanwhile. */
 #ifndef JOURNAL_H
@@ -33,9 +33,11 @@
 #define JOURNAL_TARGET_BYTES 512u
 
 /* Replaces motion page `motion_page` (0..127). Call journal_recover once after start, before the first save.
- * Writes nothing if the page already holds `data`. At most 6 flash operations: five of 9 ms, the last one 4.5 ms.
+ * Writes nothing if the page already holds `data`. At most 6 flash operations: five of 9 ms, the last one 4.5 ms; up to
+ * three more of 9 ms for each slot that is worn out.
  * FLASH_ERR_RANGE, FLASH_ERR_NO_WRITER : nothing was touched
- * FLASH_ERR_VERIFY : the page is old, or undefined with a pending record that the next recovery carries out */
+ * FLASH_ERR_VERIFY : all slots are worn out, and the page is old; or its own flash is, and it is undefined, with a pending
+ *                    record that the next recovery carries out */
 MUST_CHECK flash_status_t journal_save(uint8_t motion_page, const uint8_t data[JOURNAL_TARGET_BYTES]);
 
 typedef enum {

@@ -107,6 +107,20 @@ static void test_a_flash_that_does_not_take_the_data_is_reported(void)
     TEST_ASSERT_EQUAL_MEMORY(new_page, target(PAGE), 512);
 }
 
+static void test_a_slot_that_is_worn_out_blocks_no_save(void)
+{
+    for (uint16_t worn = 0; worn < JOURNAL_SLOT_PAGES; worn++) {
+        setUp();
+        fake_flash_break((uint16_t)(MEM_JOURNAL_START / 256 + 3 * JOURNAL_SLOT_PAGES + worn), UINT8_MAX);
+        for (uint32_t i = 0; i < 4 * JOURNAL_SLOTS; i++) {
+            fill(new_page, i);
+            TEST_ASSERT_EQUAL(FLASH_OK, journal_save(PAGE, new_page));
+            TEST_ASSERT_EQUAL_MEMORY(new_page, target(PAGE), 512);
+            TEST_ASSERT_FALSE(journal_is_pending());
+        }
+    }
+}
+
 /* Cuts a save at operation `op`. Returns true if the cut came before the end of the save. */
 static bool save_is_cut(uint32_t op, fake_flash_phase_t phase, uint32_t seed)
 {
@@ -136,6 +150,26 @@ static bool recovery_is_cut(uint32_t op, fake_flash_phase_t phase, uint32_t seed
 static bool is_old_or_new(void)
 {
     return memcmp(target(PAGE), old_page, 512) == 0 || memcmp(target(PAGE), new_page, 512) == 0;
+}
+
+/* The first slot is worn out: the save takes the second one. */
+static void test_power_cut_beside_a_worn_slot_leaves_the_old_page_or_the_new_one(void)
+{
+    for (uint32_t op = 1, cuts = 0;; op++) {
+        for (int phase = FAKE_FLASH_BEFORE; phase <= FAKE_FLASH_AFTER; phase++) {
+            setUp();
+            fake_flash_break((uint16_t)(MEM_JOURNAL_START / 256 + op % JOURNAL_SLOT_PAGES), UINT8_MAX);
+            if (!save_is_cut(op, (fake_flash_phase_t)phase, op)) {
+                TEST_ASSERT_GREATER_THAN_UINT32(3 * 11, cuts);
+                return;
+            }
+            cuts++;
+            TEST_ASSERT_FALSE(recovery_is_cut(0, FAKE_FLASH_BEFORE, 0));
+            TEST_ASSERT_TRUE(is_old_or_new());
+            TEST_ASSERT_EQUAL(FLASH_OK, journal_save(PAGE, new_page));
+            TEST_ASSERT_EQUAL_MEMORY(new_page, target(PAGE), 512);
+        }
+    }
 }
 
 /* The page is old or new, nothing else has changed, and the next save works. */
