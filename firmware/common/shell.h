@@ -141,7 +141,7 @@ enum {
     SHELL_ERR_LOSSY = 250,   /* bytes of the line were lost: shell_print_refusal */
     SHELL_ERR_LONG,          /* the line is too long: shell_print_refusal */
     SHELL_ERR_MOVING,  /* not while something moves. This one and the next three print nothing */
-    SHELL_ERR_RANGE,         /* not a number, or out of range: shell_print_range_error */
+    SHELL_ERR_RANGE,         /* shell_take returned false, just now: so shell_print_range_error prints that range */
     SHELL_ERR_UNKNOWN,       /* no such word */
     SHELL_ERR_COUNT          /* too few or too many words */
 };

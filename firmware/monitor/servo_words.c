@@ -24,27 +24,26 @@ static uint8_t send(uint8_t instruction, uint8_t count)
     return SHELL_OK;
 }
 
-/* Takes all words as parameters. Returns their number; 0: too many, or one is not a byte (SHELL_ERR_RANGE). */
+/* Takes all words as parameters. SHELL_ERR_COUNT: too many; SHELL_ERR_RANGE: one is not a byte. */
 static uint8_t take_bytes(const shell_args_t *args)
 {
-    uint8_t count = (uint8_t)(args->count - 1u);
-    if (count > PARAMS_MAX) {
-        return 0;
+    if (args->count > 1 + PARAMS_MAX) {
+        return SHELL_ERR_COUNT;
     }
-    for (uint8_t i = 0; i < count; i++) {
+    for (uint8_t i = 1; i < args->count; i++) {
         uint16_t byte;
-        if (!shell_take(args, i + 1u, RANGE_BYTE, &byte)) {
-            return 0;
+        if (!shell_take(args, i, RANGE_BYTE, &byte)) {
+            return SHELL_ERR_RANGE;
         }
-        packets_params()[i] = (uint8_t)byte;
+        packets_params()[i - 1] = (uint8_t)byte;
     }
-    return count;
+    return SHELL_OK;
 }
 
 static uint8_t send_bytes(const shell_args_t *args, uint8_t instruction)
 {
-    uint8_t count = take_bytes(args);
-    return count == 0 ? SHELL_ERR_RANGE : send(instruction, count);
+    const uint8_t result = take_bytes(args);
+    return result == SHELL_OK ? send(instruction, args->count - 1u) : result;
 }
 
 /* Writes the line's number to one address. */
@@ -181,7 +180,10 @@ WORD(servo_words_reset)
 /* swr address count, then for each servo its ID and `count` bytes. */
 WORD(servo_words_sync_write)
 {
-    uint8_t count = take_bytes(args), each = packets_params()[1];
+    const uint8_t result = take_bytes(args), count = args->count - 1u, each = packets_params()[1];
+    if (result != SHELL_OK) {
+        return result;
+    }
     if (count < 4 || each == 0 || (uint16_t)(count - 2) % (uint16_t)(each + 1) != 0) {
         return packets_say(TEXT_P("SWR address count id byte .. id byte .."));
     }
