@@ -77,6 +77,12 @@ static void change_byte(uint16_t address, uint8_t bits)
     mark_byte(address);
 }
 
+static void drop_spare(void)
+{
+    the_session.undo_reloads = false;
+    the_session.spare_for = SESSION_SPARE_NONE;
+}
+
 /* Copies the page to the spare page before the first change of an edit. An edit that changes nothing keeps the spare page
  * and what it can undo. */
 static void take_spare(void)
@@ -85,8 +91,7 @@ static void take_spare(void)
         return;
     }
     the_session.is_begun = false;
-    the_session.undo_reloads = false;
-    the_session.spare_for = SESSION_SPARE_NONE;
+    drop_spare();
     if (the_session.spare != NULL) {
         memcpy(the_session.spare, the_session.cells, PAGE_BYTES);
     }
@@ -198,6 +203,13 @@ void session_clear(void)
     fill(0, true);
 }
 
+/* The page has other contents now, from outside: no earlier edit can be undone in them. */
+static void forget_edits(void)
+{
+    undo_clear(&the_session.undo);
+    drop_spare();
+}
+
 void session_open(uint8_t page)
 {
     if ((page == 0) != (the_session.page == 0)) {
@@ -207,9 +219,7 @@ void session_open(uint8_t page)
     }
     the_session.page = page;
     session_load(page);
-    undo_clear(&the_session.undo);
-    the_session.undo_reloads = false;
-    the_session.spare_for = SESSION_SPARE_NONE;
+    forget_edits();
     the_session.is_changed = false;
     session_mark(CELL_X_HEADER, CELL_Y_NUMBER);
     session_mark(CELL_X_HEADER, CELL_Y_ADDRESS);
@@ -218,7 +228,6 @@ void session_open(uint8_t page)
 void session_init(void)
 {
     memset(&the_session, 0, sizeof the_session);
-    undo_clear(&the_session.undo);
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         session_set_pose(joint, PAGE_POS_UNUSED);
     }
@@ -235,7 +244,7 @@ void session_saved(void)
 
 void session_replaced(void)
 {
-    undo_clear(&the_session.undo);
+    forget_edits();
     session_mark_all();
     the_session.is_changed = differs_from_flash();
 }

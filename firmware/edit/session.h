@@ -102,7 +102,7 @@ bool session_is_empty(uint8_t page);
 /* Call after the page was written to flash. */
 void session_saved(void);
 
-/* Call after bytes of the page were changed from outside: empties the undo history. */
+/* Call after bytes of the page were changed from outside: no edit before can be undone or redone. */
 void session_replaced(void);
 
 /* Mark a cell, all cells, the labels of all joints. */

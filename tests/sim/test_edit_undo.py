@@ -115,6 +115,20 @@ def test_an_edit_that_changes_nothing_keeps_undo_and_redo(r, nothing):
     assert not r.unsaved
 
 
+@pytest.mark.parametrize("lines", [["new"], ["new", "undo"], ["new", "play 3"], ["new", "undo", "play 3"]])
+def test_what_a_program_has_written_stays(r, lines):
+    """PROTOCOL.md: UNDO does not undo edits made with @data, nor those before them. The spare page is dropped as well."""
+    edit(r, *lines)
+    if "play" in lines[-1]:
+        r.keys("", ms=3000)
+    r.line("@data 0 50524F4700", ms=300)
+    after = ram_page(r)
+    assert after[:5] == b"PROG\0"
+    r.line("re", ms=1500)
+    for word in ("undo", "redo"):
+        assert r.line(word).endswith(f"Nothing to {word}") and ram_page(r) == after
+
+
 def test_a_new_edit_ends_what_could_be_redone(r):
     edit(r, "goto 1 1", "set 5", "set 6", "undo", "set 7")
     assert r.line("redo").endswith("Nothing to redo")
