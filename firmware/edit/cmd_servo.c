@@ -25,10 +25,8 @@ COMMAND(cmd_go)
     if (step >= the_session.cells[PAGE_AT_STEPS] && !dialog_ask(TEXT_P("That step is not used. "))) {
         return DIALOG_TO_ASK;
     }
-    uint8_t words[PAGE_STEP_BYTES];
-    memcpy(words, &the_session.cells[session_step_at(step)], sizeof words);
     the_session.go_step = step;
-    send_step(words);
+    send_step(&the_session.cells[session_step_at(step)]);
     return SHELL_OK;
 }
 

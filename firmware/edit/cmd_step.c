@@ -2,7 +2,6 @@
  * cmd_step.c - commands for whole steps: count, write, insert, delete, copy, swap, take, paste. */
 #include "commands.h"
 
-#include <string.h>
 #include "crc16.h"
 #include "pgm.h"
 #include "report.h"
@@ -66,8 +65,10 @@ static void update_trim(uint8_t step)
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         session_update_trim(joint);
     }
-    the_screen.lead = true;
-    TEXT("Offset Updated");
+    if (!the_session.is_begun) {
+        the_screen.lead = true;
+        TEXT("Offset Updated");
+    }
 }
 
 /* Writes the work pose to a step. Joints without torque are written as ????, with a message, because it is rarely intended.
@@ -75,17 +76,19 @@ static void update_trim(uint8_t step)
 static void write_pose(uint8_t step)
 {
     uint32_t off = 0;
-    copy_step(POSE_STEP, step);
-    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        if (!cell_is_off(session_pose(joint))) {
-            continue;
+    uint16_t at = session_step_at(step);
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++, at += 2u) {
+        uint16_t word = session_pose(joint);
+        if (cell_is_off(word)) {
+            if (robot_has(joint)) {
+                servo_link_put(&off, joint, true);
+            } else {
+                word = PAGE_POS_UNUSED;
+            }
         }
-        if (robot_has(joint)) {
-            servo_link_put(&off, joint, true);
-        } else {
-            session_set_word((uint16_t)(session_step_at(step) + 2u * joint), PAGE_POS_UNUSED);
-        }
+        session_set_word(at, word);
     }
+    session_set_word(at, cell_word(the_session.cells, CELLS_POSE_AT + PAGE_STEP_AT_PAUSE));   /* pause and speed */
     the_robot.failed |= the_servos.silent;   /* their last known positions are written */
     if (off != 0) {
         the_screen.lead = true;
@@ -133,7 +136,7 @@ COMMAND(cmd_insert)
         set_count(steps + 1u);
     }
     write_pose(step);
-    if (steps >= PAGE_STEPS) {
+    if (steps >= PAGE_STEPS && !the_session.is_begun) {
         the_screen.lead = true;
         TEXT("Step 6 fell out: UNDO");
     }
@@ -188,21 +191,16 @@ COMMAND(cmd_move)
     }
     the_screen.lead = false;
     print_pair(from, to);
-    session_begin();
-    copy_step(from, to);
-    if (to == POSE_STEP) {
+    if (to == POSE_STEP) {   /* no edit of the page */
+        copy_step(from, to);
         TEXT(" (shown only)");
         session_mark_labels();
-    } else {
-        the_screen.lead = true;
-        update_trim(to);
+        return SHELL_OK;
     }
+    session_begin();
+    copy_step(from, to);
+    update_trim(to);
     return dialog_edited();
-}
-
-static bool are_equal(uint8_t a, uint8_t b)
-{
-    return memcmp(&the_session.cells[session_step_at(a)], &the_session.cells[session_step_at(b)], PAGE_STEP_BYTES) == 0;
 }
 
 COMMAND(cmd_swap)
@@ -213,9 +211,6 @@ COMMAND(cmd_swap)
     const uint8_t a = (uint8_t)args->number[0], b = (uint8_t)args->number[1], steps = the_session.cells[PAGE_AT_STEPS];
     if (a >= steps || b >= steps) {
         return refuse_unused();
-    }
-    if (are_equal(a, b)) {
-        return SHELL_OK;   /* no edit, so REDO stays */
     }
     session_begin_turn(UNDO_TURN(UNDO_TURN_SWAP, a, b));
     return dialog_edited();

@@ -98,9 +98,11 @@ uint8_t dialog_refuse(const char *sentence_P)
 
 uint8_t dialog_edited(void)
 {
-    if (!session_end()) {
+    const bool is_same = the_session.is_begun;
+    const bool is_kept = session_end();
+    if (is_same || !is_kept) {
         the_screen.lead = true;
-        TEXT("This cannot be undone");
+        text_P(is_same ? TEXT_P("No change") : TEXT_P("This cannot be undone"));
     }
     return SHELL_OK;
 }

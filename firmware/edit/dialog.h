@@ -78,7 +78,7 @@ uint8_t dialog_list(dialog_item_t item, const char *title_P);
 /* Prints why a command is refused. Returns SHELL_ERR_REPORTED. */
 uint8_t dialog_refuse(const char *sentence_P);
 
-/* Ends an editing command; prints a message if it cannot be undone. Returns SHELL_OK. */
+/* Ends an editing command; prints a message if it has changed nothing or cannot be undone. Returns SHELL_OK. */
 uint8_t dialog_edited(void);
 
 /* Prints a message about these joints: "No answer: ID 5-7"; nothing if there are none. */

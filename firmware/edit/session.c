@@ -184,10 +184,13 @@ static bool differs_from_flash(void)
     return false;
 }
 
+/* In an edit, the checksum alone is no change: the next save sets it anyway. */
 static void fill(uint8_t from, bool erased)
 {
     for (uint16_t offset = 0; offset < PAGE_BYTES; offset++) {
-        session_set_byte(offset, stored_byte(from, erased, offset));
+        if (offset != PAGE_AT_CHECKSUM || !the_session.is_begun) {
+            session_set_byte(offset, stored_byte(from, erased, offset));
+        }
     }
     the_session.was_damaged = !erased && page_store_look(from) == PAGE_ERR_CHECKSUM;
     the_session.go_step = SESSION_NO_STEP;
@@ -320,16 +323,11 @@ void session_move(session_way_t way)
  * Small changes are recorded (undo.h). A larger one is undone from the spare page, a copy of the previous page, until a
  * play needs that memory. */
 
-static void begin(uint8_t turn)
+void session_begin(void)
 {
     the_session.was_changed = the_session.is_changed;
     the_session.is_begun = true;
-    undo_begin(&the_session.undo, turn);
-}
-
-void session_begin(void)
-{
-    begin(UNDO_TURN_NONE);
+    undo_begin(&the_session.undo, UNDO_TURN_NONE);
 }
 
 static uint16_t crc_of_spare(void)
@@ -382,6 +380,7 @@ static void swap_steps(uint8_t a, uint8_t b)
     for (uint8_t i = 0; i < PAGE_STEP_BYTES; i++, at_a++, at_b++) {
         uint8_t bits = the_session.cells[at_a] ^ the_session.cells[at_b];
         if (bits != 0) {
+            take_spare();
             change_byte(at_a, bits);
             change_byte(at_b, bits);
         }
@@ -415,9 +414,11 @@ static void turn_steps(uint8_t turn, bool back)
 
 void session_begin_turn(uint8_t turn)
 {
-    begin(turn);
-    take_spare();
+    session_begin();
     turn_steps(turn, false);
+    if (!the_session.is_begun) {   /* equal steps: nothing has turned */
+        undo_begin(&the_session.undo, turn);
+    }
 }
 
 static bool travel(bool back)

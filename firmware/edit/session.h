@@ -53,7 +53,8 @@ void session_init(void);
  * only the cells that differ. An erased page opens as a new one. */
 void session_open(uint8_t page);
 
-/* An editing command is session_begin, any number of session_set..., session_end. */
+/* An editing command is session_begin, any number of session_set..., session_end. It sets no byte twice, so is_begun tells
+ * until session_end whether it has changed anything. One that has not is no edit: what UNDO and REDO can do stays. */
 void session_begin(void);
 void session_set_byte(uint16_t address, uint8_t byte);
 void session_set_word(uint16_t address, uint16_t word);

@@ -179,7 +179,7 @@ def test_two_pages_of_one_name_are_told():
         r.line("name Third")
         assert r.line("save") == "save OK"
         assert r.line("save 5") == "save 5 OK Page 1 has this name too"
-        assert r.line("copy 1") == "copy 1 Page 5 has this name too"
+        assert r.line("copy 1") == "copy 1 Page 5 has this name too No change"
         r.line("page 0")
         assert r.flash_page(0)[0] in (0, 0xFF)  # no name, like other pages; that does not count as a common name
         r.line("goto 1 1")

@@ -103,16 +103,49 @@ def test_the_last_eight_commands_come_back_one_by_one(r):
     r.line("off")
 
 
-@pytest.mark.parametrize("nothing", ["swap 2 2", "swap 0 1", "move 2 2", "step 7", "name big 4"])
-def test_an_edit_that_changes_nothing_keeps_undo_and_redo(r, nothing):
-    edit(r, "page 4", "move 0 1", "goto 9 4", "set 5")
+NOTHING = ["swap 2 2", "swap 0 1", "move 2 2", "step 7", "name twice", "set 5", "time", "write 6", "insert 6", "insert 4", "paste 1", "paste 2"]
+
+
+@pytest.mark.parametrize("nothing", NOTHING)
+def test_an_edit_that_changes_nothing_says_so_and_keeps_undo_and_redo(r, nothing):
+    """Steps 0 and 1 are equal, steps 4 to 6 are the pose of the robot."""
+    edit(r, "page 4", "on", "move 0 1", "write 4", "write 5", "write 6", "name twice", "goto 9 4", "set 5")
+    if nothing.startswith("paste"):
+        edit(r, "save", f"take {nothing[-1]}", "set 6", "set 5")
     before = ram_page(r)
-    edit(r, "set 6", "undo", nothing)
+    edit(r, "set 6", "undo")
+    assert r.line(nothing).endswith(" No change")
     assert ram_page(r) == before
     edit(r, "redo")
     assert ram_page(r) != before
-    edit(r, "undo", nothing, "undo", "undo")
-    assert not r.unsaved
+    edit(r, "undo", nothing, "redo", "undo", "undo")
+    assert ram_page(r) != before
+    edit(r, "redo")
+    assert ram_page(r) == before
+    r.line("off")
+
+
+@pytest.mark.parametrize("nothing", ["new", "copy 9"])
+def test_a_whole_page_that_is_the_same_already_is_no_edit(r, nothing):
+    edit(r, "page 8", nothing, "save", "step 3", "undo")
+    r.line(nothing)
+    if "[y/N]" in r.command:
+        r.keys("y")
+    assert r.command.endswith("No change") and not r.unsaved
+    edit(r, "redo")
+    assert r.unsaved
+
+
+def test_a_joint_that_is_not_there_does_not_make_an_edit_of_a_write(r):
+    """A ???? of an absent joint is stored as not used, which it is already."""
+    edit(r, "page 4", "on", "goto 0 20", "write 6", "name some", "undo")
+    r.keys(" ")
+    assert r.cell(0, 20) == "????" and r.cell(7, 20) == "----"
+    assert r.line("write 6") == "write 6 No change"
+    edit(r, "redo")
+    assert r.line("redo").endswith("Nothing to redo")
+    r.keys(" ")
+    r.line("off")
 
 
 @pytest.mark.parametrize("lines", [["new"], ["new", "undo"], ["new", "play 3"], ["new", "undo", "play 3"]])
