@@ -252,7 +252,7 @@ COMMAND(cmd_take)
 
 COMMAND(cmd_paste)
 {
-    uint8_t to = session_steps();
+    const uint8_t steps = session_steps();
     if (is_trim_page()) {
         return SHELL_ERR_REPORTED;
     }
@@ -260,15 +260,16 @@ COMMAND(cmd_paste)
     if (the_dialog.take_crc != crc_of_noted()) {   /* also if nothing was ever noted */
         return dialog_refuse(TEXT_P("Nothing noted, or it has changed: TAKE first"));
     }
-    if (args->count > 1) {
-        to = (uint8_t)args->number[0];
-    }
+    const uint8_t to = args->count > 1 ? (uint8_t)args->number[0] : steps;
     const uint8_t end = (uint8_t)(to + count);
     if (end > PAGE_STEPS) {
         return dialog_refuse(TEXT_P("No room: 7 steps at most"));
     }
+    if (to > steps) {   /* the empty steps between would be played, too */
+        return refuse_unused();
+    }
     session_begin();
-    if (end > the_session.cells[PAGE_AT_STEPS]) {
+    if (end > steps) {
         set_count(end);
     }
     /* Copies upwards or downwards, so that overlapping steps of a page are read before they are overwritten. */

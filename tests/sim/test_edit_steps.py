@@ -143,6 +143,15 @@ def test_take_and_paste_between_pages(r):
     assert r.line("paste 6") == "paste 6 No room: 7 steps at most"
 
 
+def test_paste_leaves_no_empty_steps_before_the_pasted_ones(r):
+    r.line("take 0")
+    before = bytes_of(r)
+    assert before[20] == 3 and r.line("paste 4") == "paste 4 That step is not used"
+    assert bytes_of(r) == before
+    r.line("paste 3")
+    assert bytes_of(r)[20] == 4
+
+
 def test_paste_within_a_page_reads_before_it_writes(r):
     r.line("take 0 2")
     r.line("paste 1")
