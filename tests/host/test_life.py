@@ -68,6 +68,36 @@ def test_ctrl_c_slows_down_first_and_leaves_torque_as_it_was_unless_told(make, f
     assert ("is off" if off else "go on holding it") in robot.said.decode()
 
 
+def is_off_at_the_end(robot, begun):
+    """Whether the frames from `begun` on end with a standstill, and all torque was switched off after them."""
+    switched = [packet[2] for packet in robot.packets(WRITE) if packet[5] == TORQUE and packet[6] == 0]
+    return steps(robot.frames()[begun:])[-1] <= 1 and switched == [EVERYBODY] * 2
+
+
+def test_signals_at_once_are_one_wish(make, files):
+    """`timeout` sends its signal to the program, then to the group."""
+    robot = make(motions=files, arguments=["--off"]).run()
+    play(robot)
+    begun = len(robot.frames())
+    until(lambda: len(robot.frames()) > begun + 150, "no goals")
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        robot.process.send_signal(number)
+    assert robot.stop() == 0 and is_off_at_the_end(robot, begun)
+
+
+def test_a_second_wish_ends_at_once(make, tmp_path):
+    """Its play takes a second to slow down."""
+    image = Image.empty()
+    image[2] = page("slow", [(255, {1: 700}), (255, {1: 324})], next=2, accel=200)
+    (tmp_path / "slow.bin").write_bytes(image.to_bytes())
+    robot = make(motions=tmp_path / "slow.bin", arguments=["--off"]).run()
+    play(robot)
+    robot.process.send_signal(signal.SIGINT)
+    time.sleep(0.3)
+    assert robot.stop() == 130 and "asked twice" in robot.said.decode()
+    assert not is_off_at_the_end(robot, 0)
+
+
 def test_a_second_program_is_refused_port_and_folder(make, files, tmp_path):
     robot = make(motions=files).run()
     robot.expect("] ")
@@ -253,14 +283,17 @@ def test_the_end_of_a_pipe_ends_a_play_softly(make, files):
 class Terminal:
     """The program on its own terminal."""
 
-    def __init__(self, robot, image="play"):
+    def __init__(self, robot, image="play", arguments=(), owned=False):
+        """owned: the terminal is the program's own, so that it is told when the terminal goes."""
         self.master, self.slave = pty.openpty()
         self.before, self.shown = termios.tcgetattr(self.slave), b""
         self.process = subprocess.Popen(
-            [program(image), "--robot", robot.folder / "robot", "--motions", robot.motions, robot.port],
+            [program(image), "--robot", robot.folder / "robot", "--motions", robot.motions, *arguments, robot.port],
             stdin=self.slave,
             stdout=self.slave,
             stderr=self.slave,
+            start_new_session=owned,
+            preexec_fn=(lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0)) if owned else None,
         )
 
     def expect(self, text):
@@ -283,12 +316,18 @@ class Terminal:
         until(look, lambda: f"it goes on: {self.shown!r}")
         return self.process.returncode
 
+    def hang_up(self):
+        """Closes it, as a window or ssh does."""
+        for end in (self.master, self.slave):
+            if end is not None:
+                os.close(end)
+        self.master = self.slave = None
+
     def close(self):
         if self.process.poll() is None:
             self.process.kill()
         self.process.wait()
-        os.close(self.master)
-        os.close(self.slave)
+        self.hang_up()
 
 
 @pytest.fixture
@@ -326,6 +365,22 @@ def test_keys_are_buttons_of_the_panel(terminal):
     terminal.expect("Stopped after page 1")
     terminal.send(b"\x03")
     assert terminal.ended() == 0
+
+
+@pytest.mark.parametrize("wishes", [b"", b"\x03", b"\x03\x03"])
+def test_a_closed_terminal_is_no_second_wish(make, files, wishes):
+    """The signal and the end of input are one event, and nobody pressed anything."""
+    robot = make(motions=files)
+    terminal = Terminal(robot, arguments=["--off"], owned=True)
+    terminal.expect("] ")
+    terminal.send(b"play 2\r")
+    terminal.expect("repetition 1")
+    begun = len(robot.frames())
+    until(lambda: len(robot.frames()) > begun + 150, "no goals")
+    terminal.send(wishes)
+    terminal.hang_up()
+    until(lambda: terminal.process.poll() is not None, "it goes on")
+    assert terminal.process.returncode == 0 and is_off_at_the_end(robot, begun)
 
 
 @pytest.fixture

@@ -17,9 +17,12 @@
 #include "pc.h"
 
 enum { EXIT_HUNG = 70, EXIT_ASKED_TWICE = 130 };
+#define MS 2000u
+#define ONE_WISH_MS 100u   /* `timeout` signals twice, a shell a whole group; no person presses Ctrl-C again so fast */
 #define WATCH_SECONDS 1
 
 static volatile sig_atomic_t asked_to_end;
+static volatile sig_atomic_t asked_ms;   /* when; wraps */
 static volatile sig_atomic_t seen_alive = 1;
 static volatile sig_atomic_t silent_seconds;
 
@@ -78,16 +81,29 @@ static void say_and_leave(const char *sentence, int code)
 
 void machine_ask_to_end(void)
 {
-    if (asked_to_end) {
+    const uint32_t now_ms = (uint32_t)(machine_now() / MS);
+    if (!asked_to_end) {
+        asked_ms = (sig_atomic_t)now_ms;
+        asked_to_end = 1;
+    } else if (now_ms - (uint32_t)asked_ms > ONE_WISH_MS) {
         say_and_leave("\r\nEnded at once, as you asked twice. The servos hold their last goals.\r\n", EXIT_ASKED_TWICE);
     }
-    asked_to_end = 1;
+}
+
+void machine_lose_terminal(void)
+{
+    if (!asked_to_end) {
+        machine_ask_to_end();
+    }
 }
 
 static void on_end(int number)
 {
-    (void)number;
-    machine_ask_to_end();
+    if (number == SIGHUP) {
+        machine_lose_terminal();
+    } else {
+        machine_ask_to_end();
+    }
 }
 
 /* Runs once per second. A computer that slept wakes up with one such signal, so only two in a row count. */

@@ -47,6 +47,7 @@ bool terminal_has_ended(void);                 /* no input will come: the pipe i
 void files_open(void);
 
 /* machine.c */
-void machine_ask_to_end(void);                 /* like Ctrl-C */
+void machine_ask_to_end(void);                 /* like Ctrl-C: again, 0.1 s later or more, ends at once */
+void machine_lose_terminal(void);              /* asks too, but never as a second wish: nobody pressed anything */
 
 #endif

@@ -182,7 +182,7 @@ static void take_client(void)
     }
 }
 
-/* Handles the end of input. A terminal that is gone ends the program at once, a pipe when its lines are carried out
+/* Handles the end of input. A terminal that is gone ends the program like Ctrl-C, a pipe when its lines are carried out
  * (machine_is_asked_to_end); a socket waits for the next client. */
 static void lose_input(void)
 {
@@ -193,7 +193,7 @@ static void lose_input(void)
         console.in = -1;
         console.has_ended = true;
         if (console.is_terminal) {
-            machine_ask_to_end();
+            machine_lose_terminal();
         }
     }
 }
