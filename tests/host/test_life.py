@@ -214,6 +214,19 @@ def test_what_is_no_port_is_named(tmp_path, word, code, text):
     assert word is None or word in asked.stderr
 
 
+@pytest.mark.parametrize("number", ["70000", "65536", "0", "-5", "+5", " 5", "4513x", "0x1", "abc", "", "99999999999999999999"])
+@pytest.mark.parametrize("option, range", [("--tcp", "1..65535"), ("--rate", "9600..3000000")])
+def test_a_number_of_an_option_is_checked(number, option, range):
+    if (option, number) not in (("--rate", "70000"), ("--rate", "65536")):
+        asked = subprocess.run([program("play"), f"{option}={number}", "/dev/null"], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+        assert asked.returncode == 2 and f"{option} {number}: {range}" in asked.stderr
+
+
+def test_there_is_one_console():
+    asked = subprocess.run([program("play"), "--pty", "--tcp=4514", "/dev/null"], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    assert asked.returncode == 2 and "--pty and --tcp: one console only" in asked.stderr
+
+
 def test_settings_and_pages_are_there_the_next_time(make, files):
     robot = make(motions=files).run()
     robot.expect("] ")

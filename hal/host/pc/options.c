@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { EXIT_USAGE = 2, TCP_PORT = 4512, RATE_MIN = 9600, RATE_MAX = 3000000 };
+enum { EXIT_USAGE = 2, TCP_PORT = 4512, TCP_MIN = 1, TCP_MAX = 65535, RATE_MIN = 9600, RATE_MAX = 3000000 };
 
 pc_options_t pc_options = {.name = "motion512", .rate_bps = 1000000};
 
@@ -22,15 +22,16 @@ static const char help[] =
     "  --tcp[=NUMBER]     the console is a socket on 127.0.0.1 (%d)\n"
     "  --off              switch the torque of all servos off at the end\n";
 
-static uint32_t rate_of(const char *word)
+/* The number of an option: decimal digits and nothing else. */
+static int number_of(const char *option, const char *word, int min, int max, const char *unit)
 {
     char *end;
-    const long rate = strtol(word, &end, 10);
-    if (*end != '\0' || rate < RATE_MIN || rate > RATE_MAX) {
-        fprintf(stderr, "%s: --rate %s: %d..%d bits a second\n", pc_options.name, word, RATE_MIN, RATE_MAX);
+    const long number = strtol(word, &end, 10);   /* too many digits: LONG_MAX */
+    if (word[0] < '0' || word[0] > '9' || *end != '\0' || number < min || number > max) {
+        fprintf(stderr, "%s: %s %s: %d..%d%s\n", pc_options.name, option, word, min, max, unit);
         exit(EXIT_USAGE);
     }
-    return (uint32_t)rate;
+    return (int)number;
 }
 
 void pc_read_options(int argc, char **argv)
@@ -47,16 +48,25 @@ void pc_read_options(int argc, char **argv)
         pc_options.name = slash != NULL ? slash + 1 : argv[0];
     }
     for (int option; (option = getopt_long(argc, argv, "h", options, NULL)) != -1;) {
+        const char *word = optarg != NULL ? optarg : "";
         switch (option) {
-        case 'b': pc_options.rate_bps = rate_of(optarg != NULL ? optarg : ""); break;
+        case 'b':
+            pc_options.rate_bps = (uint32_t)number_of("--rate", word, RATE_MIN, RATE_MAX, " bits a second");
+            break;
         case 'r': pc_options.robot = optarg; break;
         case 'm': pc_options.motions = optarg; break;
-        case 'p': pc_options.pty_link = optarg != NULL ? optarg : ""; break;
-        case 't': pc_options.tcp_port = optarg != NULL ? atoi(optarg) : TCP_PORT; break;
+        case 'p': pc_options.pty_link = word; break;
+        case 't':
+            pc_options.tcp_port = optarg != NULL ? number_of("--tcp", word, TCP_MIN, TCP_MAX, "") : TCP_PORT;
+            break;
         case 'o': pc_options.off = true; break;
         case 'h': printf(help, pc_options.name, TCP_PORT); exit(EXIT_SUCCESS);
         default: exit(EXIT_USAGE);
         }
+    }
+    if (pc_options.pty_link != NULL && pc_options.tcp_port != 0) {
+        fprintf(stderr, "%s: --pty and --tcp: one console only\n", pc_options.name);
+        exit(EXIT_USAGE);
     }
     if (optind != argc - 1) {
         fprintf(stderr, help, pc_options.name, TCP_PORT);
