@@ -5,6 +5,7 @@ import fcntl
 import os
 import pty
 import re
+import resource
 import select
 import signal
 import subprocess
@@ -225,6 +226,21 @@ def test_a_number_of_an_option_is_checked(number, option, range):
 def test_there_is_one_console():
     asked = subprocess.run([program("play"), "--pty", "--tcp=4514", "/dev/null"], stdin=subprocess.DEVNULL, capture_output=True, text=True)
     assert asked.returncode == 2 and "--pty and --tcp: one console only" in asked.stderr
+
+
+def test_a_full_disk_keeps_no_half_file(make, files, tmp_path):
+    robot = make(motions=files)
+    command = [program("play"), "--robot", tmp_path / "robot", robot.port]
+    asked = subprocess.run(
+        command,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        restore_signals=False,  # SIGXFSZ stays ignored
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (100000, 100000)),
+    )
+    assert asked.returncode == 4 and "pages.bin: cannot be written: File too large" in asked.stderr
+    assert list((tmp_path / "robot").iterdir()) == []
 
 
 def test_settings_and_pages_are_there_the_next_time(make, files):

@@ -94,7 +94,9 @@ static int make_file(const char *name, const uint8_t *bytes, uint32_t count)
     const int parent = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (file < 0 || parent < 0 || !write_all(file, bytes, count, 0) || fsync(file) != 0 || rename(temporary, path) != 0
         || fsync(parent) != 0) {
-        pc_fail(EXIT_FILE, "%s: cannot be written: %s", path, strerror(errno));
+        const int why = errno;
+        (void)unlink(temporary);   /* it would fill a full disk */
+        pc_fail(EXIT_FILE, "%s: cannot be written: %s", path, strerror(why));
     }
     close(parent);
     return file;
