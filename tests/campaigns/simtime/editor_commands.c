@@ -29,7 +29,7 @@ void editor_edit_ends(void)
         editor.can_undo = true;
         editor.can_redo = editor.is_key_edit = false;
     } else {
-        editor.can_undo = editor.can_redo = false;   /* whether that counts as an edit is left open */
+        editor.can_undo = editor.can_redo = false;   /* no edit, unless a cell that is not known has changed */
     }
 }
 
