@@ -26,6 +26,7 @@ from m512.board.factory_flash import LAST_START
 from m512.board.memory import APP, BOOT, RECORD_AT, Record
 from m512.crc16 import crc16
 from m512.errors import BoardError, RefusedError
+from m512.files import formats
 from m512.files.image import Image
 from m512.files.page import EMPTY
 from m512.files.text import read_text
@@ -395,6 +396,22 @@ def test_only_a_transfer_that_broke_off_goes_on_where_it_stopped(m512, motions):
         peer.cut_after = peer.moved + 100
         broken = m512("pages", peer.path, "list")
         assert broken.exit_code == 6 and broken.stderr.strip().endswith("then repeat the command"), broken.stderr
+
+
+def test_ctrl_c_in_a_transfer_says_that_it_can_be_repeated(m512, motions):
+    def press(direction, index, byte):
+        if len(peer.writes) > 20:
+            raise KeyboardInterrupt
+        return byte
+
+    with BlockPeer(bytearray(old_flash())) as peer:
+        peer.garble = press
+        result = m512("flash", motions, "-p", peer.path, "--yes")
+        assert result.exit_code == 130 and "m512: stopped while it wrote. Repeat the command: it goes on where it" in result.stderr, result.stderr
+        peer.garble = None
+        peer.pass_time(2)
+        again = m512("flash", motions, "-p", peer.path, "--yes")
+        assert again.exit_code == 0 and bytes(peer.flash[0xE200:0x1E000]) == formats.load(motions).to_bytes()[512:], again.stderr
 
 
 def test_crc16_known_answer_and_frame_of_the_description():

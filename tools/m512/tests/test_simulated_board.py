@@ -13,7 +13,7 @@ from virtual_peer import VirtualLink
 from m512.board import doctor, driving
 from m512.board.client import Client
 from m512.board.sim import Simulator
-from m512.errors import MissingError
+from m512.errors import BoardError, MissingError
 from m512.files.text import read_text
 
 MOTIONS = """motion512 1
@@ -313,10 +313,28 @@ def test_a_motion_that_the_fault_of_a_servo_breaks_off_is_no_success(m512, start
     assert said.endswith("fault of servo 5 (m512 doctor)\n")
 
 
-def test_a_number_of_no_page_is_told_with_what_there_is(m512, robot):
+@pytest.mark.parametrize("error, code", [(KeyboardInterrupt(), 130), (BoardError("Edits would be lost"), 8)])
+def test_put_that_ends_half_way_says_what_it_has_saved(m512, started, monkeypatch, tmp_path, error, code):
+    edit, save = started("boot-cm5.hex", "edit-cm5.hex", text=OLD, applied=True), Client.save_page
+    pages = "".join(f"page {number} p{number}\n  step 1s | 1:{500 + number}\n" for number in (20, 21, 22))
+    (tmp_path / "x.m512").write_text("motion512 1\n" + pages)
+
+    def third_fails(client, number, page):
+        if number == 22:
+            raise error
+        save(client, number, page)
+
+    monkeypatch.setattr(Client, "save_page", third_fails)
+    result = m512("put", tmp_path / "x.m512", "all", "-p", edit.path)
+    assert result.exit_code == code and "page 22, after pages 20 and 21 had been saved" in result.stderr, result.stderr
+    monkeypatch.setattr(Client, "save_page", save)
+    assert "saved: page 22\n" in m512("put", tmp_path / "x.m512", "all", "-p", edit.path).stderr
+
+
+def test_a_number_of_no_page_is_told_with_what_there_is(m512, robot, tmp_path):
     start(m512, robot)
-    for command, word in (("play", "0"), ("play", "128"), ("layer", "300")):
-        result = m512(command, word, "-p", robot.path)
+    for command, word, *more in (("play", "0"), ("play", "128"), ("layer", "300"), ("get", "128", "-o", tmp_path / "x.bin")):
+        result = m512(command, word, *more, "-p", robot.path)
         assert result.exit_code == 8 and f"page {word}" in result.stderr and "1 stand, 3 walk" in result.stderr, result.stderr
 
 

@@ -152,8 +152,10 @@ class Client:
     def find(self, word: str) -> int:
         """The page number for a number or a name."""
         number = selection.page_number(word)
-        if number is not None:
+        if number is not None and number < self.pages:
             return number
+        if number is not None:
+            raise BoardError(f"the board has no page {number}, only 0..{self.pages - 1}; it has {self._what_it_has()}")
         return selection.find(word, self._names(), lambda text: BoardError(f"{text}; it has {self._what_it_has()}"), " of the board")
 
     def motion(self, word: str) -> int:

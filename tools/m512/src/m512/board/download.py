@@ -88,6 +88,10 @@ def _to_ours(loader: BlockLoader, pages: dict[int, bytes], progress: Callable[[i
         if _lacks_record(plan):
             loader.write_eeprom({APP_MARK: INCOMPLETE})
         loader.write(pages, progress)
+    except KeyboardInterrupt:
+        if loader.link.remedy != REPEAT:
+            raise
+        raise CancelledError("stopped while it wrote. Repeat the command: it goes on where it stopped") from None
     except PortError as error:
         if loader.link.remedy != REPEAT:
             raise

@@ -12,7 +12,7 @@ from m512.board.client import Client
 from m512.board.kept import kept
 from m512.board.link import Link
 from m512.board.memory import FLASH_PAGE, MOTIONS, Plan, motion_area, motion_page_of
-from m512.errors import BoardError, NoAnswerError, PortError, RefusedError
+from m512.errors import BoardError, CancelledError, NoAnswerError, PortError, RefusedError
 from m512.files.image import Image, from_bytes, is_erased
 from m512.files.page import EMPTY, PAGE_BYTES, Page
 from m512.files.wording import named_pages_text, pages_text
@@ -146,6 +146,12 @@ def save_pages(client: Client, image: Image, numbers: list[int], confirm: Callab
         changed.append(number)
     if replaced:
         confirm(f"This replaces {' and '.join(replaced)} on the robot. Save?")
-    for number in changed:
-        client.save_page(number, image[number])
+    for done, number in enumerate(changed):
+        before = f", after {pages_text(changed[:done])} had been saved" if done else ""
+        try:
+            client.save_page(number, image[number])
+        except KeyboardInterrupt:
+            raise CancelledError(f"stopped at page {number}{before}. Repeat the command: it saves the others") from None
+        except (BoardError, NoAnswerError, PortError) as error:
+            raise type(error)(f"page {number}{before}: {error}") from None
     return changed
