@@ -14,6 +14,7 @@ from m512.board import doctor, driving
 from m512.board.client import Client
 from m512.board.sim import Simulator
 from m512.errors import BoardError, MissingError
+from m512.files import formats
 from m512.files.text import read_text
 
 MOTIONS = """motion512 1
@@ -329,6 +330,54 @@ def test_put_that_ends_half_way_says_what_it_has_saved(m512, started, monkeypatc
     assert result.exit_code == code and "page 22, after pages 20 and 21 had been saved" in result.stderr, result.stderr
     monkeypatch.setattr(Client, "save_page", save)
     assert "saved: page 22\n" in m512("put", tmp_path / "x.m512", "all", "-p", edit.path).stderr
+
+
+def p20(tmp_path):
+    """A text with page 20, and that page."""
+    (tmp_path / "x.m512").write_text("motion512 1\npage 20 p20\n  step 1s | 1..18:500\n")
+    return tmp_path / "x.m512", bytes(formats.load(tmp_path / "x.m512")[20])
+
+
+@pytest.mark.parametrize("sent", [1, 7, 16])
+def test_put_that_the_cable_ended_in_a_page_can_be_repeated(m512, started, tmp_path, sent):
+    """The part of a page that was sent stays in Edit's RAM as edits, which Edit does not give up."""
+    edit, (file, page) = started("boot-cm5.hex", "edit-cm5.hex", text=OLD, applied=True), p20(tmp_path)
+    with VirtualLink(edit.path) as link:
+        Client(link).ask("open 20")
+        for at in range(0, 32 * sent, 32):
+            Client(link).ask(f"data {at} {page[at : at + 32].hex()}")
+    result = m512("put", file, "20", "-p", edit.path)
+    assert result.exit_code == 0 and bytes(edit.board.flash[0xE000 + 512 * 20 :][:512]) == page, result.stderr
+
+
+def test_put_does_not_take_edits_of_a_person_for_its_own(m512, started, tmp_path):
+    edit, (file, _) = started("boot-cm5.hex", "edit-cm5.hex", text=OLD, applied=True), p20(tmp_path)
+    with VirtualLink(edit.path) as link:
+        Client(link).ask("open 20")
+        Client(link).ask("data 64 0102")
+        Client(link).ask("data 0 4D")
+    result = m512("put", file, "20", "-p", edit.path)
+    assert result.exit_code == 8 and "unsaved edits" in result.stderr and edit.board.flash[0xE000 + 512 * 20] != ord("p")
+
+
+@pytest.mark.parametrize("end, code", [(KeyboardInterrupt, 130), (SystemExit(143), 143)])
+def test_put_that_is_ended_in_a_page_saves_it_first(m512, started, tmp_path, end, code):
+    edit, (file, page) = started("boot-cm5.hex", "edit-cm5.hex", text=OLD, applied=True), p20(tmp_path)
+    typed = bytearray()
+
+    def press(direction, index, byte):
+        if direction == "->":
+            typed.append(byte)
+            if typed.endswith(b"@data 96"):
+                edit.garble = None
+                raise end
+        return byte
+
+    edit.garble = press
+    assert m512("put", file, "20", "-p", edit.path).exit_code == code
+    assert bytes(edit.board.flash[0xE000 + 512 * 20 :][:512]) == page
+    with VirtualLink(edit.path) as link:
+        assert not Client(link).has_edits()
 
 
 def test_a_number_of_no_page_is_told_with_what_there_is(m512, robot, tmp_path):

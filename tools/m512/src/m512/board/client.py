@@ -9,12 +9,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from contextlib import suppress
 
 from m512.board.link import Link
 from m512.crc16 import crc16
-from m512.errors import EXIT_BAD_FILE, BoardError, NoAnswerError
+from m512.errors import EXIT_BAD_FILE, BoardError, M512Error, NoAnswerError
 from m512.files import selection
-from m512.files.page import JOINTS, PAGE_BYTES, Page
+from m512.files.image import is_erased
+from m512.files.page import EMPTY, JOINTS, PAGE_BYTES, Page
 
 ANSWER_SECONDS = 3.0
 TRIES = 3
@@ -220,10 +222,32 @@ class Client:
         return False
 
     def save_page(self, number: int, page: Page) -> None:
-        """Saves a page in the board's flash, by way of the board's page in RAM."""
+        """Saves a page in the board's flash, by way of the board's page in RAM. After Ctrl-C or a signal it saves that page before it ends: a
+        part of it would stay in RAM, as edits that nobody made."""
         self._listed = None
-        self.ask(f"open {number}")
-        data = bytes(page)
+        self.open_page(number, page)
+        try:
+            self._send_page(number, bytes(page))
+        except (KeyboardInterrupt, SystemExit):
+            with suppress(M512Error):
+                self._send_page(number, bytes(page))
+            raise
+
+    def open_page(self, number: int, page: Page) -> None:
+        """Opens a page that is to become `page`. BoardError: the page in RAM has edits, unless they are a part of `page` that m512 sent before
+        the cable came off."""
+        try:
+            self.ask(f"open {number}")
+        except BoardError as error:
+            if error.number != ERR_EDITS:
+                raise
+            there = self.page(number)
+            old, new = EMPTY if is_erased(there) else bytes(there), bytes(page)
+            parts = {crc16(new[:at] + old[at:]) for at in range(DATA_BYTES, PAGE_BYTES + 1, DATA_BYTES)}
+            if self.ask("crc") not in {f"{part:04X}" for part in parts}:
+                raise
+
+    def _send_page(self, number: int, data: bytes) -> None:
         for at in range(0, PAGE_BYTES, DATA_BYTES):
             self.ask(f"data {at} {data[at : at + DATA_BYTES].hex()}")
         self.ask(f"save {number} {crc16(data):04X}", 10.0)

@@ -78,7 +78,7 @@ def write_motions(url: str, found: Image, image: Image, board: str = "") -> None
 def _save(link: Link, client: Client, numbers: list[int], found: Image, image: Image, board: str) -> None:
     """Writes these pages, through Edit."""
     _must_be_as_found(numbers[1:] + numbers[:1], found, client.page)  # the page that is written first is looked at last
-    client.ask(f"open {numbers[0]}")  # if Edit refuses, because of edits that are not saved, nothing is to be put back
+    client.open_page(numbers[0], image[numbers[0]])  # if Edit refuses, because of edits that are not saved, nothing is to be put back
     with kept(link, found, numbers, board) as keep:
         for done, number in enumerate(numbers):
             before = f". Only {pages_text(numbers[:done])} had been written by then" if done else ""
