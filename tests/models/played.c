@@ -178,21 +178,6 @@ const uint16_t *played_goals(void)
     return goal_pos;
 }
 
-int played_fault(void)
-{
-    return player.fault;
-}
-
-int played_page(void)
-{
-    return player.now.page;
-}
-
-int played_step(void)
-{
-    return player.now.step;
-}
-
 void played_rate(int percent)
 {
     shape.rate_percent = (uint16_t)percent;

@@ -50,8 +50,3 @@ class Played:
     @staticmethod
     def goals():
         return library.played_goals()[:JOINTS]
-
-    @staticmethod
-    def place():
-        """Returns the (page, step) that plays."""
-        return library.played_page(), library.played_step()
