@@ -97,9 +97,8 @@ def test_the_last_byte_of_the_window_counts(typed, stays):
         assert board.take().endswith(PROMPT.encode())
 
 
-@pytest.mark.parametrize("length", [0x400, SHIPPED_BYTES])
 @pytest.mark.parametrize("sent", [b"#", b"x#", b"0 ", b"x0 ", b"0 0 ", b"0 x#", b"@reset\r#", b"\xff\x55\x01\xfe\x00\xff#"])
-@pytest.mark.parametrize("delay", [2, 10, 40])
+@pytest.mark.parametrize("length, delay", [(SHIPPED_BYTES, 2), (0x400, 10), (SHIPPED_BYTES, 40)])
 def test_whatever_came_before_it_in_the_window(length, sent, delay):
     """avrdude and m512 send more than one byte, and a PC that communicated with the application may be in the middle of a line."""
     board = board_with(application(length))
@@ -114,7 +113,7 @@ def test_whatever_came_before_it_in_the_window(length, sent, delay):
     assert board.take().startswith(b"\x14\x10" if sent.endswith(b"0 ") else b"\r\n\n SYSTEM O.K.")
 
 
-@pytest.mark.parametrize("delay, stays", [(2, True), (30, True), (50, True), (75, False)])
+@pytest.mark.parametrize("delay, stays", [(50, True), (75, False)])
 def test_the_window_is_60_ms(delay, stays):
     board = board_with(application(0x400))
     board.power_on()
@@ -159,8 +158,7 @@ def test_start_held_stays_and_its_release_does_nothing():
     assert started(board)
 
 
-@pytest.mark.parametrize("length", [0x400, SHIPPED_BYTES])
-@pytest.mark.parametrize("held_ms", [20, 60, 100, 150])
+@pytest.mark.parametrize("length, held_ms", [(0x400, 20), (SHIPPED_BYTES, 60), (0x400, 100), (SHIPPED_BYTES, 150)])
 def test_start_held_for_a_tenth_of_a_second_or_less_stays(length, held_ms):
     board = board_with(application(length))
     board.press("START")
@@ -349,7 +347,7 @@ def mailbox_board(page, state=0xAA, **options):
     return board, data
 
 
-@pytest.mark.parametrize("page", [0, 1, 120, 127])
+@pytest.mark.parametrize("page", [0, 127])
 def test_mailbox_is_answered_whatever_the_mode(page):
     board, data = mailbox_board(page)
     before = bytes(board.flash)
@@ -362,7 +360,7 @@ def test_mailbox_is_answered_whatever_the_mode(page):
     assert board.eeprom[0xFF4] == 0x55
 
 
-@pytest.mark.parametrize("page", [128, 200, 255])
+@pytest.mark.parametrize("page", [128, 255])
 def test_mailbox_refuses_pages_above_127(page):
     board, _ = mailbox_board(page)
     before = bytes(board.flash)

@@ -18,7 +18,8 @@ BYTE_MS = 10 / 57.6
 # A request waits for output that a user has started: a whole screen of Edit takes 0.5 s, Play's help 0.4 s.
 WAIT_MS = 700
 CUT_OFF_MS = 250
-SETTLE_MS = 1200  # the play of the page, including its approach
+SETTLE_MS = 500  # of a step
+PLAY_MS = 1200  # the play of the page, including its approach
 MANY = 6  # requests without a pause between them
 SERVOS = (1, 2, 3, 4)
 
@@ -176,13 +177,13 @@ def typed(side, seed, with_program):
             # No pause within a key; sometimes one between keys.
             is_part = isinstance(key, bytes) and len(keys) > 1
             run(0 if is_part else hands.choice((0, 0, 1, 3, 40)))
-        for _ in range(SETTLE_MS // 100):
+        for _ in range((PLAY_MS if what == "a play" else SETTLE_MS) // 100):
             if with_program:
                 program.may_ask()
             run(100)
         while program.open is not None:
             run(1)
-        run(SETTLE_MS // 2)  # a list goes on after the last request
+        run(SETTLE_MS)  # a list goes on after the last request
         pictures.append((what, *side.picture()))
         assert shows is None or shows in pictures[-1][1], f"{what}: {pictures[-1][1]}"
     return pictures, program
@@ -199,45 +200,51 @@ def test_a_program_that_asks_changes_nothing_for_a_person(side, seed):
     assert program.count > len(alone) and program.longest < WAIT_MS
 
 
-LONG = ("@crcs 0 127", "@dense 12", "@list")
-
-
-@pytest.mark.parametrize("at_once", [1, 3])
 @pytest.mark.parametrize(
-    "side, first",
-    [(EditSide, "list"), (EditSide, "help"), (EditSide, "re"), (EditSide, "play 2"), (EditSide, ""), (PlaySide, "list"), (PlaySide, "help")],
+    "side, first, asked, at_once",
+    [
+        (EditSide, "list", "@crcs 0 127", 3),
+        (EditSide, "list", "@list", 1),
+        (EditSide, "help", "@dense 12", 3),
+        (EditSide, "re", "@list", 3),
+        (EditSide, "play 2", "@list", 3),
+        (EditSide, "", "@crcs 0 127", 1),
+        (PlaySide, "list", "@list", 3),
+        (PlaySide, "help", "@crcs 0 127", 1),
+    ],
 )
-def test_requests_without_a_pause_between_them_restart_nothing(side, first, at_once):
+def test_requests_without_a_pause_between_them_restart_nothing(side, first, asked, at_once):
     """While text is printed, each of them after the answer to the one before it, or three at a time."""
-    for asked in LONG:
-        side_now = side(FULL)
-        board, ear = side_now.board, side_now.ear
-        if side is EditSide:
-            side_now.robot.line("step 6")
-            assert side_now.robot.unsaved
-        resets, end = board.resets, board.now_ms + 1300
-        board.send(first + "\r")
-        board.run(ms=60)
-        waiting = 0
-        while board.now_ms < end or waiting:
-            if waiting < at_once and board.now_ms < end:
-                board.send(request(asked))
-                waiting += 1
-            board.run(ms=2)
-            side_now.pump()
-            assert board.resets == resets, f"{asked} at {board.now_ms - end + 1300:.0f} ms: reset by {board.reset_cause}"
-            assert all(answer.endswith(" OK") for answer in ear.answers), ear.answers
-            waiting -= len(ear.answers)
-            ear.answers.clear()
-        if side is EditSide:
-            side_now.robot.settle(1000)
-            side_now.robot.keys("q")
-            side_now.robot.settle(1000)
-            assert side_now.robot.unsaved
+    side = side(FULL)
+    board, ear = side.board, side.ear
+    is_edit = isinstance(side, EditSide)
+    if is_edit:
+        side.robot.line("step 6")
+        assert side.robot.unsaved
+    resets, end = board.resets, board.now_ms + 1300
+    board.send(first + "\r")
+    board.run(ms=60)
+    waiting = 0
+    while board.now_ms < end or waiting:
+        if waiting < at_once and board.now_ms < end:
+            board.send(request(asked))
+            waiting += 1
+        board.run(ms=2)
+        side.pump()
+        assert board.resets == resets, f"{asked} at {board.now_ms - end + 1300:.0f} ms: reset by {board.reset_cause}"
+        assert all(answer.endswith(" OK") for answer in ear.answers), ear.answers
+        waiting -= len(ear.answers)
+        ear.answers.clear()
+    if is_edit:
+        side.robot.settle(1000)
+        side.robot.keys("q")
+        side.robot.settle(1000)
+        assert side.robot.unsaved
 
 
-@pytest.mark.parametrize("side", [EditSide, PlaySide])
-@pytest.mark.parametrize("line", ["@list", "@page 12", "list", "help", "re", "on"])
+@pytest.mark.parametrize(
+    "side, line", [(EditSide, "@list"), (EditSide, "list"), (EditSide, "re"), (EditSide, "on"), (PlaySide, "@page 12"), (PlaySide, "help")]
+)
 def test_lines_typed_ahead_restart_nothing(side, line):
     """The answer to one @list takes 0.5 s, and 32 bytes of typing hold five of them."""
     side = side(FULL)

@@ -196,7 +196,7 @@ function(m512_unit_test name)
     endif()
 endfunction()
 
-# m512_pytest(<ctest name> <file or folder> [TIMEOUT s] [COST s] [NEEDS ...]): a pytest file, run with the interpreter of build/venv, where
+# m512_pytest(<ctest name> <file, files or folder> [TIMEOUT s] [COST s] [NEEDS ...]): a pytest file, run with the interpreter of build/venv, where
 # the packages of this tree are installed (tools/dev/setup). NEEDS: as for m512_needs, or `nothing`. COST: see tests/CMakeLists.txt.
 # A file that leaves cases out is shown as skipped (tests/seen_skips.py). No other plugins: no test needs one, and pytest would rewrite the whole of hypothesis for its plugin (0.6 s a file). What Python compiles
 # is kept in build/pycache.
@@ -211,7 +211,8 @@ function(m512_pytest name path)
     if(NOT ARG_COST)
         set(ARG_COST 3)
     endif()
-    add_test(NAME ${name} COMMAND ${M512_PYTHON} -m pytest -q -rs -p no:cacheprovider -p tests.seen_skips ${CMAKE_CURRENT_SOURCE_DIR}/${path})
+    list(TRANSFORM path PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+    add_test(NAME ${name} COMMAND ${M512_PYTHON} -m pytest -q -rs -p no:cacheprovider -p tests.seen_skips ${path})
     set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} COST ${ARG_COST} SKIP_RETURN_CODE 77
         ENVIRONMENT "PYTHONPYCACHEPREFIX=${CMAKE_SOURCE_DIR}/build/pycache;PYTEST_DISABLE_PLUGIN_AUTOLOAD=1;M512_BUILD=${CMAKE_SOURCE_DIR}/build")
 endfunction()
