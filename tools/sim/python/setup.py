@@ -15,7 +15,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 TOP = HERE.parents[2]
 BUILD = pathlib.Path(os.environ.get("M512_BUILD", TOP / "build"))
 LIBRARY = "host/tools/sim/libcm5sim.so"
-DATA = [f"firmware/{kind}-{board}.hex" for kind in ("boot", "edit", "play") for board in ("cm5", "cm2")] + ["motions/motions.bin"]
+DATA = [f"firmware/{kind}-{board}.hex" for kind in ("boot", "edit", "play", "monitor") for board in ("cm5", "cm2")] + ["motions/motions.bin"]
 BUNDLED = ("libsimavr", "libelf")  # needed by the library, but not present on every computer
 # The library links libsimavr (GPL-3) and libelf (LGPL-3 or GPL-2), so their terms and the source offer go into the wheel.
 LICENCES = {"LICENSE.GPL-3": "/usr/share/common-licenses/GPL-3", "LICENSE.LGPL-3": "/usr/share/common-licenses/LGPL-3"}
