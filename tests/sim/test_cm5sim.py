@@ -307,6 +307,13 @@ def test_wrong_usage_is_explained(arguments, says):
     assert says in done.stderr.decode()
 
 
+@pytest.mark.parametrize("board, other", [("cm5", "cm2"), ("cm2", "cm5")])
+def test_an_image_for_the_other_board_is_told(board, other):
+    done = run(f"play-{other}.hex", "--board", board, "--time", "100ms", stdin=b"")
+    assert f"this image is for the other board: --board {other}" in done.stderr.decode()
+    assert "other board" not in run(f"play-{board}.hex", "--board", board, "--time", "100ms", stdin=b"").stderr.decode()
+
+
 def test_a_bus_alone_needs_no_console():
     with Running("--bus-pty", "--no-stdio") as sim:
         assert sim.message(r"servo bus: (\S+)")

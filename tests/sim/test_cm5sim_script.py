@@ -7,7 +7,7 @@ import pytest
 
 from cm5sim import words
 from cm5sim.bus import ends_whole
-from tests.sim.sim_command import CM5SIM, ROBOT, Running, play
+from tests.sim.sim_command import CM5SIM, ROBOT, Running, play, run
 
 # --- scripts ---
 
@@ -154,6 +154,14 @@ def test_script_mistakes_are_named_with_their_lines_all_at_once(tmp_path):
     assert len(told) == len(MISTAKES), told
     for number, (told_line, (_, says)) in enumerate(zip(told, MISTAKES), 2):
         assert f"script.txt:{number}: " in told_line and says in told_line
+
+
+def test_script_presses_no_button_of_a_board_without_a_panel(tmp_path):
+    (tmp_path / "press.txt").write_text("press START\n")
+    done = run("play-cm2.hex", "--board", "cm2", "--script", tmp_path / "press.txt")
+    assert done.returncode == 1 and ": a CM-2 has no panel" in done.stderr.decode()
+    (tmp_path / "press.txt").write_text('press MODE 50ms\nexpect "] " within 2s\n')
+    assert run("play-cm2.hex", "--board", "cm2", "--script", tmp_path / "press.txt").returncode == 0
 
 
 def test_script_cut_short_has_not_passed(tmp_path):

@@ -30,6 +30,8 @@ HELD_CYCLES = 600 * CYCLES_PER_MS  # longer than a keyboard's first repeat delay
 RC_REPEAT_CYCLES = 100 * CYCLES_PER_MS  # a held remote repeats its packet
 CYCLES_PER_S = 1000 * CYCLES_PER_MS
 LATE_S = 0.25  # this far behind, the real-time clock starts anew
+RECORD_AT, BOARDS = 0x8C, {1: "cm5", 2: "cm2"}  # firmware/common/app_record.h
+NO_PANEL = "a CM-2 has no panel"
 POWER_IS_OFF = "the power is off: Ctrl-T p switches it on"
 HAND_HELP = """\
 A hand at the robot. One line, then Enter; Enter alone goes back.
@@ -68,6 +70,7 @@ class Session:
         options, board = self.options, self.board
         board.allow(*options.allow)
         load_memories(board, options, self.say)
+        self._tell_wrong_board()
         plug_in_servos(board.servos, options)
         if self.watch:
             self.watch.attach(board, self.complain)
@@ -91,6 +94,12 @@ class Session:
         if options.gdb is not None:  # the chip is on, so that the debugger finds it at its first instruction
             self.say(f"waiting for avr-gdb: target remote :{options.gdb}")
             board.gdb(options.gdb)
+
+    def _tell_wrong_board(self) -> None:
+        """An image for the other board finds no servos: its pins are others. Our images say for which board they are (app_record.h)."""
+        record = bytes(self.board.flash[RECORD_AT : RECORD_AT + 16])
+        if record.startswith(b"M512") and record[10] in BOARDS and BOARDS[record[10]] != self.options.board:
+            self.complain(f"this image is for the other board: --board {BOARDS[record[10]]}")
 
     def interrupt(self) -> None:
         """Ends the run soon. May be called from another thread."""
@@ -140,7 +149,9 @@ class Session:
             self._traffic = self.board.now_cycles
 
     def press(self, button: str, cycles: int) -> None:
-        """Holds a button for this time. MODE holds the chip in reset."""
+        """Holds a button for this time. MODE holds the chip in reset. A CM-2 has no other."""
+        if self.options.board == "cm2" and button != "MODE":
+            raise scripts.Failed(NO_PANEL)
         self._buttons[button] = self.board.now_cycles + cycles
         self.board.press(button)
 
@@ -234,6 +245,8 @@ class Session:
             self.send(bytes([value]))
         elif kind == "rc":
             self.rc_hold(value, HELD_CYCLES)
+        elif kind == "button" and self.options.board == "cm2" and value != "MODE":
+            self.note(NO_PANEL)
         elif kind == "button":
             self.press(value, HELD_CYCLES // 3)
         elif kind == "exit":
