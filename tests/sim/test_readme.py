@@ -4,6 +4,7 @@
 import os
 import re
 import select
+import shutil
 import signal
 import socket
 import subprocess
@@ -35,13 +36,20 @@ def needs(command):
     return [name for name in re.findall(r"\S+\.hex", command) if not (BUILD / "firmware" / name).exists()]
 
 
-@pytest.fixture(name="folder")
-def _folder(tmp_path):
+@pytest.fixture(name="made", scope="module")
+def _made(tmp_path_factory):
+    """The files that the README's commands take."""
+    folder = tmp_path_factory.mktemp("made")
     script = re.search(r"This is `walk.txt`:\n\n```\n(.*?)```", README, re.S)[1]
-    (tmp_path / "walk.txt").write_text(script)
-    (tmp_path / "walk.m512").write_text(WALK)
-    subprocess.run([sys.executable, "-m", "m512", "convert", "walk.m512", "walk.bin"], cwd=tmp_path, check=True, stdout=subprocess.DEVNULL)
-    return tmp_path
+    (folder / "walk.txt").write_text(script)
+    (folder / "walk.m512").write_text(WALK)
+    subprocess.run([sys.executable, "-m", "m512", "convert", "walk.m512", "walk.bin"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    return folder
+
+
+@pytest.fixture(name="folder")
+def _folder(made, tmp_path):
+    return shutil.copytree(made, tmp_path, dirs_exist_ok=True)
 
 
 def execute(command, folder):
@@ -101,7 +109,7 @@ def test_every_example_of_the_help_runs(folder):
 
 
 def test_bench_prints_its_figures():
-    done = subprocess.run([sys.executable, TOP / "tools" / "sim" / "bench", "--seconds", "5"], capture_output=True, text=True, check=False)
+    done = subprocess.run([sys.executable, TOP / "tools" / "sim" / "bench", "--seconds", "1"], capture_output=True, text=True, check=False)
     print(done.stdout)
     # The result depends on the speed of this PC, so it does not matter here.
     assert re.search(r"^18 joints moving +[\d.]+ % +[\d.]+$", done.stdout, re.M), done.stdout + done.stderr
