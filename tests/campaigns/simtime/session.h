@@ -71,6 +71,7 @@ typedef struct {
     joint_t joint[IDS];
     uint32_t trouble_tick;         /* the last time that the line, the adapter or the computer failed */
     uint32_t late_tick;            /* the last time that the computer was late or the adapter gone */
+    uint32_t plug_tick;            /* the last time that the adapter came or went */
     uint32_t pushed_tick;          /* the last time that a joint was turned by hand */
     uint32_t goals_tick;           /* the last goals of any joint */
     uint32_t frame_tick;           /* the last goals of a tick, sent to all joints at once */

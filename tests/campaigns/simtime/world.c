@@ -384,7 +384,7 @@ bool world_do(char *words)
     } else if (strcmp(verb, "plug") == 0 && numbers == 1) {
         simtime_plug(a != 0);
         handed_lost();
-        session.trouble_tick = session.late_tick = session.tick;
+        session.trouble_tick = session.late_tick = session.plug_tick = session.tick;
     } else if (strcmp(verb, "cutwrite") == 0 && numbers == 1) {
         session.cut_at_write = a;
     } else if (strcmp(verb, "cut") == 0) {
