@@ -536,6 +536,9 @@ static bool find_end(unsigned page)
         } else {
             table_load(&of, page);
         }
+        if (of.field[FIELD_STEPS] > (int)STEPS_MOST) {
+            return false;   /* a damaged page, which PLAY refuses */
+        }
         for (int column = 1; column <= of.field[FIELD_STEPS] && of.field[COUNT_FIELD] > 0; column++) {
             for (unsigned id = 0; id < JOINTS; id++) {
                 const int to = of.cell[column][id];
