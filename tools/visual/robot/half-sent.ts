@@ -70,9 +70,9 @@ export class HalfSent {
         this.end(one);
     }
 
-    /** The content of RAM after `@open`: Edit treats erased flash as the empty page. */
+    /** The content of RAM after `@open`: Edit reads erased flash as its new page. */
     loaded({ before }: SentPage): Uint8Array {
-        return this.format.isErased(before) ? this.format.empty : before;
+        return this.format.isErased(before) ? newPage(this.format.empty) : before;
     }
 
     /** The CRCs of the page after each piece. */
@@ -87,6 +87,16 @@ export class HalfSent {
     private others(one: SentPage): SentPage[] {
         return this.kept.load().filter(other => !isSame(other, one));
     }
+}
+
+/** Edit's new page, which is not the empty page of the specification: session_new_byte() in firmware/edit/session.c. Its times are speeds. */
+function newPage(empty: Uint8Array): Uint8Array {
+    const page = empty.slice();
+    page[16] = 0; // schedule
+    page[31] = 0; // checksum
+    page[63] = 0x55; // compliance, of a joint 31
+    for (let speed = 127; speed < page.length; speed += 64) page[speed] = 64; // of each step
+    return page;
 }
 
 export function isSame(a: SentPage, b: SentPage): boolean {

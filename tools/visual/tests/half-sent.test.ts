@@ -55,9 +55,10 @@ function loaded({ connection }: Edit, half: number, other: number) {
 }
 
 /** Motions 3 and 55 are written, and the cable is pulled behind the fourth piece of motion 3. It is plugged in again. */
-async function halfSent(seed: number) {
+async function halfSent(seed: number, isErased = false) {
     const edit = await connectedEdit(seed);
     const { bench, connection } = edit;
+    if (isErased) bench.board.writeFlash(MOTIONS_ADDRESS + 512 * HALF, format.erased);
     const page = loaded(edit, 12, 2);
     const send = bench.board.send.bind(bench.board);
     let pieces = 0;
@@ -83,6 +84,13 @@ test('unticked: the other motion is written, and it is said what became of the h
     expect(transferText(transfer.state.get())).toMatch(/^Written and verified: 1 motion\. Edit's memory had half of motion 3 .*dropped/);
     expect(await bench.until(transfer.write([OTHER]), 60_000)).toEqual({ isDone: true });
     expect(transferText(transfer.state.get())).not.toContain('half');
+});
+
+test('unticked, in flash that was never written: Edit has its own new page there', async () => {
+    const { bench, transfer } = await halfSent(76, true);
+    expect(await bench.until(transfer.write([OTHER]), 60_000)).toEqual({ isDone: true });
+    expect(flashPage(bench, OTHER)).toEqual(pageOf(library, 2));
+    expect(flashPage(bench, HALF)).toEqual(format.erased);
 });
 
 test('edited: it is written as it is now', async () => {
