@@ -164,6 +164,37 @@ def test_put_asks_before_it_replaces_a_damaged_page(m512, started, tmp_path, the
     assert m512("put", path, "51", "--yes", "-p", edit.path).stderr == "saved: page 51\n"
 
 
+def test_put_goes_on_where_one_was_broken_off_over_erased_flash_which_is_a_new_page_in_edit(m512, started, motions):
+    edit = started("boot-cm5.hex", "edit-cm5.hex")
+    start(m512, edit)
+    new = bytes(read_text(MOTIONS)[3])
+
+    def sent(*pieces):
+        with VirtualLink(edit.path) as link:
+            client = Client(link)
+            client.ask("open 3")
+            for at, data in pieces:
+                client.ask(f"data {at} {data.hex()}")
+
+    sent(*[(at, new[at : at + 32]) for at in range(0, 128, 32)])  # the cable was pulled here
+    result = m512("put", motions, "walk", "-p", edit.path)
+    assert result.exit_code == 0 and result.stderr.endswith("saved: page 3\n"), result.stderr
+    assert bytes(edit.board.flash[0xE000 + 3 * 512 : 0xE000 + 4 * 512]) == new
+    sent((0, b"mine"))
+    result = m512("put", motions, "nod:3", "--yes", "-p", edit.path)
+    assert result.exit_code != 0 and "unsaved edits" in result.stderr, result.stderr
+    assert bytes(edit.board.flash[0xE000 + 3 * 512 : 0xE000 + 4 * 512]) == new
+
+
+def test_put_leaves_nothing_in_edit_that_the_board_cannot_save(m512, started, motions):
+    edit = started("edit-cm5.hex")  # no boot loader can write
+    edit.pass_time(1.5)
+    result = m512("put", motions, "walk:30", "-p", edit.path)
+    assert result.exit_code != 0 and "could not be saved" in result.stderr, result.stderr
+    with VirtualLink(edit.path) as link:
+        assert not Client(link).has_edits()
+
+
 def test_sim_option_plays_without_a_robot(m512, motions):
     motions.write_text(MOTIONS.replace("page 100 nod", "page 100 nod\n  repeat 20"))  # 4 s, so that a busy computer sees it play
     result = m512("play", "nod", "--sim", "--motions", motions, "--json")

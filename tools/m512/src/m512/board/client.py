@@ -16,7 +16,7 @@ from m512.crc16 import crc16
 from m512.errors import EXIT_BAD_FILE, BoardError, M512Error, NoAnswerError
 from m512.files import selection
 from m512.files.image import is_erased
-from m512.files.page import EMPTY, JOINTS, PAGE_BYTES, Page
+from m512.files.page import EMPTY, JOINTS, PAGE_BYTES, STEP_BYTES, STEPS, Page
 
 ANSWER_SECONDS = 3.0
 TRIES = 3
@@ -241,8 +241,7 @@ class Client:
         except BoardError as error:
             if error.number != ERR_EDITS:
                 raise
-            there = self.page(number)
-            old, new = EMPTY if is_erased(there) else bytes(there), bytes(page)
+            old, new = self._loaded(number), bytes(page)
             parts = {crc16(new[:at] + old[at:]) for at in range(DATA_BYTES, PAGE_BYTES + 1, DATA_BYTES)}
             if self.ask("crc") not in {f"{part:04X}" for part in parts}:
                 raise
@@ -250,7 +249,23 @@ class Client:
     def _send_page(self, number: int, data: bytes) -> None:
         for at in range(0, PAGE_BYTES, DATA_BYTES):
             self.ask(f"data {at} {data[at : at + DATA_BYTES].hex()}")
-        self.ask(f"save {number} {crc16(data):04X}", 10.0)
+        try:
+            self.ask(f"save {number} {crc16(data):04X}", 10.0)
+        except BoardError:  # RAM as flash again, or the page that cannot be saved would stay as edits that nobody made
+            flash = self._loaded(number)
+            for at in range(0, PAGE_BYTES, DATA_BYTES):
+                self.ask(f"data {at} {flash[at : at + DATA_BYTES].hex()}")
+            raise
+
+    def _loaded(self, number: int) -> bytes:
+        """What @open loads. Erased flash is read as Edit's new page (session_new_byte in firmware/edit/session.c), which is not EMPTY."""
+        page = self.page(number)
+        if not is_erased(page):
+            return bytes(page)
+        data = bytearray(EMPTY)
+        data[16], data[31], data[63] = 0, 0, 0x55
+        data[STEP_BYTES + 63 :: STEP_BYTES] = [64] * STEPS
+        return bytes(data)
 
     # Robot
 
