@@ -7,6 +7,8 @@ from m512.files.image import Image
 from tests.host.pc_robot import GOAL, SYNC_WRITE, until
 from tests.sim.made_page import page
 
+WRITE = 3
+
 
 @pytest.fixture
 def files(tmp_path):
@@ -18,11 +20,19 @@ def files(tmp_path):
     return path
 
 
-def goals_since_it_is_back(robot):
+def sent_since_it_is_back(robot):
     lines = robot.log.read_text().splitlines()
     last = len(lines) - lines[::-1].index("back")
-    sent = [bytes.fromhex(line[2:]) for line in lines[last:] if line.startswith("> ")]
-    return [packet for packet in sent if packet[4] == SYNC_WRITE and packet[5] == GOAL]
+    return [bytes.fromhex(line[2:]) for line in lines[last:] if line.startswith("> ")]
+
+
+def goals_since_it_is_back(robot):
+    return [packet for packet in sent_since_it_is_back(robot) if packet[4] == SYNC_WRITE and packet[5] == GOAL]
+
+
+def told_a_goal(packets):
+    """The servos that were written a goal one by one, as Edit does it."""
+    return {packet[2] for packet in packets if packet[4:6] == bytes([WRITE, GOAL])}
 
 
 def test_a_plug_that_comes_back_goes_on_only_after_on(make, files):
@@ -57,6 +67,25 @@ def test_a_plug_pulled_while_nothing_plays_is_named_too(make, files):
     robot.plug()
     robot.told("the servo adapter is back")
     assert goals_since_it_is_back(robot) == []
+
+
+def test_edit_drives_after_the_plug_is_back_what_a_person_moves(make, files):
+    """GO switches on what it moves, as after OFF on a board; a program's @move does not."""
+    robot = make(image="edit", motions=files).run()
+    robot.expect("HELP explains")
+    robot.send("on\r")
+    until(lambda: robot.take() or told_a_goal(robot.packets()) == set(range(1, 19)), "not held")
+    robot.pull()
+    robot.told(r"the servo adapter \S+ is gone")
+    robot.plug()
+    robot.told("the servo adapter is back")
+    robot.take()
+    start = len(robot.console)
+    robot.send("@move 90 1 200\r")
+    robot.expect("@move ERR 8", start)
+    assert told_a_goal(sent_since_it_is_back(robot)) == set() and goals_since_it_is_back(robot) == []
+    robot.send("page 2\rgo 0\r")
+    until(lambda: robot.take() or told_a_goal(sent_since_it_is_back(robot)) == set(range(1, 19)), "no goals")
 
 
 def test_while_the_plug_is_out_all_count_as_switched_off(make, files):
