@@ -556,8 +556,8 @@ static bool find_end(unsigned page)
 static void run_play(void)
 {
     const int page = editor.words > 1 ? editor.number[1] : editor.now.page;
-    /* hal/host/README.md: behind an unplugged adapter nothing is driven until `on`, though a servo may have kept its torque, as its
-     * cell says. */
+    /* hal/host/README.md: behind an unplugged adapter nothing is driven until `on`, though a servo may have kept its
+     * torque, as its cell says. */
     const bool is_driven = session.plug_tick <= session.boot_tick;
     editor.is_play = is_driven && page > 0 && page < (int)PAGES && find_end((unsigned)page);
     editor.mode = UNSURE;
