@@ -70,6 +70,15 @@ def test_pages_that_are_read_do_not_replace_a_file_that_appears_meanwhile(m512, 
     assert (here / "y.bin").read_bytes() == b"somebody's"
 
 
+def test_a_hex_file_of_pages_that_were_read_holds_no_others(m512, here, started):
+    """Flashing it would empty all other pages of a board."""
+    board = started("boot-cm5.hex", "play-cm5.hex", text=MOTION + "page 3 walk\n  step 1s | 1..18:400\n", applied=True)
+    for name, given in (("y.hex", {3}), ("y.bin", None)):
+        assert m512("get", "3", "-p", board.path, "-o", name).exit_code == 0
+        image = formats.load(here / name)
+        assert image.given == given and image.used() == [3]
+
+
 @pytest.mark.parametrize("error", [PermissionError(1, "Operation not permitted"), OSError(95, "Operation not supported")])
 def test_a_file_system_without_hard_links_keeps_what_is_there_too(here, monkeypatch, error):
     def none(*_):

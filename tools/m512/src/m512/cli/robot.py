@@ -337,7 +337,10 @@ Examples:
 @click.option("--force", is_flag=True, help="Overwrite the file.")
 @robot_options
 def get(pages: Sequence[str], output: Any, force: bool, **options: Any) -> None:
-    """Read PAGES (numbers, names, ranges as 20..25, or `all`) from a running board into a file."""
+    """Read PAGES (numbers, names, ranges as 20..25, or `all`) from a running board into a file.
+
+    An Intel HEX file holds these pages only; in other files the other pages are empty.
+    """
     from m512.files import formats
     from m512.files.image import Image
 
@@ -349,6 +352,7 @@ def get(pages: Sequence[str], output: Any, force: bool, **options: Any) -> None:
             for done, number in enumerate(numbers):
                 image[number] = client.page(number)
                 progress(done + 1, len(numbers))
+        image.given = set(numbers)  # flashing an Intel HEX file of them replaces no others
     for loss in formats.save(output, image, replace=force):
         ui.say(f"loss: {loss}")
     ui.say(f"{output}: pages {' '.join(map(str, numbers))}")
