@@ -16,7 +16,6 @@ static struct {
     jmp_buf *cut_where;
     uint16_t broken_page;
     uint8_t broken_tries;
-    void (*hook)(void);
 } flash;
 
 void fake_flash_reset(void)
@@ -49,11 +48,6 @@ uint32_t fake_flash_wear(uint16_t page)
     return flash.wear[page];
 }
 
-void fake_flash_on_operation(void (*hook)(void))
-{
-    flash.hook = hook;
-}
-
 void fake_flash_break(uint16_t page, uint8_t tries)
 {
     flash.broken_page = page;
@@ -69,9 +63,6 @@ static uint8_t random_byte(void)
 /* Changes one page to `wanted`, only partly if the power is cut. */
 static void operate(uint16_t page, const uint8_t wanted[FLASH_PAGE_BYTES])
 {
-    if (flash.hook != NULL) {
-        flash.hook();
-    }
     uint8_t *cell = flash.bytes + (uint32_t)page * FLASH_PAGE_BYTES;
     bool cut = ++flash.ops == flash.cut_op;
     bool broken = page == flash.broken_page && flash.broken_tries > 0;

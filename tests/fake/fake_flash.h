@@ -30,9 +30,6 @@ uint32_t fake_flash_ops(void);
 /* Erases of one page since fake_flash_reset. */
 uint32_t fake_flash_wear(uint16_t page);
 
-/* Calls `hook` before each operation until fake_flash_reset (on the chip interrupts are off then). NULL: none. */
-void fake_flash_on_operation(void (*hook)(void));
-
 /* The next `tries` operations on `page` do nothing (a bad cell), so the verify must fail. */
 void fake_flash_break(uint16_t page, uint8_t tries);
 

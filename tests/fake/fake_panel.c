@@ -3,13 +3,11 @@
 #include "debounce.h"
 #include "panel.h"
 
-static bool there;
 static uint8_t pressed, lit;
 static debounce_t buttons;
 
 void fake_panel_reset(void)
 {
-    there = true;
     pressed = 0;
     panel_init();
 }
@@ -19,23 +17,15 @@ void fake_panel_press(uint8_t now)
     pressed = now;
 }
 
-void fake_panel_set_there(bool is_there)
-{
-    there = is_there;
-    panel_init();
-}
-
 void panel_init(void)
 {
-    lit = there ? PANEL_LED_POWER : 0;
+    lit = PANEL_LED_POWER;
     debounce_init(&buttons, panel_buttons_now());
 }
 
 void panel_set(uint8_t leds, bool on)
 {
-    if (there) {
-        lit = (uint8_t)(on ? lit | leds : lit & (uint8_t)~leds);
-    }
+    lit = (uint8_t)(on ? lit | leds : lit & (uint8_t)~leds);
 }
 
 uint8_t panel_lit(void)
@@ -55,5 +45,5 @@ uint8_t panel_buttons(void)
 
 uint8_t panel_buttons_now(void)
 {
-    return there ? pressed : 0;
+    return pressed;
 }

@@ -3,11 +3,9 @@
 #ifndef FAKE_PANEL_H
 #define FAKE_PANEL_H
 
-#include <stdbool.h>
 #include <stdint.h>
 
 void fake_panel_reset(void);                      /* a board with panel, no button pressed */
 void fake_panel_press(uint8_t buttons);           /* presses these (PANEL_ bits), releases all others */
-void fake_panel_set_there(bool there);            /* false: no panel, as on a CM-2 */
 
 #endif

@@ -5,15 +5,11 @@
 #define FAKE_SYSTEM_H
 
 #include <setjmp.h>
-#include <stdbool.h>
 #include <stdint.h>
 
 void fake_system_reset(void);
-void fake_system_set_cause(uint8_t cause);
 void fake_system_on_restart(jmp_buf *where);
 uint32_t fake_system_kicks(void);                 /* system_kick calls */
-bool fake_system_watchdog(void);                  /* whether it is on */
-uint32_t fake_system_sleeps(void);
 /* system_is_asked_to_end returns true from now on; system_end then does what system_restart does. */
 void fake_system_ask_to_end(void);
 

@@ -4,10 +4,11 @@
 #include "tick.h"
 
 #define HALF_US_PER_TICK 15625u
+#define HALF_US_PER_LOOK 2u
 
 static uint32_t ticks, half_us_total;
 static uint32_t half_us_in_tick;
-static uint16_t taken, missed, late, step;
+static uint16_t taken, missed, late;
 
 void fake_time_reset(void)
 {
@@ -17,7 +18,6 @@ void fake_time_reset(void)
     taken = 0;
     missed = 0;
     late = 0;
-    step = 2;
 }
 
 void fake_time_ticks(uint16_t count)
@@ -26,17 +26,13 @@ void fake_time_ticks(uint16_t count)
     half_us_total += (uint32_t)count * HALF_US_PER_TICK;
 }
 
-void fake_time_half_us(uint32_t half_us)
+/* Advances the clock and, every 15,625 half us, the tick. */
+static void advance(uint32_t half_us)
 {
     half_us_total += half_us;
     half_us_in_tick += half_us;
     ticks += half_us_in_tick / HALF_US_PER_TICK;
     half_us_in_tick %= HALF_US_PER_TICK;
-}
-
-void fake_time_set_step(uint16_t half_us)
-{
-    step = half_us;
 }
 
 void tick_init(void)
@@ -93,7 +89,7 @@ void clock_init(void)
 
 uint16_t clock_now_noirq(void)
 {
-    fake_time_half_us(step);
+    advance(HALF_US_PER_LOOK);
     return (uint16_t)half_us_total;
 }
 
@@ -104,5 +100,5 @@ uint16_t clock_now(void)
 
 void clock_wait_us(uint16_t us)
 {
-    fake_time_half_us((uint32_t)us * CLOCK_PER_US);
+    advance((uint32_t)us * CLOCK_PER_US);
 }
