@@ -14,6 +14,9 @@ const TOUCH = new Color(0xe09c00);
 const LIT = new Color(0xff5a3c);
 /** Shapes of the board's LEDs in the body, by bit. */
 const LAMPS = ['power', 'txd', 'rxd', 'aux', 'manage', 'program', 'play'].map(name => `lamp_${name}`);
+/** The lamps stand on the trunk's back and reach 4 mm out of it. To an eye before their plane by more than this sine of the angle (30
+ *  degrees) the trunk hides them. */
+const LAMPS_END = 0.5;
 /** Materials of small, flat parts: their shadows would be barely visible, but costly. */
 const WITHOUT_SHADOW: readonly string[] = ['horn', 'lamp'];
 const NO_ALARMS: ReadonlySet<number> = new Set();
@@ -58,7 +61,7 @@ export class RobotFigure {
     private readonly joints = new Map<number, JointGroup>();
     private readonly links = new Map<string, Group>();
     private readonly materials = new Map<string, MeshStandardMaterial[]>();
-    private readonly lamps = new Map<string, MeshStandardMaterial>();
+    private readonly lamps = new Map<string, Mesh<BufferGeometry, MeshStandardMaterial>>();
     private readonly ghost: GhostLook | null;
     private marked: string | null = null;
     private chosen: ReadonlySet<string> = new Set();
@@ -71,7 +74,7 @@ export class RobotFigure {
         for (const shape of body.shapes) this.addShape(shape, body);
     }
 
-    /** Sets trunk and joint angles. alarms: servos that report a fault. */
+    /** Sets trunk and joint angles, and colours the links: after mark(), choose() and touch(). alarms: servos that report a fault. */
     show(trunk: Place, angles: Angles, alarms: ReadonlySet<number> = NO_ALARMS): void {
         put(this.root, trunk);
         for (const { joint, group, axis } of this.joints.values()) group.quaternion.setFromAxisAngle(axis, angles.get(joint.servo) ?? 0);
@@ -82,7 +85,19 @@ export class RobotFigure {
 
     /** Sets the board's LEDs, one per bit. */
     light(bits: number): void {
-        for (const [bit, name] of LAMPS.entries()) this.lamps.get(name)?.emissive.set((bits >> bit) & 1 ? LIT : 0x000000);
+        for (const [bit, name] of LAMPS.entries()) this.lamps.get(name)?.material.emissive.set((bits >> bit) & 1 ? LIT : 0x000000);
+    }
+
+    /** Leaves out the LEDs that cannot be seen from here (a place in the world), so that they blink without a new picture. */
+    hideLamps(eye: Vector3): void {
+        this.root.updateWorldMatrix(true, false);
+        const from = this.root.worldToLocal(eye.clone());
+        for (const lamp of this.lamps.values()) lamp.visible = from.clone().sub(lamp.position).normalize().x < LAMPS_END;
+    }
+
+    /** An LED is in the picture, or would be. */
+    get hasLamps(): boolean {
+        return [...this.lamps.values()].some(lamp => lamp.visible);
     }
 
     /** Highlights one link; null: none. */
@@ -111,7 +126,8 @@ export class RobotFigure {
 
     dispose(): void {
         for (const mesh of this.meshes) mesh.geometry.dispose();
-        for (const materials of [...this.materials.values(), this.lamps.values()]) for (const one of materials) one.dispose();
+        for (const materials of this.materials.values()) for (const one of materials) one.dispose();
+        for (const lamp of this.lamps.values()) lamp.material.dispose();
     }
 
     private addLink(link: Body['links'][number], joint: Joint | undefined): void {
@@ -153,7 +169,7 @@ export class RobotFigure {
         this.links.get(shape.body)?.add(mesh);
         this.meshes.push(mesh);
         if (LAMPS.includes(shape.name ?? '') && !this.ghost)
-            this.lamps.set(shape.name ?? '', material); // only light() changes its glow
+            this.lamps.set(shape.name ?? '', mesh); // only light() changes its glow
         else this.materials.set(shape.body, [...(this.materials.get(shape.body) ?? []), material]);
     }
 

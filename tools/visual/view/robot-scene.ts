@@ -142,6 +142,7 @@ export class RobotScene {
     draw(elapsedMs: number): boolean {
         this.controls.dampingFactor = glide(DAMPING, elapsedMs); // the camera glides on after a gesture
         this.controls.update();
+        this.figure.hideLamps(this.camera.position);
         const isNew = this.change.take(this.scene, this.camera);
         if (isNew) {
             this.renderer.render(this.scene, this.camera);
