@@ -9,26 +9,28 @@ const touch = (depthM: number): Touch => ({ links: ['left_hand', 'right_hand'], 
 function bench() {
     const asked: number[] = [];
     const answers: ((touches: readonly Touch[]) => void)[] = [];
-    const watch = new TouchWatch({
-        touching: pose =>
-            new Promise(resolve => {
-                asked.push(pose[0] ?? -1);
-                answers.push(resolve);
-            }),
-    });
+    let answered = 0;
+    const touching = (pose: ArrayLike<number>): Promise<readonly Touch[]> =>
+        new Promise(resolve => {
+            asked.push(pose[0] ?? -1);
+            answers.push(resolve);
+        });
+    const watch = new TouchWatch({ touching }, () => answered++);
     const answer = async (touches: readonly Touch[]): Promise<void> => {
         answers.shift()?.(touches);
         await Promise.resolve();
         await Promise.resolve();
     };
-    return { watch, asked, answer };
+    return { watch, asked, answer, answered: () => answered };
 }
 
 test('one question at a time, of the newest pose; a pose that is known is not asked again', async () => {
-    const { watch, asked, answer } = bench();
+    const { watch, asked, answer, answered } = bench();
     for (const position of [1, 2, 3]) watch.look([position]);
     expect(asked).toEqual([1]);
+    expect(answered()).toBe(0);
     await answer([touch(0.01)]);
+    expect(answered()).toBe(1);
     expect(watch.touches).toEqual([touch(0.01)]);
     watch.look([3]);
     expect(asked).toEqual([1, 3]);

@@ -46,7 +46,7 @@ test('of a robot that has told nothing yet no figure is shown, and no ghost; the
     const trials = { touching: () => Promise.resolve([]) };
     const session = { body: BODY, state, editor, preview, trials } as unknown as Session;
     const figure = { show: nothing, touch: nothing, light: nothing, choose: nothing };
-    const tool = new PoseTool({ figure, add: nothing } as unknown as RobotScene, session, new Store(EDITING_START));
+    const tool = new PoseTool({ figure, add: nothing } as unknown as RobotScene, session, new Store(EDITING_START), nothing);
     tool.show(ROBOT, false);
     expect(tool.figureTrunk).toEqual(ROBOT.trunk);
     tool.show(null, false);

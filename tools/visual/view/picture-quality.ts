@@ -37,6 +37,11 @@ export class PictureQuality {
         return this.bySoftware ? Math.max(SOFTWARE_MS, 2 * frameMs) : 0;
     }
 
+    /** It goes up again by itself, but only in frames. */
+    get isLowered(): boolean {
+        return !this.bySoftware && this.step > 0;
+    }
+
     get quality(): Quality {
         return STEPS[this.step] ?? { pixels: 1, shadows: true };
     }

@@ -5,6 +5,7 @@ import {
     BufferGeometry,
     Line,
     LineBasicMaterial,
+    Matrix4,
     PCFShadowMap,
     PerspectiveCamera,
     Quaternion,
@@ -33,6 +34,8 @@ import type { RoomColours } from './room.ts';
 const FOLLOW = 0.08;
 const DAMPING = 0.12;
 const MOST_PIXELS = 2;
+/** The camera rests when it moves by less in a frame (metres, radians). What is left of its way is then an eighth of a millimetre. */
+const REST = 1e-5;
 /** In three's spherical coordinates y is up, in the room z. */
 const TO_Y_UP = new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(0, 1, 0));
 const LEAST_POLAR = 0.05;
@@ -62,13 +65,16 @@ export class RobotScene {
     private readonly followed = new Vector3(0, 0, 0.14);
     private readonly raycaster = new Raycaster();
     private readonly change = new PictureChange();
+    private readonly cameraBefore = new Matrix4();
+    private readonly changed: () => void;
 
-    /** Throws when the browser has no WebGL. */
-    constructor(canvas: HTMLCanvasElement, body: Body) {
+    /** changed: called when draw() has something to draw. Throws when the browser has no WebGL. */
+    constructor(canvas: HTMLCanvasElement, body: Body, changed: () => void) {
+        this.changed = changed;
         this.isSoftware = drawsBySoftware();
         this.aside = this.isSoftware ? new PictureAside(canvas) : null;
         this.renderer = new WebGLRenderer({ canvas: this.aside?.canvas ?? canvas, antialias: !this.isSoftware });
-        this.renderer.domElement.addEventListener('webglcontextrestored', () => this.redraw());
+        this.renderer.domElement.addEventListener('webglcontextrestored', () => this.touch());
         this.renderer.shadowMap.enabled = true;
         this.renderer.shadowMap.type = PCFShadowMap;
         this.figure = new RobotFigure(body);
@@ -76,6 +82,7 @@ export class RobotScene {
         this.camera.position.set(0.88, -0.56, 0.42);
         this.controls = new OrbitControls(this.camera, canvas);
         this.controls.target.copy(this.followed);
+        this.controls.addEventListener('change', changed);
         Object.assign(this.controls, { minDistance: 0.3, maxDistance: 4, maxPolarAngle: Math.PI * 0.52, enableDamping: true });
         this.string = new Line(
             new BufferGeometry().setFromPoints([new Vector3(), new Vector3()]),
@@ -91,7 +98,7 @@ export class RobotScene {
     /** Colours of the room, from the page's theme. */
     paint(colours: RoomColours): void {
         this.place.paint(colours);
-        this.change.touch();
+        this.touch();
     }
 
     /** covered: pixels at the lower edge that another element covers. A shift by a quarter is enough: the robot is above the middle. */
@@ -101,11 +108,12 @@ export class RobotScene {
         this.renderer.setSize(width, height, false);
         this.camera.aspect = width / Math.max(height, 1);
         this.camera.setViewOffset(width, height, 0, covered / 4, width, height);
-        this.change.touch();
+        this.touch();
     }
 
     tilt(front: number, left: number): void {
         this.room.rotation.set(-left, front, 0);
+        this.changed();
     }
 
     /** Adds objects to the room, such as ghosts and marks on the floor. */
@@ -123,6 +131,7 @@ export class RobotScene {
             from.theta + around,
         );
         object.position.setFromSpherical(from).applyQuaternion(TO_Y_UP.clone().invert()).add(target);
+        this.changed();
     }
 
     /** Shows the robot; null: there is nothing to show. The camera follows the trunk, and if it chases, turns behind it. elapsedMs: since the
@@ -133,13 +142,8 @@ export class RobotScene {
         this.place.goWith(this.followed);
     }
 
-    /** Makes the next draw() draw in any case. */
-    redraw(): void {
-        this.change.touch();
-    }
-
-    /** Draws if the picture has changed; elapsedMs: since the last call. false: nothing has changed. */
-    draw(elapsedMs: number): boolean {
+    /** Draws if the picture has changed (isNew); elapsedMs: since the last call. isMoving: the camera glides on. */
+    draw(elapsedMs: number): { readonly isNew: boolean; readonly isMoving: boolean } {
         this.controls.dampingFactor = glide(DAMPING, elapsedMs); // the camera glides on after a gesture
         this.controls.update();
         this.figure.hideLamps(this.camera.position);
@@ -148,7 +152,16 @@ export class RobotScene {
             this.renderer.render(this.scene, this.camera);
             this.aside?.show(this.renderer.getContext() as WebGL2RenderingContext); // three uses WebGL 2 only
         }
-        return isNew;
+        const { elements } = this.cameraBefore;
+        const isMoving = this.camera.matrixWorld.elements.some((value, i) => Math.abs(value - (elements[i] ?? 0)) > REST);
+        this.cameraBefore.copy(this.camera.matrixWorld);
+        return { isNew, isMoving };
+    }
+
+    /** Makes the next draw() draw in any case. */
+    private touch(): void {
+        this.change.touch();
+        this.changed();
     }
 
     /** The last picture drawn is not visible yet. */
@@ -207,10 +220,11 @@ export class RobotScene {
     pull(link: string | null, point?: Vector, target?: Vector): void {
         const frame = link === null ? undefined : this.figure.link(link);
         this.string.visible = frame !== undefined;
+        this.changed();
         if (!frame || !point || !target) return;
         const from = this.room.worldToLocal(frame.localToWorld(new Vector3(...point)));
         this.string.geometry.setFromPoints([from, new Vector3(...target)]);
-        this.change.touch();
+        this.touch();
     }
 
     dispose(): void {

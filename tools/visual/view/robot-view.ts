@@ -14,7 +14,9 @@ import { PoseTool } from './editor/pose-tool.ts';
 import { define, make, setText, withoutMenu } from './element.ts';
 import { Fingers } from './fingers.ts';
 import { keyOf } from './key-of.ts';
+import { PictureFrames } from './picture-frames.ts';
 import { PictureQuality } from './picture-quality.ts';
+import { looksDifferent } from './robot-change.ts';
 import { RobotScene } from './robot-scene.ts';
 import type { Picked } from './robot-scene.ts';
 import { Store } from './store.ts';
@@ -34,8 +36,6 @@ const AROUND = Array.from({ length: 8 }, (_, i) => (i * Math.PI) / 4);
 
 export class RobotView extends HTMLElement {
     session!: Session; // set before it is connected
-    /** The camera is at rest: the last frame had no change to draw, and no input has come since. */
-    isStill = false;
     editing = new Store<Editing>(EDITING_START);
     /** Element that covers part of the lower edge; the robot is shifted up for it. */
     cover: HTMLElement | null = null;
@@ -44,6 +44,9 @@ export class RobotView extends HTMLElement {
     private quality = new PictureQuality(false);
     /** Last state of the robot in use; null: unknown. */
     private state: RobotState | null = null;
+    /** The state that the picture shows. */
+    private placed: RobotState | null = null;
+    private frames: PictureFrames | null = null;
     private grabbed: (Picked & { target: Picked['world'] }) | null = null;
     private taught: readonly number[] = [];
     /** Pointer that holds the robot. */
@@ -61,18 +64,18 @@ export class RobotView extends HTMLElement {
     connectedCallback(): void {
         this.append(this.canvas, this.label, this.spoken);
         try {
-            this.scene = new RobotScene(this.canvas, this.session.body);
+            this.scene = new RobotScene(this.canvas, this.session.body, () => this.ask());
         } catch {
             this.replaceChildren(make('p', { class: 'no-picture' }, TEXTS.page.noWebGl));
             return;
         }
         this.quality = new PictureQuality(this.scene.isSoftware);
-        this.pose = new PoseTool(this.scene, this.session, this.editing);
+        this.pose = new PoseTool(this.scene, this.session, this.editing, () => this.ask());
+        this.drawFrames(this.scene);
         this.watchSize(this.scene);
         this.watchTheme(this.scene);
         this.listen();
-        this.disposals.push(watchRobot(this.session, state => (this.state = state)));
-        this.drawFrames(this.scene);
+        this.watchShown(this.scene);
     }
 
     disconnectedCallback(): void {
@@ -80,6 +83,11 @@ export class RobotView extends HTMLElement {
         this.pose?.dispose();
         this.scene?.dispose();
         this.scene = null;
+    }
+
+    /** Nothing in the picture changes, and the camera is at rest. */
+    get isStill(): boolean {
+        return this.frames?.isAtRest !== false;
     }
 
     /** Distance of the edited step's centre of mass inside the support polygon (metres); null: not computed. */
@@ -110,33 +118,66 @@ export class RobotView extends HTMLElement {
     }
 
     private drawFrames(scene: RobotScene): void {
-        let request = 0;
-        let beforeMs = 0;
-        let tookMs = 0;
-        let wasNew = false;
-        let hasRobot = false;
         let isDrawn = false;
-        const draw = (nowMs: number): void => {
-            request = requestAnimationFrame(draw);
-            if (scene.isBusy) return;
-            if (wasNew) tookMs = nowMs - beforeMs; // the browser calls again when it has finished drawing
-            if (hasRobot && !isDrawn) isDrawn = performance.mark(ROBOT_DRAWN) !== null;
-            wasNew = false;
-            const elapsedMs = nowMs - beforeMs;
-            if (elapsedMs < this.quality.restMs(tookMs)) return;
-            if (this.quality.take(elapsedMs)) this.resize(scene);
-            beforeMs = nowMs;
-            this.place(scene, elapsedMs);
-            if (this.grabbed) scene.pull(this.grabbed.link, this.grabbed.point, this.grabbed.target);
-            wasNew = scene.draw(elapsedMs);
-            this.isStill = !wasNew;
-            hasRobot = this.state !== null;
-        };
-        request = requestAnimationFrame(draw);
-        this.disposals.push(() => cancelAnimationFrame(request));
+        const frames = new PictureFrames(this.quality, {
+            isBusy: () => scene.isBusy,
+            draw: elapsedMs => this.draw(scene, elapsedMs),
+            shown: () => (isDrawn ||= this.placed !== null && performance.mark(ROBOT_DRAWN) !== null),
+            resize: () => this.resize(scene),
+        });
+        this.frames = frames;
+        this.disposals.push(() => {
+            frames.dispose();
+            this.frames = null; // a late answer asks for nothing
+        });
+    }
+
+    /** Something shown has changed. The only place that asks for a frame. */
+    private ask(): void {
+        this.frames?.ask();
+    }
+
+    /** Asks for a frame when what the picture is made from changes. Size, theme, camera and string: the scene asks. */
+    private watchShown(scene: RobotScene): void {
+        const ask = (): void => this.ask();
+        const { session } = this;
+        let before = session.state.get();
+        this.disposals.push(
+            watchRobot(session, state => {
+                this.state = state;
+                if (!this.label.hidden) this.showJoint(this.labelled); // the joint moves under the mouse
+                if (looksDifferent(this.placed, state, scene.figure.hasLamps)) ask();
+            }),
+            session.state.watch(now => {
+                if (now.tab !== before.tab || now.where?.state !== before.where?.state) ask(); // not at every answer of the robot
+                before = now;
+            }),
+            session.editor.state.watch(ask),
+            session.preview.state.watch(ask),
+            this.editing.watch(ask),
+        );
+        for (const touch of [
+            'pointerdown',
+            'pointermove',
+            'pointerup',
+            'pointercancel',
+            'pointerleave',
+            'wheel',
+            'keydown',
+            'keyup',
+            'blur',
+        ])
+            this.canvas.addEventListener(touch, ask, { capture: true });
+    }
+
+    private draw(scene: RobotScene, elapsedMs: number): { readonly isNew: boolean; readonly isMoving: boolean } {
+        this.place(scene, elapsedMs);
+        if (this.grabbed) scene.pull(this.grabbed.link, this.grabbed.point, this.grabbed.target);
+        return scene.draw(elapsedMs);
     }
 
     private place(scene: RobotScene, elapsedMs: number): void {
+        this.placed = this.state;
         this.pose?.show(this.state, this.holder !== null);
         if (!this.label.hidden) this.showJoint(this.pose?.figureTrunk ? this.labelled : null); // the joint moves under the mouse
         scene.look(this.pose?.figureTrunk ?? null, this.grabbed === null && !this.pose?.isDragging ? elapsedMs : null, this.chases());
@@ -186,8 +227,6 @@ export class RobotView extends HTMLElement {
     private listen(): void {
         const canvas = this.canvas;
         withoutMenu(canvas);
-        for (const touch of ['pointerdown', 'pointermove', 'pointerup', 'wheel', 'keydown'])
-            canvas.addEventListener(touch, () => (this.isStill = false), { capture: true });
         this.scene?.controls.addEventListener('start', () => (this.isLookedRound = true));
         canvas.addEventListener('pointerdown', event => this.grab(event), { capture: true });
         canvas.addEventListener('pointermove', event => this.move(event));

@@ -47,7 +47,8 @@ export class PoseTool {
     private balance: Balance | null = null;
     private readonly touchWatch: TouchWatch;
 
-    constructor(scene: RobotScene, session: Session, editing: Store<Editing>) {
+    /** changed: called when show() would show something else, and none of robot, document and settings has changed. */
+    constructor(scene: RobotScene, session: Session, editing: Store<Editing>, changed: () => void) {
         this.scene = scene;
         this.session = session;
         this.editing = editing;
@@ -57,7 +58,7 @@ export class PoseTool {
         this.arrows = new JointTurn(session.editor, session.body, (start, positions) =>
             changeStep(session.editor, start, positions, this.edited.robot),
         );
-        this.touchWatch = new TouchWatch(session.trials);
+        this.touchWatch = new TouchWatch(session.trials, changed);
         scene.add(this.layer.root);
     }
 
@@ -101,16 +102,16 @@ export class PoseTool {
               ? edited
               : real;
         this.figureTrunk = figure?.trunk ?? null;
+        this.touchWatch.look(edited ? (isPosing ? this.shownPose : robot && robotPose(robot)) : null);
         this.scene.figure.touch(new Set(this.touches.flatMap(({ links }) => links)));
+        this.scene.figure.choose(isPosing ? this.chosenLinks() : new Set());
         if (figure) this.scene.figure.show(figure.trunk, figure.angles, isPosing || shown ? new Set() : alarms);
         this.scene.figure.light(robot?.leds ?? 0);
-        this.scene.figure.choose(isPosing ? this.chosenLinks() : new Set());
         const other = isInHand ? null : isPosing ? real : edited;
         this.layer.show('ghost', other && !(real && edited && isSame(real.angles, edited.angles)) ? other : null, figure);
         this.showOnion(isInHand ? null : edited, figure);
         this.balance = edited && this.editing.get().balance ? balanceOf(this.body, edited) : null;
         this.layer.showBalance(this.balance);
-        this.touchWatch.look(edited ? (isPosing ? this.shownPose : robot && robotPose(robot)) : null);
         return isPosing;
     }
 

@@ -9,14 +9,17 @@ const NONE: readonly Touch[] = [];
 
 export class TouchWatch {
     private readonly trials: Pick<Trials, 'touching'>;
+    private readonly answered: () => void;
     private asked: readonly number[] | null = null;
     private wanted: readonly number[] | null = null;
     private isAsking = false;
     /** Result for the last pose that was answered. */
     touches = NONE;
 
-    constructor(trials: Pick<Trials, 'touching'>) {
+    /** answered: there is a result, and look() may ask again. */
+    constructor(trials: Pick<Trials, 'touching'>, answered: () => void) {
         this.trials = trials;
+        this.answered = answered;
     }
 
     /** Takes the current pose (servo units by ID); null: clears the result. */
@@ -34,6 +37,7 @@ export class TouchWatch {
         const touches = await this.trials.touching(pose);
         this.isAsking = false;
         if (this.wanted !== null) this.touches = touches;
+        this.answered();
     }
 }
 
