@@ -12,6 +12,7 @@ import { PageFormat } from './model/page-format.ts';
 import { AppShell } from './view/app-shell.ts';
 import { BrowserStorage, PassingStorage } from './view/document-storage.ts';
 import { make } from './view/element.ts';
+import { watchTyping } from './view/half-typed.ts';
 import { useLanguage } from './view/texts/languages.ts';
 import { TEXTS } from './view/texts/texts.ts';
 
@@ -20,9 +21,10 @@ async function start(): Promise<void> {
     if (typeof WebAssembly === 'undefined') return; // old-browser.js says so
     const [body, parts, storage] = await Promise.all([robotBody(), editorParts(), documentStorage()]);
     const session = new RobotSession(body, parts, fileFormats(), storage);
-    document.addEventListener('visibilitychange', () => leave(storage)); // the last event that a page receives, also on reload
+    const commitTyped = watchTyping(document);
+    document.addEventListener('visibilitychange', () => leave(storage, commitTyped)); // the last event that a page receives, also on reload
     window.addEventListener('beforeunload', event => losesWork(session) && event.preventDefault());
-    await Promise.all([session.start(), show(session, parts)]); // the robot starts in its worker while the page is built
+    await Promise.all([session.start(), show(session, parts, commitTyped)]); // the robot starts in its worker while the page is built
     keepOffline(session);
 }
 
@@ -31,20 +33,21 @@ function losesWork({ documents, state }: RobotSession): boolean {
     return documents.state.get().saving === 'off' || state.get().hasUnkept;
 }
 
-/** Commits a half-typed field as if the person had left it. */
-function leave({ storage }: ChosenStorage): void {
+function leave({ storage }: ChosenStorage, commitTyped: () => void): void {
     if (document.visibilityState !== 'hidden') return;
-    const field = document.activeElement;
-    if (field?.matches('input[type=text], input[type=number]')) field.dispatchEvent(new Event('change'));
+    commitTyped();
     storage.leave();
 }
 
-async function show(session: RobotSession, parts: EditorParts): Promise<void> {
+async function show(session: RobotSession, parts: EditorParts, commitTyped: () => void): Promise<void> {
     await session.documents.start(parts.document);
     const shell = new AppShell();
     shell.session = session;
     document.body.append(shell);
-    const readAddress = (): void => void session.files.readAddress(window.location.hash);
+    const readAddress = (): void => {
+        commitTyped(); // to the motion it was typed for: the link chooses another one
+        void session.files.readAddress(window.location.hash);
+    };
     window.addEventListener('hashchange', readAddress); // a link to this page while it is open
     readAddress();
 }

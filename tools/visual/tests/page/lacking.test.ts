@@ -98,6 +98,36 @@ test('no graphics chip: the page never waits for a picture of a robot that walks
     await person.leave();
 });
 
+/** A press at the beginning, in the middle or at the end of a line of this text would hit something else, which covers it. */
+function coveredPlaces(text: HTMLElement | SVGElement): string[] {
+    const range = document.createRange();
+    range.selectNodeContents(text);
+    return [...range.getClientRects()].flatMap(line =>
+        [line.left + 2, line.left + line.width / 2, line.right - 2].flatMap(x => {
+            const y = line.top + line.height / 2;
+            const hits = document.elementsFromPoint(x, y).find(element => element.matches('pose-bar *') || element === text);
+            return hits === text ? [] : [`${Math.round(x)}, ${Math.round(y)}: ${hits?.outerHTML.slice(0, 60) ?? 'nothing'}`];
+        }),
+    );
+}
+
+test.each([
+    { width: 1280, height: 800 },
+    { width: 390, height: 844, hasTouch: true },
+])('no picture, $width x $height: the sentence that says so can be read, and nobody is told to drag in it', async screen => {
+    const person = await Visitor.come(suite.browser, suite.address, { screen, hasPicture: false, hasPhysics: false });
+    const sentence = person.page.getByText('This browser draws no 3D picture (WebGL is off).');
+    const poses = person.page.locator('pose-bar');
+    await person.untilStanding();
+    for (const area of ['Steps', 'Curves'] as const) {
+        await person.open(area);
+        expect(await sentence.evaluate(coveredPlaces)).toEqual([]);
+        expect(await poses.getByText(/^Drag a joint/).isVisible()).toBe(false);
+        expect(await poses.getByRole('button', { name: 'Hand' }).isVisible()).toBe(false);
+    }
+    await person.leave();
+});
+
 test('an old machine: no picture, no serial port, no physics', async () => {
     const browser = await startBrowser('--disable-3d-apis');
     try {

@@ -5,6 +5,7 @@ import { pageOf } from '../../model/document.ts';
 import { PAGE_COUNT } from '../../model/motion.ts';
 import type { Session } from '../session/session.ts';
 import { define, make, once } from '../element.ts';
+import { ShownFor } from './shown-for.ts';
 import { TEXTS } from '../texts/texts.ts';
 
 /** Library pages that the user wants to edit directly, not as copies: in every area, but not in another document. */
@@ -29,10 +30,14 @@ export class PageHead extends HTMLElement {
         TEXTS.steps.play,
     );
     private readonly library = make('div', { class: 'library', role: 'status' });
+    private readonly shownFor = new ShownFor();
+    /** The name field has a text that is not the motion's name yet. */
+    private isTyped = false;
     private shown: readonly Uint8Array[] | null = null;
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
+        this.name.addEventListener('input', () => (this.isTyped = true));
         this.name.addEventListener('change', () => this.rename());
         this.name.addEventListener('keydown', event => event.key === 'Enter' && this.rename());
         this.replaceChildren(
@@ -72,7 +77,8 @@ export class PageHead extends HTMLElement {
         if (this.shown !== pages) this.list(pages);
         this.choice.value = String(page);
         this.library.classList.toggle('away', AGREED.has(pageOf(editor.state.get().document, page)) || !editor.isOfLibrary(page));
-        if (document.activeElement !== this.name) this.name.value = editor.page(page).name;
+        if (this.shownFor.isOther(editor.state.get())) this.isTyped = false;
+        if (!this.isTyped) this.showName();
         this.play.disabled = editor.page(page).steps.length === 0;
         this.play.classList.toggle('primary', !this.play.disabled);
     }
@@ -110,11 +116,20 @@ export class PageHead extends HTMLElement {
         this.name.focus();
     }
 
+    /** The same text is not set again: that would move the cursor to its end. */
+    private showName(): void {
+        const { editor } = this.session;
+        const { name } = editor.page(editor.state.get().page);
+        if (this.name.value !== name) this.name.value = name;
+    }
+
     private rename(): void {
+        if (!this.isTyped) return;
+        this.isTyped = false;
         const { editor } = this.session;
         const { page, document } = editor.state.get();
         editor.dispatch(editor.edits.rename(document, page, this.name.value.trim()));
-        this.name.value = editor.page(page).name; // the current name: trimmed, or unchanged after a refusal
+        this.showName(); // the current name: trimmed, or unchanged after a refusal
     }
 
     private newPage(): void {

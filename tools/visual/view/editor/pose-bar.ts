@@ -11,6 +11,7 @@ import type { Store } from '../store.ts';
 import { isEditing, robotPositions } from './editing.ts';
 import type { Editing, PictureMode } from './editing.ts';
 import { changeStep } from './joint-edits.ts';
+import { ShownFor } from './shown-for.ts';
 import { jointTitle } from '../texts/robot.ts';
 import { TEXTS } from '../texts/texts.ts';
 import { touchesText } from '../texts/trials.ts';
@@ -30,6 +31,7 @@ export class PoseBar extends HTMLElement {
     private readonly joints = make('div', { class: 'joints', role: 'group', 'aria-label': TEXTS.picture.chosenJoints });
     /** shown: position last written to the input. */
     private readonly fields = new Map<number, { readonly input: HTMLInputElement; readonly degrees: HTMLElement; shown: number }>();
+    private readonly shownFor = new ShownFor();
     private readonly balance = make('p', { class: 'balance', role: 'status', 'aria-label': TEXTS.picture.balance });
     private readonly touch = make('p', { class: 'touch', role: 'status', 'aria-label': TEXTS.picture.limbsMeet });
     private readonly hint = make('p', { class: 'hint' });
@@ -108,13 +110,14 @@ export class PoseBar extends HTMLElement {
         }
         const { editor } = this.session;
         const { page, step } = editor.state.get();
+        const isOther = this.shownFor.isOtherStep(editor.state.get());
         const isEmpty = editor.page(page).steps.length === 0;
         const pose = isEmpty && this.robot ? robotPositions(this.robot) : editor.poseAfter(page, step); // an edit starts from it
         for (const joint of joints) {
             const field = this.fields.get(joint.servo);
             const position = pose[joint.servo] ?? joint.zero;
             if (!field) continue;
-            if (field.shown !== position) field.input.value = String(position); // else it would overwrite what is being typed
+            if (isOther || field.shown !== position) field.input.value = String(position); // else it would overwrite what is being typed
             field.shown = position;
             field.degrees.textContent = `${Math.round((jointAngle(joint, position) * 180) / Math.PI)}°`;
         }

@@ -9,6 +9,7 @@ import { define, handOver, isTyping, make, withoutMenu } from '../element.ts';
 import { keyOf } from '../key-of.ts';
 import { showPose } from './pose-picture.ts';
 import { TEXTS } from '../texts/texts.ts';
+import { ShownFor } from './shown-for.ts';
 import { chosenSteps } from './step-choice.ts';
 import { stepTimes } from './step-times.ts';
 import type { TimedField } from './step-times.ts';
@@ -35,6 +36,7 @@ export class StepRow extends HTMLElement {
     private isBehind = false;
     /** The field in which the user is typing. */
     private typing: HTMLInputElement | null = null;
+    private readonly shownFor = new ShownFor();
     private drag: { readonly from: number; readonly startX: number; to: number | null } | null = null;
     private readonly disposals: (() => void)[] = [];
 
@@ -97,6 +99,7 @@ export class StepRow extends HTMLElement {
         if (this.isBehind) return;
         const { editor } = this.session;
         const state = editor.state.get();
+        if (this.shownFor.isOther(state)) this.typing = null;
         const { steps, schedule } = editor.page(state.page);
         const count = Math.max(1, steps.length); // without steps an invisible card reserves the space, so that nothing jumps later
         while (this.cards.length > count) this.cards.pop()?.root.remove();
@@ -172,7 +175,7 @@ export class StepRow extends HTMLElement {
             this.render(); // the stored value may differ from what was typed
         };
         input.addEventListener('change', () => {
-            setStepField(this.session, index, field, input.value);
+            if (this.typing === input) setStepField(this.session, index, field, input.value);
             typed();
         });
         input.addEventListener('blur', typed);
