@@ -67,6 +67,7 @@ export class RobotView extends HTMLElement {
             this.scene = new RobotScene(this.canvas, this.session.body, () => this.ask());
         } catch {
             this.replaceChildren(make('p', { class: 'no-picture' }, TEXTS.page.noWebGl));
+            this.dataset.picture = 'none';
             return;
         }
         this.quality = new PictureQuality(this.scene.isSoftware);

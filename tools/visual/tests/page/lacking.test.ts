@@ -2,7 +2,7 @@
 // Each missing ability of a browser or network is reported in one sentence, and everything else works.
 import { expect, test } from 'vitest';
 import { PHYSICS, Visitor, startBrowser } from './page-bench.ts';
-import { pageSuite } from './page-suite.ts';
+import { SHOTS, pageSuite } from './page-suite.ts';
 
 const suite = pageSuite();
 
@@ -125,6 +125,16 @@ test.each([
         expect(await poses.getByText(/^Drag a joint/).isVisible()).toBe(false);
         expect(await poses.getByRole('button', { name: 'Hand' }).isVisible()).toBe(false);
     }
+    await person.open('Steps');
+    await person.page.evaluate(() => {
+        const { session } = document.querySelector('app-shell') as unknown as {
+            session: { editor: { select(change: { joints: ReadonlySet<number> }): void } };
+        };
+        session.editor.select({ joints: new Set([1, 2, 3, 4, 5, 6]) });
+    });
+    await poses.getByRole('spinbutton').first().click({ trial: true }); // the joints' numbers stay, and nothing covers them
+    expect(await sentence.evaluate(coveredPlaces)).toEqual([]);
+    await person.page.screenshot({ path: `${SHOTS}no-picture-${screen.width}.png` });
     await person.leave();
 });
 
