@@ -249,6 +249,7 @@ void session_replaced(void)
 {
     forget_edits();
     session_mark_all();
+    mark_byte(PAGE_AT_SCHEDULE);   /* its label, too */
     the_session.is_changed = differs_from_flash();
 }
 

@@ -287,6 +287,15 @@ def test_a_request_that_has_lost_a_byte_is_refused_by_name(side):
     assert answers_to(side, request("@nonsense"))[0] == ["@nonsense ERR 1 Unknown word"]
 
 
+@pytest.mark.parametrize("schedule, label", [(0, "Speed           ["), (10, "Time( x 7.8mSec)[")])
+def test_data_that_makes_speeds_of_times_or_the_reverse_changes_the_label(schedule, label):
+    side = EditSide()
+    side.robot.line("speed" if schedule else "time")
+    assert label not in side.picture()[0]
+    assert answers_to(side, request(f"@data 16 {schedule:02x}"))[0] == ["@data OK"]
+    assert label in side.picture()[0]
+
+
 @pytest.mark.parametrize("side", [EditSide, PlaySide])
 def test_the_longest_line_is_taken_and_a_longer_one_refused(side):
     side = side()
