@@ -23,7 +23,7 @@ HINT = "Ctrl-] ends the simulator"
 class Seen:
     """cm5sim on a terminal of this size, and its screen."""
 
-    def __init__(self, rows, columns, tmp_path, term="xterm"):
+    def __init__(self, rows, columns, tmp_path, *options, term="xterm"):
         self.screen = pyte.Screen(columns, rows)
         self.stream, self.raw = pyte.ByteStream(self.screen), b""
         self.screen.write_process_input = lambda answer: self.child.send(answer)
@@ -31,7 +31,7 @@ class Seen:
         eeprom.write_bytes(b"\xff" * 4095 + b"\x11")  # the loader starts the application
         self.child = pexpect.spawn(
             str(CM5SIM),
-            ["boot-cm5.hex", "edit-cm5.hex", "--motions", str(MOTIONS), "--eeprom", str(eeprom)],
+            ["boot-cm5.hex", "edit-cm5.hex", "--motions", str(MOTIONS), "--eeprom", str(eeprom), *options],
             dimensions=(rows, columns),
             timeout=PATIENCE_S,
             env={**os.environ, "TERM": term},
@@ -112,6 +112,37 @@ def test_first_wave_of_help_opens_a_page_that_is_empty_in_our_library(tmp_path):
         seen.until(lambda: seen.shows("-- more"))
         number = re.search(r"page (\d+) +opens an empty page", "\n".join(seen.screen.display))[1]
     assert from_bytes(MOTIONS.read_bytes())[int(number)].is_empty
+
+
+def test_what_was_saved_is_kept_when_the_terminal_window_is_closed(tmp_path):
+    flash = tmp_path / "robot.flash"
+    with Seen(36, 80, tmp_path, "--flash", str(flash)) as seen:
+        seen.until(lambda: seen.shows("HELP explains"))
+        seen.child.send("page 5\r")
+        seen.until(lambda: seen.shows("Number:0005"))
+        seen.child.send("name closed\r")
+        seen.until(lambda: seen.shows("* unsaved"))
+        seen.child.send("save\r")
+        seen.until(lambda: not seen.shows("* unsaved"))
+        with open(os.devnull, "r+b") as nothing:
+            os.dup2(nothing.fileno(), seen.child.child_fd)  # closes the window: input and output end, the kernel sends SIGHUP
+        end = time.monotonic() + PATIENCE_S
+        while not flash.exists():
+            assert time.monotonic() < end, "nothing was kept"
+            time.sleep(0.1)
+    assert from_bytes(flash.read_bytes()[0xE000:0x1E000])[5].name == b"closed"
+
+
+def test_answers_to_a_program_on_the_pty_stay_off_the_screen(tmp_path):
+    link = tmp_path / "port"
+    with Seen(36, 80, tmp_path, f"--pty={link}") as seen:
+        seen.until(lambda: seen.shows("HELP explains"))
+        with subprocess.Popen([sys.executable, "-m", "m512", "pose", "--text", "-p", str(link)], stdout=subprocess.DEVNULL) as m512:
+            seen.until(lambda: m512.poll() is not None)
+        seen.child.send("goto 3 3\r")
+        seen.until(lambda: seen.shows("goto 3 3"))
+    assert m512.returncode == 0
+    assert b"\x1e" not in seen.raw and not seen.shows("@")
 
 
 SLOW_THREAD = """

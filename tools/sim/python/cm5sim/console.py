@@ -15,6 +15,7 @@ from .serial_port import SerialPort
 LINE_BPS = 57600
 STDIN, STDOUT = 0, 1
 CLEAR_SCREEN = b"\x1b[2J"
+BEGIN, END = 0x1E, ord("\n")  # of an answer to a program
 BUSY = b"Somebody else is connected to this robot.\r\n"
 
 
@@ -44,6 +45,8 @@ class Console:
         self.draws = False  # the robot has sent an escape sequence: it draws a screen
         self.cleared = False  # the robot has cleared the screen and redraws it
         self._last = b""
+        self._for_person = not options.no_stdio and os.isatty(STDOUT)
+        self._answers = False  # an answer to a program has begun
 
     @property
     def tcp_port(self) -> int:
@@ -61,10 +64,11 @@ class Console:
         self.draws = self.draws or b"\x1b" in data
         self.cleared = self.cleared or CLEAR_SCREEN in self._last + data
         self._last = (self._last + data)[1 - len(CLEAR_SCREEN) :]
+        shown = self._without_answers(data) if self._for_person else data
         if self._waiting is None:
-            self.write_stdout(data)
+            self.write_stdout(shown)
         else:
-            self._waiting += data
+            self._waiting += shown
         if self.port:
             self.port.write(data)
         if self._client:
@@ -74,6 +78,16 @@ class Console:
                 pass
             except OSError:
                 self._drop_client()
+
+    def _without_answers(self, data: bytes) -> bytes:
+        """What a terminal shows: PROTOCOL.md says that bytes from 0x1E to LF are for a program, such as m512 on the pty."""
+        shown = bytearray()
+        for byte in data:
+            self._answers = self._answers or byte == BEGIN
+            if not self._answers:
+                shown.append(byte)
+            self._answers = self._answers and byte != END
+        return bytes(shown)
 
     def write_stdout(self, data: bytes) -> None:
         while data and not self.stdout_ended:

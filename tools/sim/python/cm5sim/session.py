@@ -384,8 +384,14 @@ class Session:
 
     def close(self, opened: bool) -> None:
         """Writes the files to keep, if the session was opened."""
-        self._closing.close()
-        self._line_end = "\n"
+        try:
+            self._closing.close()
+        finally:
+            self._line_end = "\n"
+            self._keep(opened)
+            self.board.close()
+
+    def _keep(self, opened: bool) -> None:
         try:
             if self._trace:
                 self._trace.close()
@@ -394,4 +400,3 @@ class Session:
         except OSError as error:
             self.complain(reason(error))
             self.end(EXIT_FILE)
-        self.board.close()

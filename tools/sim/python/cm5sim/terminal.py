@@ -11,6 +11,7 @@ import atexit
 import os
 import termios
 import tty
+from contextlib import suppress
 from typing import Any
 
 from .console import STDIN, STDOUT, Console
@@ -110,9 +111,10 @@ class Terminal:
         return self._before is not None
 
     def restore(self) -> None:
-        if self._before is not None:
-            termios.tcsetattr(STDIN, termios.TCSADRAIN, self._before)
-            self._before = None
+        before, self._before = self._before, None
+        if before is not None:
+            with suppress(termios.error):  # the window was closed: there is no terminal any more
+                termios.tcsetattr(STDIN, termios.TCSADRAIN, before)
 
     def leave_screen(self) -> None:
         """Leaves the robot's screen: further output appears below it."""
