@@ -171,6 +171,24 @@ def test_flash_calls_a_running_board_and_asks_for_the_button(m512, motions, peer
     assert result.exit_code == 0 and "Press the MODE button" in result.stderr
 
 
+@pytest.mark.parametrize("tenths", range(0, 60, 2))
+def test_the_button_counts_at_any_moment_of_the_wait(m512, peer, tenths):
+    """m512 pauses its '#' now and then, to ask for Play or Edit."""
+    peer.state, peer.presses_mode, waits_since, on_silence = 0, False, [], peer.on_silence
+
+    def person(seconds):
+        if peer.app_heard.endswith(b"##") and not waits_since:
+            waits_since.append(peer.now())
+        if waits_since and peer.state == 0 and peer.now() >= waits_since[0] + tenths / 10:
+            peer.press_mode()
+            waits_since[0] = float("inf")  # once
+        on_silence(seconds)
+
+    peer.on_silence = person
+    result = m512("run", "-p", peer.path, "--wait", "10")
+    assert result.exit_code == 0 and "Press the MODE button" in result.stderr, result.stderr
+
+
 def test_flash_says_what_it_waits_for_and_gives_up(m512, motions, peer):
     peer.state, peer.presses_mode = 0, False
     result = m512("flash", motions, "-p", peer.path, "--wait", "0.5")

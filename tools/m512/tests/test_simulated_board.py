@@ -226,6 +226,30 @@ def test_flash_restarts_edit_and_asks_where_edits_would_be_lost(m512, motions, s
     assert result.exit_code == 0 and "MODE" not in result.stderr, result.stderr
 
 
+@pytest.mark.parametrize("image", ["play-cm5.hex", "edit-cm5.hex"])
+def test_a_command_right_after_a_restart_needs_no_button(m512, started, tmp_path, image):
+    """README.md: a running Play or Edit restarts by itself. Right after `backup` neither listens yet."""
+    board = started("boot-cm5.hex", image, text=OLD, applied=True)
+    board.pass_time(2)
+    for folder, pause in (("a", 0), ("b", 0.1)):
+        assert m512("backup", tmp_path / folder, "--what", "eeprom", "-p", board.path, "--wait", "0").exit_code == 0
+        board.pass_time(pause)
+        result = m512("run", "-p", board.path, "--wait", "5")
+        assert result.exit_code == 0 and "MODE" not in result.stderr, result.stderr
+        board.pass_time(2)
+
+
+@pytest.mark.parametrize("image", ["play-cm5.hex", "edit-cm5.hex"])
+def test_a_board_that_answers_while_the_button_is_awaited_restarts_by_itself(m512, started, image):
+    board = started("boot-cm5.hex", image, text=OLD, applied=True)
+    board.pass_time(2)
+    hears_from, on_byte = board.now() + 15, board.on_byte
+    board.on_byte = lambda byte: on_byte(byte) if board.now() >= hears_from else board.pass_time(0.0002)
+    result = m512("run", "-p", board.path, "--wait", "60")
+    assert result.exit_code == 0 and "MODE" in result.stderr, result.stderr
+    assert board.now() < hears_from + 10
+
+
 @pytest.mark.parametrize("words", [("swing", "3", "512", "40", "1s"), ("aim", "3:900", "--speed", "5")])
 def test_flash_does_not_restart_a_board_whose_joints_are_moved_by_code(m512, robot, motions, words):
     """Play refuses @reset while joints move (PROTOCOL.md, ERR 4). m512 then typed `#` into Play and asked for the MODE button."""

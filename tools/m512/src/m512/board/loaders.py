@@ -7,7 +7,9 @@ prompt there? ---- yes --> identify
    | no
 in an interrupted session of ours? --> HELLO
    | no
-ask for the MODE button, '#' every 15 ms until the banner comes
+Play or Edit by now? -- yes --> as above: the board had just been restarted
+   | no
+ask for the MODE button, '#' every 25 ms until the banner comes; now and then: Play or Edit?
 """
 
 from __future__ import annotations
@@ -20,6 +22,7 @@ from click import Abort
 
 from m512.board import banner
 from m512.board.block import IDENTITY, RESET, STAY, BlockLoader
+from m512.board.client import BEGIN, FLOW, Client, framed
 from m512.board.factory import FactoryLoader
 from m512.board.factory_line import BOOT_MODE, KNOCK, PROMPT
 from m512.board.link import Link
@@ -35,6 +38,9 @@ KNOCK_SECONDS = 1.5
 IDENTIFY_TRIES = 6
 WAIT_SECONDS = 60.0
 RESTART_SECONDS = 3.0  # limit after a requested restart
+ASK_EVERY = 4.0  # seconds between two questions whether Play or Edit answers
+ASK_QUIET = 0.4  # no '#' after the question: Play and Edit execute it after 250 ms without a byte
+ANSWER = BEGIN + b"@ver image="
 BANNER_IN_FLASH = (0x1F780, 0x1F880)  # of "CM5 Boot loader V1.31", the known version (boot/ORIGINAL.md, 7b)
 
 
@@ -103,18 +109,23 @@ def _factory(link: Link, started: bytes, board: str) -> FactoryLoader:
     return loader
 
 
-def call_by_hash(link: Link, seconds: float) -> bytes | None:
+def call_by_hash(link: Link, seconds: float, asks: bool = False) -> bytes | None:
     """Sends '#' until a loader shows its banner, then clears the loader's line. Returns the loader's output, or None if there is no loader.
 
     A loader sends 0xFF when it starts and then listens for 60 ms. After HASHES_MOST '#' to an unknown listener, more are sent only
-    after that 0xFF.
+    after that 0xFF. asks: asks now and then whether Play or Edit answers, and returns what came, with ANSWER in it, when one does.
     """
     deadline, came, after_ff, sent = link.now() + seconds, b"", 0, 0
+    ask_at, hash_at = link.now() + ASK_EVERY, 0.0
     while link.now() < deadline:
+        if asks and link.now() >= ask_at and not after_ff and sent < HASHES_MOST:
+            link.write(framed("ver"))
+            sent += len(framed("ver"))
+            ask_at, hash_at = link.now() + ASK_EVERY, link.now() + ASK_QUIET
         # A few '#' after the 0xFF of a start are enough; more would only fill the loader's line.
-        if after_ff < 8 and (sent < HASHES_MOST or 0 < after_ff):
+        if after_ff < 8 and (0 < after_ff or sent < HASHES_MOST and link.now() >= hash_at):
             link.write(b"#")
-            sent += 1
+            sent, hash_at = sent + 1, link.now() + HASH_SECONDS / 2  # none for an echo
         some = link.read_some(HASH_SECONDS)
         came = (came + some)[-4096:]
         if BANNER in came or PROMPT in came:  # a prompt without a banner: an interrupted session of ours has ended
@@ -122,6 +133,9 @@ def call_by_hash(link: Link, seconds: float) -> bytes | None:
             link.drain(0.1, 1.0)
             link.write(KNOCK)
             return came if link.look_for(PROMPT, KNOCK_SECONDS)[1] else None
+        if ANSWER in came.translate(None, FLOW):
+            link.drain(0.1, 1.0)
+            return came
         after_ff = after_ff + 1 if came.endswith(b"\xff") or (after_ff and not some) else 0
         if after_ff > 30:  # nothing follows the 0xFF for a while: it was something else
             after_ff = 0
@@ -137,27 +151,44 @@ def refuse(question: str) -> None:
 def enter(link: Link, say: Callable[[str], None], seconds: float = WAIT_SECONDS, may: May = refuse, board: str = "") -> Loader:
     """The board's loader, ready for work. `say` tells the user what to do. `may` asks a question and raises RefusedError when the answer
     is no. board: the board according to the user. RefusedError also for an unsupported board."""
-    if reset_by_application(link, say, may):
-        said = call_by_hash(link, RESTART_SECONDS)
-        if said is not None:
-            return identify(link, said, board)
-    if at_prompt(link):
-        loader = identify(link, board=board)
-        loader.was_at_prompt = True
-        return loader
-    try:
-        end_session(link)
-        return identify(link, board=board)
-    except NoAnswerError:
-        pass
-    say(f"Press the MODE button of the controller (reset). Waiting for its boot loader, up to {seconds:.0f} s; Ctrl-C gives up.")
-    said = call_by_hash(link, seconds)
+    said = _restarted(link, say, may)
+    if said is None:
+        if at_prompt(link):
+            loader = identify(link, board=board)
+            loader.was_at_prompt = True
+            return loader
+        try:
+            end_session(link)
+            return identify(link, board=board)
+        except NoAnswerError:
+            pass
+        said = _restarted(link, say, may)  # a board that somebody had just restarted did not listen yet
+    if said is None:
+        say(f"Press the MODE button of the controller (reset). Waiting for its boot loader, up to {seconds:.0f} s; Ctrl-C gives up.")
+        said = _awaited(link, say, seconds, may)
     if said is None:
         raise NoAnswerError(
             f"no boot loader answered within {seconds:.0f} s. Is the controller on, the cable in its PC "
             "socket, and this the right port? (m512 doctor looks at each)"
         )
     return identify(link, said, board)
+
+
+def _restarted(link: Link, say: Callable[[str], None], may: May) -> bytes | None:
+    """The loader's output after a restart by Play or Edit. None: neither runs, or no loader came."""
+    return call_by_hash(link, RESTART_SECONDS) if reset_by_application(link, say, may) else None
+
+
+def _awaited(link: Link, say: Callable[[str], None], seconds: float, may: May) -> bytes | None:
+    """The loader's output after somebody has pressed MODE, or after Play or Edit has begun to answer and restarted. None: neither."""
+    deadline = link.now() + seconds
+    while True:
+        said = call_by_hash(link, deadline - link.now(), asks=True)
+        if said is None or ANSWER not in said.translate(None, FLOW):
+            return said
+        said = _restarted(link, say, may)
+        if said is not None:
+            return said
 
 
 def give_back(loader: Loader) -> str:
@@ -191,8 +222,6 @@ def as_found(loader: Loader) -> Iterator[None]:
 
 def reset_by_application(link: Link, say: Callable[[str], None], may: May = refuse) -> bool:
     """Asks Play or Edit to restart the controller. Returns False if neither answers. `may` is asked when edits would be lost."""
-    from m512.board.client import Client, framed
-
     try:
         client = Client(link, (0.9,))
     except NoAnswerError:
