@@ -226,6 +226,34 @@ def test_flash_restarts_edit_and_asks_where_edits_would_be_lost(m512, motions, s
     assert result.exit_code == 0 and "MODE" not in result.stderr, result.stderr
 
 
+@pytest.fixture
+def damaged(started):
+    """A board whose pages 3 "walk" and 100 "old" have wrong checksums. It waits in its boot loader."""
+    board = started("boot-cm5.hex", "play-cm5.hex", text=OLD)
+    for number in (3, 100):
+        board.board.flash[0xE000 + 512 * number + 70] ^= 1
+    return board
+
+
+def test_a_damaged_page_is_found_by_its_name(m512, damaged, tmp_path):
+    start(m512, damaged)
+    result = m512("get", "walk", "-o", tmp_path / "got.bin", "-p", damaged.path)
+    assert result.exit_code == 0, result.stderr
+    assert (tmp_path / "got.bin").read_bytes()[512 * 3 : 512 * 4] == bytes(damaged.board.flash[0xE000 + 512 * 3 : 0xE000 + 512 * 4])
+    result = m512("play", "WALK", "-p", damaged.path)
+    assert result.exit_code == 8 and "Page 3 is damaged" in result.stderr, result.stderr
+    result = m512("play", "fly", "-p", damaged.path)
+    assert 'called \'fly\'; it has 1 stand; damaged: pages 3 "walk" and 100 "old"' in result.stderr, result.stderr
+
+
+def test_names_of_many_damaged_pages_are_not_all_read(m512, damaged):
+    for number in range(40, 80):
+        damaged.board.flash[0xE000 + 512 * number : 0xE000 + 512 * (number + 1)] = bytes([1] * 512)
+    start(m512, damaged)
+    result = m512("play", "old", "-p", damaged.path)
+    assert "damaged: pages 3, 40..79 and 100, whose names are not all known" in result.stderr, result.stderr
+
+
 @pytest.mark.parametrize("image", ["play-cm5.hex", "edit-cm5.hex"])
 def test_a_command_right_after_a_restart_needs_no_button(m512, started, tmp_path, image):
     """README.md: a running Play or Edit restarts by itself. Right after `backup` neither listens yet."""

@@ -17,9 +17,11 @@ from m512.errors import EXIT_BAD_FILE, BoardError, M512Error, NoAnswerError
 from m512.files import selection
 from m512.files.image import is_erased
 from m512.files.page import EMPTY, JOINTS, PAGE_BYTES, STEP_BYTES, STEPS, Page
+from m512.files.wording import named_pages_text
 
 ANSWER_SECONDS = 3.0
 TRIES = 3
+NAMES_MOST = 16  # damaged pages whose names are read; each takes 0.2 s
 DATA_BYTES = 32
 ERR_WORD, ERR_EMPTY, ERR_EDITS, ERR_LINE, ERR_ASKED = 1, 6, 12, 15, 16
 # Fields of @where: the pattern of each, and its value when it is missing ("": it is mandatory).
@@ -63,6 +65,7 @@ class Client:
         self.said = b""  # the last that was printed for a person since a motion began
         self.version: dict[str, str] = {}
         self._listed: dict[int, tuple[int | None, str]] | None = None  # the answer of listed()
+        self._damaged: dict[int, str] = {}  # names of damaged pages, as far as they have been read
         self.slack = 0.0
         for _ in range(TRIES):
             self.version = self._fields(self._ask_version(patience))
@@ -158,7 +161,10 @@ class Client:
             return number
         if number is not None:
             raise BoardError(f"the board has no page {number}, only 0..{self.pages - 1}; it has {self._what_it_has()}")
-        return selection.find(word, self._names(), lambda text: BoardError(f"{text}; it has {self._what_it_has()}"), " of the board")
+        names = self._names()
+        if word.lower() not in map(str.lower, names.values()):
+            names.update(self._damaged_names())
+        return selection.find(word, names, lambda text: BoardError(f"{text}; it has {self._what_it_has()}"), " of the board")
 
     def motion(self, word: str) -> int:
         """The number of a playable page, by number or name."""
@@ -168,7 +174,11 @@ class Client:
         return number
 
     def _what_it_has(self) -> str:
-        return ", ".join(f"{n} {name}" for n, name in self._names().items()) or "none"
+        damaged = {number: self._damaged.get(number, "") for number in self._damaged_pages()}
+        text = ", ".join(f"{n} {name}" for n, name in self._names().items()) or "none"
+        if damaged:
+            text += f"; damaged: {named_pages_text(damaged)}"
+        return text + (", whose names are not all known" if len(damaged) > NAMES_MOST else "")
 
     def is_named(self, word: str) -> bool:
         return word in self._names().values()
@@ -179,6 +189,17 @@ class Client:
 
     def _names(self) -> dict[int, str]:
         return {number: name for number, (steps, name) in self.listed().items() if steps is not None and name}
+
+    def _damaged_pages(self) -> list[int]:
+        return sorted(number for number, (steps, _) in self.listed().items() if steps is None)
+
+    def _damaged_names(self) -> dict[int, str]:
+        """The names of the first NAMES_MOST damaged pages. @list gives what is wrong with such a page in place of its name."""
+        for number in self._damaged_pages()[:NAMES_MOST]:
+            if number not in self._damaged:
+                with suppress(BoardError):
+                    self._damaged[number] = self.page(number).title
+        return {number: name for number, name in self._damaged.items() if name}
 
     def listed(self) -> dict[int, tuple[int | None, str]]:
         """list_pages(), asked once, and again after save_page()."""
@@ -224,7 +245,7 @@ class Client:
     def save_page(self, number: int, page: Page) -> None:
         """Saves a page in the board's flash, by way of the board's page in RAM. After Ctrl-C or a signal it saves that page before it ends: a
         part of it would stay in RAM, as edits that nobody made."""
-        self._listed = None
+        self._listed, self._damaged = None, {}
         self.open_page(number, page)
         try:
             self._send_page(number, bytes(page))
