@@ -238,7 +238,7 @@ def damaged(started):
 def test_a_damaged_page_is_found_by_its_name(m512, damaged, tmp_path):
     start(m512, damaged)
     result = m512("get", "walk", "-o", tmp_path / "got.bin", "-p", damaged.path)
-    assert result.exit_code == 0, result.stderr
+    assert result.exit_code == 0 and 'note: damaged on the board, read as they are: page 3 "walk"\n' in result.stderr, result.stderr
     assert (tmp_path / "got.bin").read_bytes()[512 * 3 : 512 * 4] == bytes(damaged.board.flash[0xE000 + 512 * 3 : 0xE000 + 512 * 4])
     result = m512("play", "WALK", "-p", damaged.path)
     assert result.exit_code == 8 and "Page 3 is damaged" in result.stderr, result.stderr

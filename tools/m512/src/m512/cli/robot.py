@@ -342,7 +342,8 @@ def get(pages: Sequence[str], output: Any, force: bool, **options: Any) -> None:
     An Intel HEX file holds these pages only; in other files the other pages are empty.
     """
     from m512.files import formats
-    from m512.files.image import Image
+    from m512.files.image import Image, is_erased
+    from m512.files.wording import named_pages_text
 
     formats.must_be_writable(output, force)  # before a robot is contacted
     with robot(options) as client:
@@ -352,6 +353,9 @@ def get(pages: Sequence[str], output: Any, force: bool, **options: Any) -> None:
             for done, number in enumerate(numbers):
                 image[number] = client.page(number)
                 progress(done + 1, len(numbers))
+        damaged = {number: image[number].title for number in numbers if image[number].fault() and not is_erased(image[number])}
+        if damaged:
+            ui.say(f"note: damaged on the board, read as they are: {named_pages_text(damaged)}")
         image.given = set(numbers)  # flashing an Intel HEX file of them replaces no others
     for loss in formats.save(output, image, replace=force):
         ui.say(f"loss: {loss}")
