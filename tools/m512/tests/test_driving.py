@@ -238,6 +238,29 @@ def test_a_stop_counts_behind_any_key(key, done):
         assert after(before + key).done == done and after(before, key).done == done, before
 
 
+@pytest.mark.parametrize("key, code", [(" ", 0), ("x", 0), ("\x03", 130)])
+def test_the_exit_code_tells_ctrl_c(m512, monkeypatch, key, code):
+    from contextlib import contextmanager
+
+    from m512.cli import shape
+
+    class Robot(Board):
+        motion, shape, play = staticmethod(lambda page: 1), staticmethod(dict), staticmethod(lambda number: None)
+
+    @contextmanager
+    def robot(_):
+        yield Robot(Line())
+
+    @contextmanager
+    def keys():
+        yield Script([(0.2, key)])
+
+    monkeypatch.setattr(shape, "robot", robot)
+    monkeypatch.setattr(shape, "_keys", keys)
+    result = m512("drive", "walk", "-p", "x")
+    assert result.exit_code == code, result.stderr
+
+
 def test_drive_without_a_terminal_says_so(m512, monkeypatch):
     from contextlib import contextmanager
 

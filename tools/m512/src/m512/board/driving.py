@@ -29,13 +29,14 @@ ARROWS = {"A": "w", "B": "s", "C": "d", "D": "a"}
 @dataclass
 class Stick:
     """The commanded values in percent: blend to the right, rate, amplitude. layer: whether the second page plays over the first. `done`:
-    "stop" or "break". `said`: a message for the user."""
+    "stop" or "break"; cancelled: by Ctrl-C. `said`: a message for the user."""
 
     blend: float = 0.0
     rate: float = 100.0
     amplitude: float = 100.0
     layer: bool = False
     done: str = ""
+    cancelled: bool = False
     said: str = ""
 
     def line(self) -> str:
@@ -45,7 +46,7 @@ class Stick:
 class Keys:
     """Keys of a terminal, which reports key presses but no releases. So the steering returns to straight by itself."""
 
-    HELP = "a d or arrows left right steer, w s or up down speed, e q size, space stops, x at once"
+    HELP = "a d or arrows left right steer, w s or up down speed, e q size, space stops, x or Ctrl-C at once"
     STEER, BACK, FASTER, LARGER = 25.0, 60.0, 10.0, 10.0  # percent a key; percent a second; percent a key
 
     def __init__(self) -> None:
@@ -71,6 +72,7 @@ class Keys:
             stick.layer ^= key == "f"
             if key in " x\x03":
                 stick.done = "stop" if key == " " else "break"
+                stick.cancelled = key == "\x03"
 
 
 def _arrow(sequence: re.Match[str]) -> str:

@@ -11,8 +11,8 @@ import click
 
 from m512 import ui
 from m512.cli.layers import must_last, show_shape
-from m512.cli.robot import apply, broken_off, robot, robot_options, shape_options
-from m512.errors import NoAnswerError, PortError
+from m512.cli.robot import STOPPED, apply, broken_off, robot, robot_options, shape_options
+from m512.errors import CancelledError, NoAnswerError, PortError
 
 if TYPE_CHECKING:
     from m512.board.driving import Keys, Stick
@@ -70,7 +70,7 @@ def drive(page: str, laid: Any, **options: Any) -> None:
                     ui.say(f"f lays page {second} over it")
 
             stick = driving.drive(client, keys, client.link, _tell, second, begin)
-        failed = None if stick.done else broken_off(client)
+        failed = CancelledError(STOPPED) if stick.cancelled else None if stick.done else broken_off(client)
     ui.say("\nstopping" if stick.done else "")
     if failed:
         raise failed
