@@ -43,7 +43,7 @@ static uint8_t take_bytes(const shell_args_t *args)
 static uint8_t send_bytes(const shell_args_t *args, uint8_t instruction)
 {
     const uint8_t result = take_bytes(args);
-    return result == SHELL_OK ? send(instruction, args->count - 1u) : result;
+    return result == SHELL_OK ? send(instruction, (uint8_t)(args->count - 1u)) : result;
 }
 
 /* Writes the line's number to one address. */
@@ -180,7 +180,7 @@ WORD(servo_words_reset)
 /* swr address count, then for each servo its ID and `count` bytes. */
 WORD(servo_words_sync_write)
 {
-    const uint8_t result = take_bytes(args), count = args->count - 1u, each = packets_params()[1];
+    const uint8_t result = take_bytes(args), count = (uint8_t)(args->count - 1u), each = packets_params()[1];
     if (result != SHELL_OK) {
         return result;
     }
