@@ -16,7 +16,6 @@ test.each(Object.entries(SCREENS))('no plain English anywhere, and nothing is cu
     const person = await Visitor.come(suite.browser, `${suite.address}?lang=pseudo`, {
         screen,
         isNew: true,
-        hasPicture: false,
         hasPhysics: false,
     });
     const { page } = person;
