@@ -4,6 +4,7 @@
 import { emptyDocument } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
 import type { History } from '../model/history.ts';
+import { hexOf } from '../robot/hex.ts';
 import type { Requests } from '../robot/requests.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { DocumentStorage } from '../view/document-storage.ts';
@@ -32,7 +33,7 @@ export interface RobotForPages {
 
 /** Not crypto.randomUUID(), which is missing over plain http from another machine. */
 function newId(): string {
-    return Array.from(crypto.getRandomValues(new Uint8Array(16)), byte => byte.toString(16).padStart(2, '0')).join('');
+    return hexOf(crypto.getRandomValues(new Uint8Array(16)));
 }
 
 export function makeDocuments(

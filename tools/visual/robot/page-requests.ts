@@ -3,6 +3,7 @@
 
 import { PAGE_COUNT } from '../model/motion.ts';
 import type { PageFormat } from '../model/page-format.ts';
+import { hexOf } from './hex.ts';
 import { RobotError } from './robot-error.ts';
 import type { RequestOptions, Requests } from './requests.ts';
 
@@ -16,10 +17,6 @@ const SAVE_MS = 2000;
 export const ERR_UNSAVED = 12;
 /** ERR of `@save`: no boot loader there can write, or flash did not take the page. */
 const ERR_SAVE = 11;
-
-function hex(bytes: Uint8Array): string {
-    return Array.from(bytes, byte => byte.toString(16).padStart(2, '0')).join('');
-}
 
 function crcOf(words: string): number {
     if (!/^[0-9A-F]{4}$/i.test(words)) throw new RobotError('foreign', `a CRC: ${words.slice(0, 20)}`);
@@ -41,7 +38,7 @@ export async function openPage(requests: Ask, page: number): Promise<void> {
 
 /** Writes at most 32 bytes into the page in RAM. */
 export async function sendData(requests: Ask, offset: number, bytes: Uint8Array): Promise<void> {
-    await requests.ask(`@data ${offset} ${hex(bytes)}`);
+    await requests.ask(`@data ${offset} ${hexOf(bytes)}`);
 }
 
 /** CRC-16 of the page in RAM. */

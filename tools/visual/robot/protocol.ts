@@ -4,6 +4,7 @@
 
 import { PAGE_BYTES } from '../model/motion.ts';
 import type { Shape } from '../model/motion.ts';
+import { bytesOfHex } from './hex.ts';
 import type { RequestOptions, Requests } from './requests.ts';
 import { RobotError } from './robot-error.ts';
 
@@ -141,9 +142,7 @@ export type PageCrc = (page: Uint8Array) => number;
 
 /** The 512 bytes of a page, checked by their CRC. */
 export function askPage(requests: Requests, page: number, crcOf: PageCrc, options?: RequestOptions): Promise<Uint8Array> {
-    const fromHex = (text: string): Uint8Array =>
-        Uint8Array.from({ length: text.length / 2 }, (_, i) => Number.parseInt(text.slice(2 * i, 2 * i + 2), 16));
-    return readWhole(requests, `@page ${page}`, crcOf, fromHex, options);
+    return readWhole(requests, `@page ${page}`, crcOf, bytesOfHex, options);
 }
 
 /** Like askPage() in two thirds of the time. An older image refuses with ERR 1. */
