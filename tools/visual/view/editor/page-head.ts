@@ -5,7 +5,7 @@ import { pageOf } from '../../model/document.ts';
 import { PAGE_COUNT } from '../../model/motion.ts';
 import type { Session } from '../session/session.ts';
 import { define, make, once } from '../element.ts';
-import { ShownFor } from './shown-for.ts';
+import { TypedFor } from './shown-for.ts';
 import { TEXTS } from '../texts/texts.ts';
 
 /** Library pages that the user wants to edit directly, not as copies: in every area, but not in another document. */
@@ -30,14 +30,12 @@ export class PageHead extends HTMLElement {
         TEXTS.steps.play,
     );
     private readonly library = make('div', { class: 'library', role: 'status' });
-    private readonly shownFor = new ShownFor();
-    /** The name field has a text that is not the motion's name yet. */
-    private isTyped = false;
+    private readonly typedName = new TypedFor();
     private shown: readonly Uint8Array[] | null = null;
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
-        this.name.addEventListener('input', () => (this.isTyped = true));
+        this.name.addEventListener('input', () => this.typedName.type());
         this.name.addEventListener('change', () => this.rename());
         this.name.addEventListener('keydown', event => event.key === 'Enter' && this.rename());
         this.replaceChildren(
@@ -77,8 +75,7 @@ export class PageHead extends HTMLElement {
         if (this.shown !== pages) this.list(pages);
         this.choice.value = String(page);
         this.library.classList.toggle('away', AGREED.has(pageOf(editor.state.get().document, page)) || !editor.isOfLibrary(page));
-        if (this.shownFor.isOther(editor.state.get())) this.isTyped = false;
-        if (!this.isTyped) this.showName();
+        if (!this.typedName.isHalfTyped(editor.state.get())) this.showName();
         this.play.disabled = editor.page(page).steps.length === 0;
         this.play.classList.toggle('primary', !this.play.disabled);
     }
@@ -124,8 +121,7 @@ export class PageHead extends HTMLElement {
     }
 
     private rename(): void {
-        if (!this.isTyped) return;
-        this.isTyped = false;
+        if (!this.typedName.take()) return;
         const { editor } = this.session;
         const { page, document } = editor.state.get();
         editor.dispatch(editor.edits.rename(document, page, this.name.value.trim()));

@@ -23,3 +23,26 @@ export class ShownFor {
         return this.isOther(shown) || step !== shown.step;
     }
 }
+
+/** Whether a field of a motion has a text that a person has typed for that motion and not committed yet. */
+export class TypedFor {
+    private readonly shownFor = new ShownFor();
+    private isTyped = false;
+
+    type(): void {
+        this.isTyped = true;
+    }
+
+    /** At each rendering. Another motion ends it: the field is then to show that one's. */
+    isHalfTyped(shown: Shown): boolean {
+        if (this.shownFor.isOther(shown)) this.isTyped = false;
+        return this.isTyped;
+    }
+
+    /** true: there is something to commit, which is committed now. */
+    take(): boolean {
+        const isTyped = this.isTyped;
+        this.isTyped = false;
+        return isTyped;
+    }
+}

@@ -6,7 +6,7 @@ import { BYTE_MAX } from '../../model/page.ts';
 import type { Session } from '../session/session.ts';
 import type { Gesture } from '../session/editor.ts';
 import { define, make, withoutMenu } from '../element.ts';
-import { ShownFor } from './shown-for.ts';
+import { TypedFor } from './shown-for.ts';
 import { nearestSetting, stepTimes } from './step-times.ts';
 import type { TimedField } from './step-times.ts';
 import { setTimes } from './typed-numbers.ts';
@@ -39,12 +39,10 @@ export class TimeLine extends HTMLElement {
         max: BYTE_MAX,
         'aria-label': TEXTS.steps.times,
         title: TEXTS.steps.timesHint,
-        oninput: () => (this.isTyped = true),
+        oninput: () => this.typedTimes.type(),
         onchange: () => this.setTimes(),
     });
-    private readonly shownFor = new ShownFor();
-    /** The field has a number that is not set yet. */
-    private isTyped = false;
+    private readonly typedTimes = new TypedFor();
     private drag: Drag | null = null;
     private scale = 1;
     private isBehind = false;
@@ -103,15 +101,13 @@ export class TimeLine extends HTMLElement {
         );
         this.hidden = times.length === 0;
         this.total.textContent = `${all.toFixed(2)} s`;
-        if (this.shownFor.isOther(editor.state.get())) this.isTyped = false;
-        if (!this.isTyped) this.times.value = String(editor.page(page).repetitions);
+        if (!this.typedTimes.isHalfTyped(editor.state.get())) this.times.value = String(editor.page(page).repetitions);
         this.bar.setAttribute('aria-label', TEXTS.steps.takes(all.toFixed(2)));
     }
 
     /** Sets how often the steps are repeated before the motion ends or continues. */
     private setTimes(): void {
-        if (!this.isTyped) return;
-        this.isTyped = false;
+        if (!this.typedTimes.take()) return;
         const { editor } = this.session;
         setTimes(this.session, this.times.value);
         this.times.value = String(editor.page(editor.state.get().page).repetitions);
