@@ -523,7 +523,6 @@ const DE: Texts = {
 
     motion: {
         title: (page, name) => (name === '' ? `Bewegung ${page}` : `Bewegung ${page} (${name})`),
-        count: count => plural(count, '1 Bewegung', `${count} Bewegungen`),
         trim: 'Trimmung',
         empty: 'leer',
         isEmpty: '(leer)',

@@ -645,7 +645,6 @@ export const EN = {
     /** Names of motions and documents. */
     motion: {
         title: (page: number, name: string) => (name === '' ? `motion ${page}` : `motion ${page} (${name})`),
-        count: (count: number) => plural(count, '1 motion', `${count} motions`),
         trim: 'trim',
         empty: 'empty',
         isEmpty: '(empty)',

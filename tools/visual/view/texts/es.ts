@@ -511,7 +511,6 @@ const ES: Texts = {
 
     motion: {
         title: (page, name) => (name === '' ? `movimiento ${page}` : `movimiento ${page} (${name})`),
-        count: count => plural(count, '1 movimiento', `${count} movimientos`),
         trim: 'calibración',
         empty: 'vacío',
         isEmpty: '(vacío)',

@@ -515,7 +515,6 @@ const JA: Texts = {
 
     motion: {
         title: (page, name) => (name === '' ? `モーション ${page}` : `モーション ${page}（${name}）`),
-        count: count => `モーション ${count} 個`,
         trim: 'トリム',
         empty: '空',
         isEmpty: '（空）',

@@ -497,7 +497,6 @@ const KO: Texts = {
 
     motion: {
         title: (page, name) => (name === '' ? `동작 ${page}` : `동작 ${page} (${name})`),
-        count: count => `동작 ${count}개`,
         trim: '트림',
         empty: '비어 있음',
         isEmpty: '(비어 있음)',
