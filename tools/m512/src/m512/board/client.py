@@ -157,9 +157,9 @@ class Client:
     def find(self, word: str) -> int:
         """The page number for a number or a name."""
         number = selection.page_number(word)
-        if number is not None and number < self.pages:
-            return number
         if number is not None:
+            if number < self.pages:
+                return number
             raise BoardError(f"the board has no page {number}, only 0..{self.pages - 1}; it has {self._what_it_has()}")
         names = self._names()
         if word.lower() not in map(str.lower, names.values()):
@@ -268,15 +268,16 @@ class Client:
                 raise
 
     def _send_page(self, number: int, data: bytes) -> None:
-        for at in range(0, PAGE_BYTES, DATA_BYTES):
-            self.ask(f"data {at} {data[at : at + DATA_BYTES].hex()}")
+        self._fill_ram(data)
         try:
             self.ask(f"save {number} {crc16(data):04X}", 10.0)
         except BoardError:  # RAM as flash again, or the page that cannot be saved would stay as edits that nobody made
-            flash = self._loaded(number)
-            for at in range(0, PAGE_BYTES, DATA_BYTES):
-                self.ask(f"data {at} {flash[at : at + DATA_BYTES].hex()}")
+            self._fill_ram(self._loaded(number))
             raise
+
+    def _fill_ram(self, data: bytes) -> None:
+        for at in range(0, PAGE_BYTES, DATA_BYTES):
+            self.ask(f"data {at} {data[at : at + DATA_BYTES].hex()}")
 
     def _loaded(self, number: int) -> bytes:
         """What @open loads. Erased flash is read as Edit's new page (session_new_byte in firmware/edit/session.c), which is not EMPTY."""

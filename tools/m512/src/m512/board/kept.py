@@ -18,7 +18,7 @@ from m512 import ui
 from m512.board import bus
 from m512.board.link import Link
 from m512.errors import CancelledError, FileError, M512Error
-from m512.files import formats, storage
+from m512.files import storage
 from m512.files.image import Image, is_erased, to_hex
 from m512.files.wording import pages_text
 
@@ -33,20 +33,21 @@ def kept(link: Link, found: Image, numbers: Sequence[int], board: str = "") -> I
     port = re.sub("[^A-Za-z0-9]+", "-", Path(link.url).name)[-40:]
     path = Path(f"pages-before-{port}-{datetime.now():%Y%m%d-%H%M%S}.hex")
 
-    def part(some: Sequence[int]) -> Image:
+    def keep(some: Sequence[int], is_new: bool = False) -> None:
+        nonlocal path
         image = Image.empty(found.end)
         for number in some:
             image[number] = found[number]
         image.given = set(some)
-        return image
-
-    def keep(some: Sequence[int]) -> None:
-        formats.save(path, part(some), replace=True)
-        link.remedy = _how_to_put_back(link.url, path, part(some), board)
+        data = to_hex(image).encode()
+        if is_new:
+            path = storage.write_numbered(path, data)
+        else:
+            storage.write(path, data, replace=True)
+        link.remedy = _how_to_put_back(link.url, path, image, board)
 
     try:
-        path = storage.write_numbered(path, to_hex(part(numbers)).encode())
-        link.remedy = _how_to_put_back(link.url, path, part(numbers), board)
+        keep(numbers, is_new=True)
     except FileError as error:
         raise FileError(f"{error}. It would keep the pages that change until all are written, so nothing was written") from None
     try:
