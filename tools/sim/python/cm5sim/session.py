@@ -148,9 +148,12 @@ class Session:
             self.board.send(data)
             self._traffic = self.board.now_cycles
 
+    def _lacks(self, button: str) -> bool:
+        return self.options.board == "cm2" and button != "MODE"
+
     def press(self, button: str, cycles: int) -> None:
         """Holds a button for this time. MODE holds the chip in reset. A CM-2 has no other."""
-        if self.options.board == "cm2" and button != "MODE":
+        if self._lacks(button):
             raise scripts.Failed(NO_PANEL)
         self._buttons[button] = self.board.now_cycles + cycles
         self.board.press(button)
@@ -245,7 +248,7 @@ class Session:
             self.send(bytes([value]))
         elif kind == "rc":
             self.rc_hold(value, HELD_CYCLES)
-        elif kind == "button" and self.options.board == "cm2" and value != "MODE":
+        elif kind == "button" and self._lacks(value):
             self.note(NO_PANEL)
         elif kind == "button":
             self.press(value, HELD_CYCLES // 3)
