@@ -18,7 +18,6 @@ PACKET_MS = 100  # interval between two packets while a button of the remote is 
 LINE_BYTES_A_MS = 5.76
 XON, XOFF = 0x11, 0x13
 REST_TICKS = 5  # between two plays, READY alone takes longer; a shorter gap between frames is a missed tick
-FIRST_FRAME_ERROR = 2  # pos; the pose is read, and the first goal is one tick's motion away from it
 QUERIES = [
     "status",
     "servos",
@@ -39,7 +38,6 @@ QUERIES = [
 ]
 PASSING = ("silent", "checksum", "short", "noise", "late")
 LASTING = ("silent", "dead", "checksum", "overload", "angle-limit", "overheating", "low-voltage")
-QUIET = "nothing to do"
 
 
 class Bus:

@@ -19,7 +19,6 @@ JOINTS_USED = tuple(range(12))  # few, so that the same joints meet often
 TICKS = 420
 LAYER_ACTIONS = ("layer", "layer_off", "aim", "swing", "free")
 SHAPE_ACTIONS = ("rate", "amplitude", "blend", "centre", "voltage", "reset")
-STOP_ACTIONS = ("pause", "resume", "stop", "break", "drop")
 
 library.played_layer.argtypes = (ctypes.c_int, ctypes.c_uint32, ctypes.c_int)
 library.played_free.argtypes = library.played_drop.argtypes = (ctypes.c_uint32,)
