@@ -19,7 +19,6 @@ BOARD_PAGES = 128
 BITS = 10
 #: A longer message is cut in the middle: it may quote a whole line of a damaged file.
 SENTENCE = 400
-IMAGE = Path("image.bin")
 #: Why a file that a text includes cannot be read here, and what to do about it.
 NO_FILE = os.strerror(errno.ENOENT)
 HINT = "the page has only the file that is opened. On your computer `m512 convert {} {}` puts both into one, which can be opened here"
@@ -42,8 +41,8 @@ def short(sentence):
 
 @_told
 def opened(name, data, leave_out=False):
-    """Converts a motion file to an image as `m512 convert NAME x.bin` does: {"image", "notes", "losses"}. 12 bit is scaled to 10.
-    {"no_room": pages} if pages would be lost (from a board of 256 pages); `leave_out` drops them."""
+    """Converts a motion file to an image as `m512 convert NAME x.bin` does, but to pages 0..127 even if the file begins with page 1:
+    {"image", "notes", "losses"}. 12 bit is scaled to 10. {"no_room": pages} if pages would be lost (from a board of 256 pages); `leave_out` drops them."""
     path = Path(name)
     try:
         image = formats.decode(bytes(data), path)
@@ -57,7 +56,7 @@ def opened(name, data, leave_out=False):
     lost = image.beyond(BOARD_PAGES)
     if lost and not leave_out:
         return {"no_room": named_pages_text(lost)}
-    image, cut = conversion.fitted(image, BOARD_PAGES, IMAGE)
+    image, cut = image.resized(BOARD_PAGES)
     return {"image": image.to_bytes(), "notes": notes, "losses": losses + cut}
 
 

@@ -138,6 +138,18 @@ test('pages of a larger board are asked about, never lost in silence', async () 
     expect(opened.kind === 'opened' && opened.losses.join()).toContain('128..255');
 });
 
+test('a file without page 0: motion n is motion n, and the trim is empty', async () => {
+    const image = await library();
+    await writeFile(join(folder, 'short.bin'), image.subarray(512));
+    await m512('convert', 'short.bin', 'short.m512');
+    for (const name of ['short.bin', 'short.m512']) {
+        const opened = await formats.open(name, new Uint8Array(await readFile(join(folder, name))));
+        if (opened.kind !== 'opened') throw new Error(opened.kind);
+        expect(Buffer.from(opened.image).equals(image), name).toBe(true); // the library has no trim
+        expect([opened.notes, opened.losses], name).toEqual([[], []]);
+    }
+});
+
 test('checks and differences in the words of m512', async () => {
     const image = await library();
     const other = image.slice();
