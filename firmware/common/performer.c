@@ -184,6 +184,7 @@ static void stop_softly(performer_t *performer)
 
 void performer_break(performer_t *performer)
 {
+    performer->since_stop_ticks = 0;
     performer_layers_break(performer);
     if (performer_is_idle(performer) || performer->leaving) {
         return;
@@ -312,8 +313,11 @@ static void release(performer_t *performer, uint32_t joints)
 {
     performer->released |= joints;
     drop(performer, joints);
-    if (!performer_is_idle(performer) && (performer->joints | performer->ready_left) == 0) {
-        go_idle(performer, PERFORMER_END_BROKEN); /* no joint is left to move */
+    if ((performer->joints | performer->ready_left) == 0) { /* no joint is left to move */
+        performer->since_stop_ticks = 0;
+        if (!performer_is_idle(performer)) {
+            go_idle(performer, PERFORMER_END_BROKEN);
+        }
     }
 }
 

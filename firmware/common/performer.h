@@ -55,7 +55,7 @@ typedef struct {
     /* Private. */
     uint8_t first_page;         /* the page that plays first: the requested one, or the one its links lead to */
     uint8_t end_reason;         /* performer_end_t to report */
-    uint8_t since_stop_ticks;   /* since the last stop, for "a second stop within a second" */
+    uint8_t since_stop_ticks;   /* since the last stop or break; at most UINT8_MAX */
     bool leaving;           /* a break is in progress, or has ended the play. Read only for callers */
     bool slopes_due;        /* PLAY: set the compliance of the pages again in this tick */
     bool is_driven;         /* performer_drive has set the shape */
@@ -124,6 +124,12 @@ bool performer_is_still(const performer_t *performer);   /* idle, and no layer m
 static inline bool performer_is_idle(const performer_t *performer)    /* no play and no move */
 {
     return performer->state == PERFORMER_IDLE;
+}
+
+/* Whether a stop, a break or an off of every joint came since the tick before the last one, even if nothing was moving. */
+static inline bool performer_was_just_stopped(const performer_t *performer)
+{
+    return performer->since_stop_ticks <= 1;
 }
 
 /* The page that is playing (player.now.step is its step), or with which a play begins; 0: none. */

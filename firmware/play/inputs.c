@@ -55,6 +55,16 @@ static bool awaits_press(const link_t *link)
     return link->mode == LINK_HOLD && link->held_code == LINK_CODE_NONE;
 }
 
+/* The buttons that are down during a play or a stop are spent, on every device. Call before a change of the buttons is
+ * taken, and once a tick. */
+static void spend_buttons(inputs_t *inputs)
+{
+    if (!performer_is_idle(inputs->performer) || performer_was_just_stopped(inputs->performer)) {
+        inputs->remote_held.spent |= inputs->remote_held.down;
+        inputs->panel_held.spent |= inputs->panel_held.down;
+    }
+}
+
 /* down: the buttons that a source holds now. code: their code. A running play takes every code. A play starts only on a
  * press: the buttons have changed, and one of them was up during the last play or stop. So a held button, or a chord that
  * is released finger by finger, does not restart a stopped play or revive one that is stopping. */
@@ -69,9 +79,7 @@ static void take_buttons(inputs_t *inputs, inputs_held_t *held, uint8_t down, ui
     if (performer_is_idle(inputs->performer) ? pressed : is_heard) {
         inputs_code(inputs, code);
     }
-    if (!performer_is_idle(inputs->performer)) {
-        held->spent = down;
-    }
+    spend_buttons(inputs);
 }
 
 void inputs_pause(inputs_t *inputs)
@@ -106,6 +114,7 @@ static void take_packet(inputs_t *inputs)
     const uint8_t act_before = inputs->remote_act;
     const uint8_t act = remote_act(buttons, &code);
     const uint8_t down = (uint8_t)buttons;
+    spend_buttons(inputs);
     inputs->remote_act = act;
     inputs->silent_ticks = buttons == 0 ? INPUTS_SILENCE_TICKS : 0;
     if (act == REMOTE_ACT_CODE) {
@@ -205,7 +214,6 @@ static void take_panel(inputs_t *inputs)
         take_buttons(inputs, &inputs->panel_held, arrows, arrows);
     }
     if ((changed & buttons & PANEL_START) != 0) {
-        inputs->panel_held.spent = arrows;
         inputs_code(inputs, LINK_CODE_STOP);
     }
 }
@@ -219,6 +227,7 @@ static void steer(inputs_t *inputs)
 
 void inputs_tick(inputs_t *inputs)
 {
+    spend_buttons(inputs);
     take_panel(inputs);
     steer(inputs);
     if (inputs->quiet_ticks < INPUTS_ESC_TICKS && ++inputs->quiet_ticks == INPUTS_QUIET_TICKS) {

@@ -147,3 +147,65 @@ def test_a_button_that_comes_down_behind_a_stop_calls_a_play_back():
     hold(board, UP | LEFT, 200)
     hold(board, 0, 3000)
     assert ask(board, "status").startswith("Playing")
+
+
+# --- every stop, with thumbs on the remote or on the panel, whatever moves ---
+
+CHORD = ("UP", "LEFT")  # no page has their code; with LEFT up, UP starts the walk
+MOVES = {"nothing moves": [], "aim": ["aim 1 600"], "swing": ["swing 1 512 50 2000"], "play and aim": ["play 8", "aim 2 600"]}
+
+
+class Thumb:
+    """A hand on the remote or on the panel, while the board runs."""
+
+    def __init__(self, board, device):
+        self.board, self.device, self.held = board, device, ()
+
+    def hold(self, buttons, ms):
+        for button in set(self.held) - set(buttons):
+            self._change(button, self.board.release)
+        for button in set(buttons) - set(self.held):
+            self._change(button, self.board.press)
+        self.held = buttons
+        return hold(self.board, self._packet(), ms) if self.device == "remote" else self._run(ms)
+
+    def _change(self, button, panel):
+        if self.device == "panel":
+            panel(button)
+
+    def _packet(self):
+        return sum({"UP": UP, "LEFT": LEFT}[button] for button in self.held)
+
+    def _run(self, ms):
+        start = len(self.board.console)
+        self.board.run(ms=ms)
+        return self.board.console[start:].decode("latin-1")
+
+
+def stop_by_button_6(board, packet):
+    hold(board, packet | STOP, 2 * REPEAT_MS)
+    hold(board, packet, REPEAT_MS)
+
+
+STOPS = {word: lambda board, packet, word=word: board.send(word + "\r") for word in ("stop", "break", "@stop", "@break", "code 255", "off")}
+STOPS |= {"button 6": stop_by_button_6, "START": lambda board, packet: press_start(board)}
+
+
+@pytest.mark.parametrize("device", ["remote", "panel"])
+@pytest.mark.parametrize("stop", STOPS)
+def test_a_button_that_is_let_go_after_a_stop_starts_nothing(device, stop):
+    board = robot(servos=[1, 2])
+    thumb = Thumb(board, device)
+    for name, words in MOVES.items():
+        for word in words:
+            assert ask(board, word) == " OK"
+            board.run(ms=1500)
+        thumb.hold(CHORD, 200)
+        STOPS[stop](board, thumb._packet() if device == "remote" else 0)
+        thumb.hold(CHORD, 2500)
+        assert ask(board, "on") == " OK"
+        text = thumb.hold(CHORD[:1], 1000)
+        assert "Going" not in text and "Playing" not in text, (name, text)
+        thumb.hold((), 200)
+    text = thumb.hold(CHORD[:1], 1000)
+    assert "page 3 (walk start)" in text, text

@@ -37,15 +37,17 @@ performer_status_t performer_start(performer_t *p, uint8_t page, uint8_t code)
 void performer_code(performer_t *p, uint8_t code)
 {
     note("code", code, 0);
-    if (code != LINK_CODE_STOP) {
+    if (code == LINK_CODE_STOP) {
+        p->since_stop_ticks = 0;
+    } else {
         p->link.held_code = code;
     }
 }
 
 void performer_stop(performer_t *p)
 {
-    (void)p;
     note("stop", 0, 0);
+    p->since_stop_ticks = 0;
 }
 
 bool performer_pause(performer_t *p)
@@ -93,6 +95,7 @@ void setUp(void)
     memset(&settings, 0, sizeof settings);
     memset(told, 0, sizeof told);
     performer.source = &source;
+    performer.since_stop_ticks = UINT8_MAX;
     shape_init(&performer.shape);
     partner = 0;
     start_status = PERFORMER_OK;
@@ -111,6 +114,7 @@ void remote(uint16_t buttons)
 void ticks(uint8_t count)
 {
     while (count-- > 0) {
+        performer.since_stop_ticks = (uint8_t)(performer.since_stop_ticks + (performer.since_stop_ticks < UINT8_MAX));
         panel_tick();
         inputs_tick(&inputs);
         inputs_take(&inputs);

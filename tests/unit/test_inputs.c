@@ -291,6 +291,93 @@ static void test_inputs_button_held_before_a_play_may_start_nothing_behind_it(vo
     TEST_ASSERT_EQUAL_STRING("", told);
 }
 
+/* ---- a stop, or the end of a play, outlives every thumb ---- */
+
+typedef enum { ON_REMOTE, ON_PANEL } thumb_t;
+
+static void thumb_down(thumb_t thumb, uint8_t buttons)
+{
+    if (thumb == ON_PANEL) {
+        fake_panel_press(buttons);
+    } else {
+        remote(buttons);
+    }
+    ticks(5);
+}
+
+static void typed_stop(uint8_t held)
+{
+    performer_stop(&performer);
+}
+
+static void typed_code(uint8_t held)
+{
+    inputs_code(&inputs, LINK_CODE_STOP);
+}
+
+static void remote_stop(uint8_t held)
+{
+    remote((uint16_t)(512 | held));
+    ticks(1);
+    remote(held);
+}
+
+static void panel_stop(uint8_t held)
+{
+    fake_panel_press(PANEL_START | held);
+    ticks(5);
+    fake_panel_press(held);
+    ticks(5);
+}
+
+static void play_ends(uint8_t held)
+{
+    ticks(1);
+}
+
+static const struct {
+    const char *name;
+    void (*act)(uint8_t held); /* held: the buttons of the same device that stay down */
+} stops[] = {{"a typed stop", typed_stop}, {"a typed code", typed_code}, {"button 6", remote_stop}, {"Start", panel_stop},
+             {"the end of a play", play_ends}};
+
+/* Two buttons go down while `is_playing`, or else before a play; it ends or is stopped; then one of them is let go. */
+static void expect_rest(thumb_t thumb, uint8_t stop, bool is_playing, bool plays)
+{
+    char label[80];
+    snprintf(label, sizeof label, "thumb on the %s, %s, %s", thumb == ON_PANEL ? "panel" : "remote", stops[stop].name,
+             !plays ? "nothing plays" : is_playing ? "down in the play" : "down before the play");
+    setUp();
+    performer.state = is_playing ? PERFORMER_PLAY : PERFORMER_IDLE;
+    thumb_down(thumb, PANEL_UP | PANEL_LEFT);
+    performer.state = plays ? PERFORMER_PLAY : PERFORMER_IDLE;
+    ticks(10);
+    const thumb_t device = stops[stop].act == panel_stop ? ON_PANEL : ON_REMOTE;
+    stops[stop].act(thumb == device ? PANEL_UP | PANEL_LEFT : 0);
+    performer.state = PERFORMER_IDLE;
+    ticks(10);
+    memset(told, 0, sizeof told);
+    thumb_down(thumb, PANEL_UP);   /* page 2 has its code */
+    TEST_ASSERT_EQUAL_STRING_MESSAGE("", told, label);
+    thumb_down(thumb, 0);
+    thumb_down(thumb, PANEL_UP);
+    TEST_ASSERT_EQUAL_STRING_MESSAGE("start 2 1;", told, label);
+}
+
+static void test_inputs_no_button_that_is_let_go_after_a_stop_starts_a_play(void)
+{
+    STATIC_ASSERT(PANEL_UP == 1 && PANEL_LEFT == 4, "the arrows are the remote's first buttons");
+    for (uint8_t stop = 0; stop < sizeof stops / sizeof stops[0]; stop++) {
+        for (uint8_t thumb = ON_REMOTE; thumb <= ON_PANEL; thumb++) {
+            expect_rest((thumb_t)thumb, stop, true, true);
+            expect_rest((thumb_t)thumb, stop, false, true);
+            if (stops[stop].act != play_ends) {
+                expect_rest((thumb_t)thumb, stop, false, false);
+            }
+        }
+    }
+}
+
 /* Restarts the program, as MODE or power-on does. */
 static void start_anew(void)
 {

@@ -156,6 +156,62 @@ static void test_performer_idle_has_nothing_to_stop(void)
     TEST_ASSERT_FALSE(has_event(PERFORMER_EV_ENDED));
 }
 
+static void stop_by_code(performer_t *p)
+{
+    performer_code(p, LINK_CODE_STOP);
+}
+
+static void all_off(performer_t *p)
+{
+    (void)performer_off(p, ALL_THREE);
+}
+
+/* Seen by who looks between the stop and the next tick, and by who looks once a tick; for two ticks at most. */
+static void expect_just_stopped(const char *name)
+{
+    TEST_ASSERT_TRUE_MESSAGE(performer_was_just_stopped(&performer), name);
+    performer_tick(&performer);
+    TEST_ASSERT_TRUE_MESSAGE(performer_was_just_stopped(&performer), name);
+    performer_tick(&performer);
+    TEST_ASSERT_FALSE_MESSAGE(performer_was_just_stopped(&performer), name);
+}
+
+static void test_performer_notes_every_stop_whatever_moves(void)
+{
+    static const struct {
+        const char *name;
+        void (*act)(performer_t *);
+        bool is_for_idle;
+    } stops[] = {{"stop", performer_stop, true}, {"break", performer_break, true}, {"off", all_off, true},
+                 {"code 255", stop_by_code, false}};
+    for (uint8_t i = 0; i < sizeof stops / sizeof stops[0]; i++) {
+        setUp();
+        ticks(10);
+        TEST_ASSERT_FALSE(performer_was_just_stopped(&performer));
+        if (stops[i].is_for_idle) {
+            stops[i].act(&performer);
+            expect_just_stopped(stops[i].name);
+        }
+        TEST_ASSERT_EQUAL_HEX32(ALL_THREE, performer_on(&performer, ALL_THREE));
+        start(2, 0);
+        reach(PERFORMER_PLAY);
+        TEST_ASSERT_FALSE(performer_was_just_stopped(&performer));
+        stops[i].act(&performer);
+        expect_just_stopped(stops[i].name);
+    }
+}
+
+static void test_performer_off_of_one_joint_is_no_stop(void)
+{
+    start(2, 0);
+    reach(PERFORMER_PLAY);
+    (void)performer_off(&performer, SERVO_LINK_BIT(2));
+    TEST_ASSERT_FALSE(performer_was_just_stopped(&performer));
+    performer_stop(&performer);
+    reach(PERFORMER_IDLE);
+    TEST_ASSERT_EQUAL_UINT8(PERFORMER_END_STOPPED, end_reason());   /* not a break, as by a second stop */
+}
+
 static void test_performer_end_follows_no_link(void)
 {
     start(2, 0);
