@@ -1201,7 +1201,8 @@ def test_a_dry_run_without_a_board_is_no_success(m512, files, monkeypatch):
 def test_sigterm_leaves_the_board_as_it_was_found(m512, files, board, monkeypatch, at_prompt, left):
     board.state = PROMPTED if at_prompt else 0
     monkeypatch.setattr(block.BlockLoader, "different", lambda *_: signal.raise_signal(signal.SIGTERM))
-    assert m512("flash", files / "x.bin", "-p", board.path, "--wait", "5").exit_code == 128 + signal.SIGTERM
+    result = m512("flash", files / "x.bin", "-p", board.path, "--wait", "5")
+    assert result.exit_code == 128 + signal.SIGTERM and result.stderr.endswith("m512: stopped by SIGTERM\n"), result.stderr
     assert board.left == [left]
 
 

@@ -37,6 +37,12 @@ COMMANDS = {
 }
 
 
+def _end(number: int, _: Any) -> None:
+    if number == signal.SIGTERM:  # after SIGHUP there is no terminal to read it
+        click.echo("m512: stopped by SIGTERM", err=True)
+    sys.exit(128 + number)
+
+
 class LazyGroup(click.Group):
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(COMMANDS)
@@ -72,7 +78,7 @@ class LazyGroup(click.Group):
         # The simulator and a driven robot must not outlive this program. A signal that nohup has set to be ignored stays ignored.
         for name in ("SIGTERM", "SIGHUP"):
             if hasattr(signal, name) and signal.getsignal(getattr(signal, name)) is not signal.SIG_IGN:
-                signal.signal(getattr(signal, name), lambda number, _: sys.exit(128 + number))
+                signal.signal(getattr(signal, name), _end)
         try:
             return super().invoke(ctx)
         except M512Error as error:
