@@ -98,9 +98,10 @@ static bool write_one(servo_link_t *link, uint8_t id, uint8_t at, uint16_t value
 
 /* ---- search ---- */
 
+/* A PC's program that is asked to end does not search on: over an adapter the search takes seconds. */
 static bool ping(servo_link_t *link, uint8_t id)
 {
-    return bus_call_ping(id, PING_TRIES, NULL) == BUS_OK;
+    return !system_is_asked_to_end() && bus_call_ping(id, PING_TRIES, NULL) == BUS_OK;
 }
 
 /* Reads angle limits and status return level. At level 0 a servo answers no READ, at level 1 no WRITE. One with both limits

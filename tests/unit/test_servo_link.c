@@ -26,6 +26,18 @@ static void test_scan_tells_fast_slow_and_absent_apart(void)
     TEST_ASSERT_TRUE(fake_system_kicks() > 60);
 }
 
+/* On a PC each servo that is not there costs the adapter's waiting time. */
+static void test_scan_pings_nobody_once_the_program_is_to_end(void)
+{
+    (void)fake_bus_add(7, BUS_RATE_1M);
+    fake_system_ask_to_end();
+    servo_link_scan(&servos);
+    TEST_ASSERT_EQUAL_HEX32(0, servos.present);
+    for (uint16_t i = 0; i < fake_bus_sent(); i++) {
+        TEST_ASSERT_NOT_EQUAL(DXL_PING, fake_bus_packet(i)[4]);
+    }
+}
+
 static void test_scan_changes_nothing_in_a_servo(void)
 {
     uint8_t before[2][FAKE_BUS_TABLE_BYTES];
