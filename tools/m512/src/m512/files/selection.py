@@ -6,8 +6,8 @@
     all            all that hold something, except page 0, the robot's trim
     wave:40        page `wave` becomes number 40; 20..25:60 becomes 60..65
 
-A name takes precedence over everything but a number: a page may be called "a:b" or "1..2". WordError: the input means no page.
-EmptyPageError: the pages hold nothing.
+A page may be called "a:b", and the word means it. A page called "all" or "1..2" only its number means: the word would mean several pages
+as well. WordError: the input means no page, or could mean two things. EmptyPageError: the pages hold nothing.
 """
 
 from __future__ import annotations
@@ -88,7 +88,21 @@ def moves(words: Iterable[str], pages: Pages) -> list[tuple[int, int]]:
     return list(dict.fromkeys(out))
 
 
+def means_pages(word: str, pages: Pages) -> bool:
+    """Whether a word means pages even if none is called so."""
+    name, _, target = word.rpartition(":")
+    is_several = word == "all" or re.fullmatch(RANGE, word) is not None
+    return is_several or page_number(target) is not None and (means_pages(name, pages) or page_number(name) is not None or pages.is_named(name))
+
+
+def _refuse_two_meanings(word: str, pages: Pages) -> None:
+    if pages.is_named(word) and means_pages(word, pages):
+        several = ", or 1..127 for all pages" if word == "all" else ""
+        raise WordError(f"page {pages.find(word)} is called {word!r}, too: say {pages.find(word)} for that page{several}")
+
+
 def _moves(word: str, pages: Pages) -> list[tuple[int, int]]:
+    _refuse_two_meanings(word, pages)
     name, colon, target = ("", "", "") if pages.is_named(word) else word.rpartition(":")
     if not colon:
         return [(number, number) for number in _meant(word, pages)]
@@ -104,6 +118,7 @@ def _moves(word: str, pages: Pages) -> list[tuple[int, int]]:
 
 
 def _meant(word: str, pages: Pages) -> list[int]:
+    _refuse_two_meanings(word, pages)
     if pages.is_named(word):
         return [pages.find(word)]
     span = number_range(word)

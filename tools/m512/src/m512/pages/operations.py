@@ -3,13 +3,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Mapping
 
 from m512.errors import EmptyPageError, RefusedError, WordError
 from m512.files.image import Image, is_erased
 from m512.files.page import JOINTS, SCHEDULE_TIME, STEPS, Page, is_used
-from m512.files.selection import page_number
+from m512.files.selection import means_pages, page_number
 from m512.files.wording import field_text, named_pages_text, pages_text
 from m512.motion.player import page_seconds
 
@@ -119,8 +118,8 @@ def rename(image: Image, number: int, name: str) -> list[str]:
     if other is not None and other != number:
         return [f"page {number} has a number for a name: where a page is asked for, {name} means page {other}"]
     notes = []
-    if re.fullmatch(r"all|[0-9]+\.\.[0-9]+|.+:[0-9]+", name):
-        notes.append(f"page {number} has a word for pages for a name: where pages are asked for, {name} means page {number}")
+    if means_pages(name, image):
+        notes.append(f"page {number} has a word for pages for a name: where pages are asked for, only its number means it")
     same = [n for n, page in image.items() if name and n != number and page.name == name.encode("ascii")]
     if same:
         notes.append(f"{pages_text(same)} {'is' if len(same) == 1 else 'are'} called {name!r}, too: only the numbers tell them apart")
