@@ -130,7 +130,9 @@ def test_pages_rename_to_a_number_says_what_the_number_means(m512, lib):
 @pytest.mark.parametrize("name", ["all", "1..3", "stand:9"])
 def test_pages_rename_to_a_word_for_pages_says_what_it_means(m512, lib, name):
     result = m512("pages", lib, "rename", "walk", name, "--in-place")
-    assert result.exit_code == 0 and "note: page 3 has a word for pages for a name: where pages are asked for, only its number means it" in result.stderr
+    assert (
+        result.exit_code == 0 and "note: page 3 has a word for pages for a name: where pages are asked for, only its number means it" in result.stderr
+    )
 
 
 def test_pages_rename_leaves_the_trim_without_a_name(m512, lib):

@@ -514,6 +514,8 @@ def test_a_page_is_laid_over_the_walk_on_joints_of_its_own(m512, robot):
     robot.pass_time(3)
     laid = m512("layer", "old", "--joints", "1,3", "-p", robot.path)
     assert laid.exit_code == 0 and "layer 100" in laid.stdout, laid.stderr
+    assert laid.stderr == "note: page 100 never moves joint 3: it stays where it is until `m512 layer off`\n"
+    assert m512("layer", "old", "--joints", "1", "-p", robot.path).stderr == ""
     assert m512("layer", "off", "-p", robot.path, "--json").exit_code == 0
     assert json.loads(m512("shape", "--json", "-p", robot.path).stdout)["layer"] == 0
     assert m512("layer", "fly", "-p", robot.path).exit_code == 8

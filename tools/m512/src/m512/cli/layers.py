@@ -15,6 +15,7 @@ from m512.cli.robot import ID_MAX, ids_argument, in_json, positions_of, robot, r
 
 if TYPE_CHECKING:
     from m512.board.client import Client
+    from m512.files.page import Page
 
 SECOND_MS = 1000
 AMPLITUDES = (0, 511)
@@ -57,6 +58,17 @@ def layer(page: str, joints: Any, **options: Any) -> None:
         number = "off" if page == "off" else client.motion(page)
         client.ask(" ".join(map(str, ["layer", number, *chosen])))
         show_shape(client, options["as_json"])
+        if chosen:
+            _tell_resting(int(number), client.page(int(number)), chosen)
+
+
+def _tell_resting(number: int, page: Page, joints: Sequence[int]) -> None:
+    """A joint that the layer takes and its page never uses stands still, also in the middle of a walk."""
+    from m512.files.page import is_used
+
+    resting = [joint for joint in joints if not any(is_used(page.word(step, joint)) for step in page.poses(number))]
+    if resting:
+        ui.say(f"note: page {number} never moves joint {', '.join(map(str, resting))}: it stays where it is until `m512 layer off`")
 
 
 @click.command(
