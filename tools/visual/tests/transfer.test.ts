@@ -522,6 +522,6 @@ test('a framing error in the middle of an answer does not end the talk', async (
 test('while the time of the robot in the page stands still, the sentence says why nothing goes on', () => {
     const state = { phase: 'reading', done: 0, total: 0, account: new Map(), trouble: null, putBack: null } as unknown as TransferState;
     expect(transferText(state)).not.toContain('time stands still');
-    expect(transferText(state, false)).toBe('Asking the robot which motions it has … · time stands still');
-    expect(transferText({ ...state, phase: 'idle' }, false)).toBe('');
+    expect(transferText(state, { source: 'simulated', speed: 0 })).toBe('Asking the robot which motions it has … · time stands still');
+    expect(transferText({ ...state, phase: 'idle' }, { source: 'simulated', speed: 0 })).toBe('');
 });

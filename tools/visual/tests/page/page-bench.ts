@@ -87,6 +87,8 @@ export type Shell = {
         /** The cable to the robot in the page. */
         sources: { simulated: { connection: { port: { deliver(bytes: Uint8Array): void; unplug(): void } } } };
         editor: { state: { get(): { robot: Pages } }; setRobot(pages: Pages): void };
+        documents: { create(name: string): Promise<void> };
+        sim: { setSpeed(speed: number): void };
     };
 };
 

@@ -25,6 +25,44 @@ function pullAtSecondSave(page: Page): Promise<void> {
     });
 }
 
+const answer = async (page: Page, dialog: string, name: string): Promise<void> => {
+    await page.getByRole('dialog', { name: dialog }).getByRole('textbox', { name: 'Name' }).fill(name);
+    await page.keyboard.press('Enter');
+};
+
+/** The robot does not answer, because its time stands still: the name is asked for at once, and the page waits in a dialog. */
+async function documentOfTheRobot(page: Page): Promise<void> {
+    const title = 'What the robot has, as a document';
+    const setSpeed = (speed: number): Promise<void> =>
+        page.locator('app-shell').evaluate((shell, speed) => (shell as unknown as Shell).session.sim.setSpeed(speed), speed);
+    const documents = page.getByRole('combobox', { name: 'Document' });
+    await setSpeed(0);
+    await documents.selectOption('robot');
+    await answer(page, title, 'theirs');
+    await page
+        .getByRole('dialog', { name: title })
+        .getByText(/time stands still$/)
+        .waitFor();
+    await button(page, 'Cancel').click();
+    await page.getByRole('dialog').waitFor({ state: 'hidden' });
+    await documents.selectOption('robot');
+    await answer(page, title, 'theirs');
+    await setSpeed(1);
+    await documents.locator('option:checked', { hasText: /^theirs$/ }).waitFor({ state: 'attached' });
+    await card(page, /^motion 2 curtsy/).waitFor(); // as it was written
+}
+
+/** Another document comes, from a slow disk, while a new name is typed. */
+async function renamedTooLate(page: Page): Promise<void> {
+    const documents = page.getByRole('combobox', { name: 'Document' });
+    await documents.selectOption('rename');
+    await page.locator('app-shell').evaluate(shell => (shell as unknown as Shell).session.documents.create('other'));
+    await answer(page, 'Rename this document', 'better');
+    const message = page.getByRole('log', { name: 'Last message' });
+    await message.filter({ hasText: 'theirs was not renamed: another document is open now.' }).waitFor();
+    expect(await documents.locator('option:checked').textContent()).toBe('other');
+}
+
 test('a hobbyist: renames and copies pages, sees what will change, writes with a backup over a cable that is pulled, takes a page back; a closed tab loses nothing', async () => {
     const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
     const { page } = person;
@@ -111,5 +149,7 @@ test('a hobbyist: renames and copies pages, sees what will change, writes with a
         await button(tab, /^Undo: name \(motion 2\)/).click();
         await card(tab, new RegExp(`^motion 2 ${name}`)).waitFor();
     }
+    await documentOfTheRobot(tab);
+    await renamedTooLate(tab);
     await person.leave();
 }, 600_000);

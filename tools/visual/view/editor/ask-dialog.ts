@@ -6,7 +6,12 @@ import { TEXTS } from '../texts/texts.ts';
 
 type Answer = readonly [title: string, value: string];
 
-function show(title: string, answers: readonly Answer[], ...content: HTMLElement[]): Promise<string | null> {
+interface Shown {
+    readonly answer: Promise<string | null>;
+    close(): void;
+}
+
+function show(title: string, answers: readonly Answer[], ...content: HTMLElement[]): Shown {
     const dialog = make('dialog', { class: 'ask-dialog', 'aria-label': title });
     const buttons = answers.map(([text, value], i) => make('button', { value, class: i === 0 ? 'primary' : '' }, text));
     const cancel = make('button', { value: '', formnovalidate: true, type: 'button', onclick: () => dialog.close('') }, TEXTS.page.cancel);
@@ -16,7 +21,7 @@ function show(title: string, answers: readonly Answer[], ...content: HTMLElement
     document.body.append(dialog);
     dialog.returnValue = '';
     dialog.showModal();
-    return new Promise(resolve => {
+    const answer = new Promise<string | null>(resolve => {
         dialog.addEventListener('close', () => {
             dialog.remove();
             resolve(dialog.returnValue === '' ? null : dialog.returnValue);
@@ -25,11 +30,22 @@ function show(title: string, answers: readonly Answer[], ...content: HTMLElement
             dialog.returnValue = '';
         });
     });
+    return { answer, close: () => dialog.close('') };
 }
 
 /** Resolves with the value of the chosen answer; null: none. */
 export function ask(title: string, text: string, answers: readonly Answer[], ...content: HTMLElement[]): Promise<string | null> {
-    return show(title, answers, make('p', {}, text), ...content);
+    return show(title, answers, make('p', {}, text), ...content).answer;
+}
+
+/** Shows `content` until `done` settles, so that nobody begins something else that its end would interrupt. false: cancelled before. */
+export async function awaited(title: string, done: Promise<unknown>, ...content: HTMLElement[]): Promise<boolean> {
+    const { answer, close } = show(title, [], ...content);
+    try {
+        return await Promise.race([answer.then(() => false), done.then(() => true)]);
+    } finally {
+        close();
+    }
 }
 
 /** More than blanks, which are trimmed. */
@@ -57,6 +73,6 @@ export async function askText(
         [[TEXTS.page.ok, 'ok']],
         make('label', {}, label, input),
         ...(options.hint ? [make('p', {}, options.hint)] : []),
-    );
+    ).answer;
     return answer === null ? null : input.value.trim();
 }

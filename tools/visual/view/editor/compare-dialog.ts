@@ -88,11 +88,6 @@ export class CompareDialog extends HTMLElement {
         await this.readRobot();
     }
 
-    private get hasTime(): boolean {
-        const { source, speed } = this.session.state.get();
-        return source !== 'simulated' || speed !== 0;
-    }
-
     private get key(): string {
         return this.which.value;
     }
@@ -278,7 +273,7 @@ export class CompareDialog extends HTMLElement {
         const isBusy = isMoving || this.reading !== null;
         const count = this.chosen.length;
         const isBad = this.reading === null && (this.trouble !== null || (isRobot && state.phase === 'stopped'));
-        this.status.textContent = this.reading ?? this.trouble ?? (isRobot ? transferText(state, this.hasTime) : '');
+        this.status.textContent = this.reading ?? this.trouble ?? (isRobot ? transferText(state, this.session.state.get()) : '');
         this.status.dataset.tone = isBad ? 'bad' : 'calm';
         this.bar.hidden = !isMoving;
         this.bar.max = Math.max(1, state.total);

@@ -9,9 +9,9 @@ import type { Session } from '../session/session.ts';
 import type { DocumentsState } from '../session/documents.ts';
 import { onChoice } from '../choice.ts';
 import { keyOf } from '../key-of.ts';
-import { define, isTyping, make } from '../element.ts';
-import { ask, askText } from './ask-dialog.ts';
-import { editText, savingText } from '../texts/editor.ts';
+import { define, isTyping, make, setText } from '../element.ts';
+import { ask, askText, awaited } from './ask-dialog.ts';
+import { editText, savingText, transferText } from '../texts/editor.ts';
 import { TEXTS } from '../texts/texts.ts';
 import './edit-bar.css';
 
@@ -100,7 +100,10 @@ export class EditBar extends HTMLElement {
                 return this.createFromRobot();
             case RENAME: {
                 const given = await askText(TEXTS.document.renameTitle, TEXTS.document.name, name);
-                return given && openId === documents.state.get().openId ? documents.rename(given) : undefined;
+                if (!given) return;
+                if (openId === documents.state.get().openId) documents.rename(given);
+                else this.session.say({ text: TEXTS.document.notRenamed(name), tone: 'bad' });
+                return;
             }
             case REMOVE:
                 return (await ask(TEXTS.document.removeTitle, TEXTS.document.removal(name), [[TEXTS.document.removes, 'delete']]))
@@ -121,11 +124,27 @@ export class EditBar extends HTMLElement {
         return this.session.documents.state.get().documents.map(one => one.name);
     }
 
+    /** Reading takes seconds. The name is asked for meanwhile, then a dialog waits: nothing opens over what somebody types by then. */
     private async createFromRobot(): Promise<void> {
+        const { document: texts } = TEXTS;
+        const reading = this.robotPages();
+        const name = await askText(texts.fromRobotTitle, texts.name, freeName(texts.ofMyRobot, this.names()));
+        if (!name) return;
+        const status = make('p', { role: 'status' });
+        const unwatch = this.session.transfer.state.watch(state => setText(status, transferText(state, this.session.state.get())));
+        const isRead = await awaited(texts.fromRobotTitle, reading, status);
+        unwatch();
+        if (!isRead) return;
+        const pages = await reading;
+        if (pages) await this.session.documents.create(name, { name: '', pages });
+        else this.onTransfer(); // shows the reason and offers to try again
+    }
+
+    /** null: they could not be read. */
+    private async robotPages(): Promise<Uint8Array[] | null> {
         const { transfer, editor } = this.session;
-        if (!(await transfer.read()).isDone) return this.onTransfer(); // shows the reason and offers to try again
-        const pages = editor.state.get().robot.map(bytes => bytes ?? editor.format.empty);
-        await this.create(TEXTS.document.fromRobotTitle, TEXTS.document.ofMyRobot, () => ({ name: '', pages }));
+        if (!(await transfer.read()).isDone) return null;
+        return editor.state.get().robot.map(bytes => bytes ?? editor.format.empty);
     }
 
     /** Ctrl+Z, Ctrl+Shift+Z and Ctrl+Y, except while typing. */

@@ -564,6 +564,7 @@ const DE: Texts = {
         secondTab: name =>
             `Ein anderer Tab hat dieses Dokument geöffnet, deshalb hat dieser eine Kopie: ${name}. Was du hier änderst, wird nur in der Kopie aufbewahrt.`,
         gone: name => `${name} gibt es nicht mehr. Ein anderer Tab hat es gelöscht.`,
+        notRenamed: name => `${name} wurde nicht umbenannt: Jetzt ist ein anderes Dokument offen. Öffne ${name} und benenne es dort um.`,
         forgotten: steps =>
             `Rückgängig: Die ersten ${steps} Änderungen dieses Dokuments lassen sich nicht mehr zurücknehmen. Das Dokument selbst ist vollständig.`,
         undo: 'Rückgängig',

@@ -9,6 +9,7 @@ import type { Refusal } from '../../model/result.ts';
 import type { Transaction } from '../../model/transaction.ts';
 import { buttonsOf } from '../../robot/remote.ts';
 import type { Drawn } from '../editor/curve-canvas.ts';
+import type { SessionState } from '../session/session.ts';
 import type { TransferState } from '../session/transfer.ts';
 import { TEXTS } from './texts.ts';
 
@@ -40,9 +41,11 @@ export function codeText(code: number): string {
         .join(' + ');
 }
 
-/** State of the transfer in one sentence; '' when idle. hasTime: false while the time of the robot in the page stands still, when nothing of
- *  it goes on. */
-export function transferText(state: TransferState, hasTime = true): string {
+type Time = Pick<SessionState, 'source' | 'speed'>;
+
+/** State of the transfer in one sentence; '' when idle. While the time of the robot in the page stands still, nothing of it goes on. */
+export function transferText(state: TransferState, { source, speed }: Time = { source: 'yours', speed: 1 }): string {
+    const hasTime = source !== 'simulated' || speed !== 0;
     const isWaiting = state.phase === 'reading' || state.phase === 'writing';
     const putBack = state.putBack === null || isWaiting ? '' : TEXTS.compare.putBack(state.putBack);
     const said = [phaseText(state), putBack].filter(Boolean).join(' ');

@@ -685,6 +685,7 @@ export const EN = {
         secondTab: (name: string) =>
             `Another tab has this document open, so this one has a copy: ${name}. What you change here is kept in the copy alone.`,
         gone: (name: string) => `${name} is not there any more. Another tab has deleted it.`,
+        notRenamed: (name: string) => `${name} was not renamed: another document is open now. Open ${name} and rename it there.`,
         forgotten: (steps: number) =>
             `Undo: the first ${steps} changes of this document can no longer be undone. The document itself is complete.`,
         undo: 'Undo',

@@ -552,6 +552,7 @@ const ES: Texts = {
         secondTab: name =>
             `Otra pestaña tiene abierto este documento, así que esta tiene una copia: ${name}. Lo que cambies aquí se guarda solo en la copia.`,
         gone: name => `${name} ya no existe. Otra pestaña lo ha eliminado.`,
+        notRenamed: name => `No se ha cambiado el nombre de ${name}: ahora está abierto otro documento. Abre ${name} y cámbialo allí.`,
         forgotten: steps =>
             `Deshacer: los primeros ${steps} cambios de este documento ya no se pueden deshacer. El documento en sí está completo.`,
         undo: 'Deshacer',

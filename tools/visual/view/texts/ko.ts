@@ -535,6 +535,7 @@ const KO: Texts = {
         removes: '삭제',
         secondTab: name => `다른 탭이 이 문서를 열고 있어, 이 탭은 사본을 씁니다: ${name}. 여기서 바꾼 것은 사본에만 저장됩니다.`,
         gone: name => `${name}: 더 이상 없습니다. 다른 탭에서 삭제되었습니다.`,
+        notRenamed: name => `${name}: 이름이 바뀌지 않았습니다. 지금은 다른 문서가 열려 있습니다. ${name} 문서를 열고 이름을 바꾸세요.`,
         forgotten: steps => `실행 취소: 이 문서의 처음 변경 ${steps}개는 이제 취소할 수 없습니다. 문서 자체는 온전합니다.`,
         undo: '실행 취소',
         redo: '다시 실행',
