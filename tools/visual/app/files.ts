@@ -13,7 +13,7 @@ import type { ChosenFile, Files, FilesState, LookedAt, SavedFile } from '../view
 import { Store } from '../view/store.ts';
 import type { DocumentEditor } from './editor.ts';
 
-const NOTHING: Omit<FilesState, 'busy'> = { opened: null, tooLarge: null, sent: null, trouble: null };
+const NOTHING: Omit<FilesState, 'busy'> = { opened: null, tooLarge: null, sent: null, trouble: null, done: null };
 
 function noPython(error: unknown): string {
     return TEXTS.files.noPython(error instanceof Error ? error.message : String(error));
@@ -45,7 +45,8 @@ export class DocumentFiles implements Files {
     private isCancelled = false;
     /** Counts what is read or written. `busy` describes the last. */
     private begun = 0;
-    private endLook: () => void = () => undefined;
+    /** Ends the reading of a file that is only viewed; null: none is read. */
+    private endLook: (() => void) | null = null;
     /** Counts chosen files. The last one is opened, even if an earlier one comes later. */
     private chosen = 0;
 
@@ -58,26 +59,32 @@ export class DocumentFiles implements Files {
     async choose(file: ChosenFile, ...others: readonly ChosenFile[]): Promise<void> {
         const mine = ++this.chosen;
         if (others.length > 0) return this.state.set({ ...NOTHING, trouble: TEXTS.files.oneOnly(others.length + 1) });
+        const end = this.begin(TEXTS.files.reading(file.name));
         const bytes = await bytesOf(file);
         if (mine !== this.chosen) return;
-        if (typeof bytes === 'string') return this.state.set({ ...NOTHING, trouble: bytes });
-        await this.open(file.name, bytes);
+        if (typeof bytes !== 'string') return this.open(file.name, bytes);
+        end();
+        this.state.set({ trouble: bytes });
     }
 
     async look(file: ChosenFile): Promise<LookedAt> {
-        const cancelled = new Promise<LookedAt>(resolve => (this.endLook = () => resolve({ kind: 'cancelled' })));
-        const end = this.begin(TEXTS.files.reading(file.name));
+        let end = (): void => undefined;
+        const cancelled = new Promise<LookedAt>(resolve => (end = () => resolve({ kind: 'cancelled' })));
+        this.endLook = end;
         try {
             return await Promise.race([this.lookAt(file), cancelled]);
         } finally {
-            end();
+            if (this.endLook === end) this.endLook = null;
         }
     }
 
     cancel(): void {
-        if (this.state.get().busy === null) return;
+        if (this.state.get().busy === null && !this.endLook) return;
         this.isCancelled = true;
-        this.endLook();
+        this.chosen++; // a file that has not come yet, as from a network drive that is gone, is not opened later
+        this.begun++;
+        this.state.set({ busy: null });
+        this.endLook?.();
         this.parts.cancel();
     }
 
@@ -96,7 +103,7 @@ export class DocumentFiles implements Files {
         const pages = new Map(Array.from({ length: PAGE_COUNT - 1 }, (_, i) => [i + 1, this.pageIn(opened.image, i + 1)] as const));
         for (const [page, bytes] of pages) if (!this.holdsSteps(bytes) || this.editor.format.fault(bytes) !== null) pages.delete(page);
         if (pages.size === 0) this.state.set({ ...NOTHING, trouble: TEXTS.files.nothingWhole });
-        else this.addPages(pages);
+        else this.addPages(opened.name, pages);
     }
 
     async createFromOpened(): Promise<void> {
@@ -161,11 +168,11 @@ export class DocumentFiles implements Files {
         return page;
     }
 
-    private addPages(pages: ReadonlyMap<number, Uint8Array>): void {
+    private addPages(name: string, pages: ReadonlyMap<number, Uint8Array>): void {
         const before = this.editor.state.get().document;
         if (this.adopt(pages) === 0) return;
         const isSame = this.editor.state.get().document === before;
-        this.state.set({ ...NOTHING, trouble: isSame ? TEXTS.files.allHere : null });
+        this.state.set({ ...NOTHING, done: isSame ? { name, text: TEXTS.files.allHere } : null });
     }
 
     /** Copies pages to free pages and selects the first. Returns it, or 0 if there is no room, which has then been reported. */
@@ -224,7 +231,6 @@ export class DocumentFiles implements Files {
 
     /** Runs one action. Reports trouble as text and never throws. Null: it failed or was cancelled. */
     private async busy<T>(words: string, action: () => Promise<T>): Promise<T | null> {
-        this.state.set(NOTHING);
         const end = this.begin(words);
         this.isCancelled = false;
         try {
@@ -240,7 +246,7 @@ export class DocumentFiles implements Files {
     /** The returned function ends it. */
     private begin(words: string): () => void {
         const mine = ++this.begun;
-        this.state.set({ busy: words });
+        this.state.set({ ...NOTHING, busy: words });
         return () => mine === this.begun && this.state.set({ busy: null });
     }
 

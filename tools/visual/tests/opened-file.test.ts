@@ -60,7 +60,8 @@ test('what is there already is not doubled, unless it leads to something that ca
     expect(imageOf(same.editor.state.get().document)).toEqual(imageOf(library));
     expect(same.files.state.get()).toMatchObject({
         opened: null,
-        trouble: expect.stringMatching(/^All motions of the file are here already/),
+        trouble: null,
+        done: { name: 'found.mtn', text: expect.stringMatching(/^All motions of the file are here already/) },
     });
     const torn = await opened(
         new Map([...library.pages.entries()].map(([page, bytes]) => [page, page === WALK_R ? renamed(page, 'other') : bytes])),

@@ -75,6 +75,18 @@ test('a reading is cancelled: its worker ends, nothing is said or changed, what 
     expect(editor.state.get().document).toBe(document);
 });
 
+test('a file that does not come is told from the press on, and once its reading is cancelled it is not opened when it comes', async () => {
+    const { files } = await openPage();
+    let come = (_: ArrayBuffer): void => undefined;
+    const late = files.choose({ name: 'late.m512', size: 1, arrayBuffer: () => new Promise(resolve => (come = resolve)) });
+    expect(files.state.get().busy).toContain('late.m512');
+    files.cancel();
+    expect(files.state.get().busy).toBeNull();
+    come(new ArrayBuffer(1));
+    await late;
+    expect([files.state.get().busy, BusyWorker.all.flatMap(({ asked }) => asked)]).toEqual([null, []]);
+});
+
 test('without a reading there is nothing to cancel', async () => {
     const { files } = await openPage();
     files.cancel();
@@ -109,7 +121,7 @@ test('a file that is only looked at: cancelled, refused, unreadable and without 
     expect(await slow).toEqual({ kind: 'cancelled' });
     const long = files.look(new File(['motion512 1'], 'long.m512'));
     await settle();
-    expect(files.state.get().busy).toContain('long.m512');
+    expect(BusyWorker.all.map(({ isEnded }) => isEnded)).toEqual([false]);
     files.cancel();
     expect(await long).toEqual({ kind: 'cancelled' });
     expect(last().isEnded).toBe(true);

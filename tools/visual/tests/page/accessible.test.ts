@@ -48,7 +48,7 @@ test('no serious finding in any area and any dialog; in the dark the contrast ho
     };
     const dialog = async (name: string, open: () => Promise<unknown>): Promise<void> => {
         await open();
-        await page.locator('dialog[open]').waitFor();
+        await page.locator('dialog[open]:not([aria-busy=true])').waitFor();
         await look(name, 'dialog[open]');
         await page.keyboard.press('Escape');
         await page.locator('dialog[open]').waitFor({ state: 'hidden' });

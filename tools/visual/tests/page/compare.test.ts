@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Comparing with a file that cannot be read or whose reading is cancelled.
+// Opening a file, and comparing with one, that cannot be read or whose reading is cancelled.
 import { expect, test } from 'vitest';
 import { Visitor } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
@@ -8,7 +8,9 @@ const suite = pageSuite();
 /** Python's own code. Without it no file can be read. */
 const PYTHON = '**/python-*.zip';
 
-test('a file to compare with: a reading that does not end is cancelled, by the button and by Close, and one that fails says why', async () => {
+const THEIRS = { name: 'theirs.m512', mimeType: '', buffer: Buffer.from('motion512 1\n') };
+
+test('a file to open or to compare with: a reading that does not end is cancelled, by the button and by Close, and one that fails says why', async () => {
     let isOnline = true;
     const person = await Visitor.come(suite.browser, suite.address, {
         hasPicture: false,
@@ -17,16 +19,22 @@ test('a file to compare with: a reading that does not end is cancelled, by the b
     });
     const { page } = person;
     await person.untilStanding();
+    // The dialog is there before there is anything to say: later it would take the keys from a field.
+    const opening = page.getByRole('dialog', { name: 'Reading theirs.m512 …' });
+    for (const leave of [() => person.button('Cancel').click(), () => page.keyboard.press('Escape')]) {
+        await page.getByLabel('Motion file').setInputFiles(THEIRS);
+        await opening.waitFor();
+        await leave();
+        await page.getByRole('dialog').waitFor({ state: 'hidden' });
+    }
+
     await person.open('Steps');
     await page.getByRole('textbox', { name: 'Name of the motion' }).fill('mine');
     await page.keyboard.press('Enter');
     await person.button('To the robot (1) …').click();
     const dialog = page.getByRole('dialog', { name: 'Compare and write' });
     const status = dialog.getByRole('status', { name: 'Transfer' });
-    const choose = (): Promise<void> =>
-        dialog
-            .getByLabel('File to compare with')
-            .setInputFiles({ name: 'theirs.m512', mimeType: '', buffer: Buffer.from('motion512 1\n') });
+    const choose = (): Promise<void> => dialog.getByLabel('File to compare with').setInputFiles(THEIRS);
     await dialog.getByRole('button', { name: /^Write 1 motion/ }).waitFor();
 
     await choose();

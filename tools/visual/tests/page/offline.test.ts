@@ -68,7 +68,7 @@ test('a release while the page is open: it goes on with its own files, says that
     await visitor.page
         .getByLabel('Motion file')
         .setInputFiles({ name: 'mine.m512', mimeType: 'text/plain', buffer: Buffer.from('m512 1\n') });
-    const dialog = visitor.page.getByRole('dialog');
+    const dialog = visitor.page.getByRole('dialog', { name: 'That did not work' });
     await dialog.waitFor();
     expect(await dialog.textContent()).not.toMatch(/could not be loaded/); // Python, 5 MB, came from the old version
     await visitor.page.keyboard.press('Escape');

@@ -133,7 +133,7 @@ export class Walk {
 
     private async dialog(place: string, open: () => Promise<unknown>): Promise<void> {
         await open();
-        await this.page.locator('dialog[open]').waitFor();
+        await this.page.locator('dialog[open]:not([aria-busy=true])').waitFor();
         await this.look(place);
         await this.page.keyboard.press('Escape');
         await this.page.locator('dialog[open]').waitFor({ state: 'hidden' });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Opens files, also by drag and drop; saves files; makes links. A file that was read is shown first and imported only on request.
+// Opens files, also by drag and drop; saves files; makes links. A file that was read is shown first and imported only on request. The dialog
+// is there from the press on: after the seconds that a file takes it would open over what somebody types by then.
 
 import { SUFFIXES } from '../../model/file-formats.ts';
 import type { Suffix } from '../../model/file-formats.ts';
@@ -23,10 +24,8 @@ export class FilesMenu extends HTMLElement {
         'aria-label': TEXTS.files.file,
         onchange: () => this.chosen(),
     });
-    private readonly dialog = make('dialog', { 'aria-labelledby': 'files-title', oncancel: () => this.session.files.dismiss() });
-    private readonly busy = make('span', { class: 'busy', role: 'status' });
-    private readonly stop = make('button', { hidden: true, onclick: () => this.session.files.cancel() }, TEXTS.page.cancel);
-    private shown: Pick<FilesState, 'opened' | 'tooLarge' | 'trouble'> | null = null;
+    private readonly dialog = make('dialog', { 'aria-labelledby': 'files-title', oncancel: () => this.leave() });
+    private shown: FilesState | null = null;
     private readonly ends: (() => void)[] = [];
 
     connectedCallback(): void {
@@ -44,7 +43,6 @@ export class FilesMenu extends HTMLElement {
             make('button', { onclick: () => this.chooser.click() }, TEXTS.files.open),
             save,
             make('button', { title: TEXTS.files.sendHint, onclick: () => void this.send() }, TEXTS.files.send),
-            make('div', { class: 'work' }, this.busy, this.stop),
             this.chooser,
             this.dialog,
         );
@@ -109,13 +107,15 @@ export class FilesMenu extends HTMLElement {
     }
 
     private render(state: FilesState): void {
-        this.busy.textContent = state.busy ?? '';
-        this.stop.hidden = state.busy === null;
-        const { opened, tooLarge, trouble } = state;
         const { shown } = this;
-        if (shown && shown.opened === opened && shown.tooLarge === tooLarge && shown.trouble === trouble) return;
-        this.shown = { opened, tooLarge, trouble };
-        if (trouble !== null) this.show(TEXTS.files.failed, [make('p', {}, trouble)], [this.closing(TEXTS.page.close)]);
+        this.shown = state;
+        const { busy, opened, tooLarge, trouble, done } = state;
+        const isSame = (key: keyof FilesState): boolean => shown?.[key] === state[key];
+        if ((['busy', 'opened', 'tooLarge', 'trouble', 'done'] as const).every(isSame)) return;
+        this.dialog.setAttribute('aria-busy', String(busy !== null));
+        if (busy !== null) this.show(busy, [], [make('button', { onclick: () => this.leave() }, TEXTS.page.cancel)]);
+        else if (trouble !== null) this.show(TEXTS.files.failed, [make('p', {}, trouble)], [this.closing(TEXTS.page.close)]);
+        else if (done) this.show(done.name, [make('p', {}, done.text)], [this.closing(TEXTS.page.close)]);
         else if (opened) this.showOpened(opened);
         else if (tooLarge)
             this.show(
@@ -127,6 +127,12 @@ export class FilesMenu extends HTMLElement {
                 ],
             );
         else this.dialog.close();
+    }
+
+    private leave(): void {
+        const { files } = this.session;
+        if (files.state.get().busy === null) files.dismiss();
+        else files.cancel();
     }
 
     private showOpened({ name, notes, losses, count, damaged, hasTrim }: NonNullable<FilesState['opened']>): void {

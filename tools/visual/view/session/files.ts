@@ -32,7 +32,7 @@ export interface ChosenFile {
 }
 
 export interface FilesState {
-    /** Description of the running task; null: none. */
+    /** Description of what is being read or made; null: nothing. */
     readonly busy: string | null;
     readonly opened: OpenedFile | null;
     /** A file with pages beyond the 128 that fit; `pages` lists them. */
@@ -40,6 +40,8 @@ export interface FilesState {
     readonly sent: SentMotion | null;
     /** What went wrong, in one sentence. */
     readonly trouble: string | null;
+    /** Why there was nothing to do; `name` is of the file. */
+    readonly done: { readonly name: string; readonly text: string } | null;
 }
 
 /** Result of reading a file only to view it. Refused: `text` says why it could not be read. */
@@ -58,7 +60,7 @@ export interface Files {
     /** Opens a file unless it is larger than any motion file can be. Several are refused: each is looked at before anything is imported. */
     choose(file: ChosenFile, ...others: readonly ChosenFile[]): Promise<void>;
     open(name: string, bytes: Uint8Array): Promise<void>;
-    /** Reads a file only to view it; of the state only `busy` changes. */
+    /** Reads a file only to view it; the state does not change. */
     look(file: ChosenFile): Promise<LookedAt>;
     /** Cancels the running read or write; nothing changes. */
     cancel(): void;
