@@ -40,6 +40,8 @@ export class RobotMemory {
     private mayStore = true;
     /** What the robot has written and the browser has not stored. */
     private unkept: KeptRobot | null = null;
+    /** The robot has written, and its memory has not come yet. */
+    private isWriting = false;
     /** What was stored when this tab read or stored it last. */
     private known: KeptRobot | null = null;
     /** Another tab had the memory until now: what is stored may be newer than what this robot began with. */
@@ -66,14 +68,23 @@ export class RobotMemory {
         }
     }
 
+    /** The robot has written, and its memory comes when it is at rest. */
+    writes(): void {
+        this.isWriting = true;
+        this.setUnkept(this.unkept);
+    }
+
     /** The robot has written its memory. It counts as unkept until it is stored. */
     written(memories: KeptRobot): Promise<void> {
+        this.isWriting = false;
         this.setUnkept(memories);
         return this.keep(memories);
     }
 
     /** The memory for the robot that follows one with this memory; null: one that has crashed. */
     async passOn(memories: KeptRobot | null): Promise<KeptRobot | null> {
+        this.isWriting = false; // what a robot wrote that has crashed since is lost
+        this.setUnkept(this.unkept);
         if (!memories) return this.unkept ?? (this.isFresh ? null : this.load());
         if (this.isBehind && !this.unkept && !this.isFresh) return this.load();
         await this.keep(memories);
@@ -82,6 +93,7 @@ export class RobotMemory {
 
     /** Never rejects. Errors are reported. */
     async forget(): Promise<void> {
+        this.isWriting = false;
         this.setUnkept(null);
         this.isFresh = true;
         if (!(await this.mayKeep)) {
@@ -149,7 +161,7 @@ export class RobotMemory {
 
     private setUnkept(memories: KeptRobot | null): void {
         this.unkept = memories;
-        this.events.change({ hasUnkept: memories !== null });
+        this.events.change({ hasUnkept: memories !== null || this.isWriting });
     }
 
     private tellNotKept(): void {

@@ -252,6 +252,8 @@ export class SimulatedSource {
                         ? { physics: 'on' }
                         : { physics: 'off', message: { text: `${TEXTS.robot.noPhysics} (${message.error})`, tone: 'bad' } },
                 );
+            case 'writes':
+                return this.memory.writes();
             case 'memories':
                 this.events.motions(motionsIn(message.memories));
                 return void this.memory.written(message.memories);

@@ -52,6 +52,8 @@ export type FromSim =
     | { readonly kind: 'physics'; readonly error: string | null }
     | { readonly kind: 'bytes'; readonly bytes: Uint8Array }
     | { readonly kind: 'state'; readonly state: RobotState }
+    /** The robot has written flash or EEPROM. Comes before what the robot says of it; the memories follow when it is at rest. */
+    | { readonly kind: 'writes' }
     /** Memories to keep: the robot has written flash or EEPROM and is now at rest, or is asked for its memories. `id`: answers the request
      *  with that id. */
     | { readonly kind: 'memories'; readonly memories: Memories; readonly id: number | null }

@@ -20,6 +20,8 @@ let frameAtMs = 0;
 let keptOperations = 0;
 let seenOperations = 0;
 let writtenAtMs = 0;
+/** The page knows that the robot has written what it has not got yet. */
+let isWriteTold = false;
 let isStopped = false;
 let isSeen = true;
 /** Messages that came while the robot was being made. */
@@ -60,6 +62,10 @@ function loop(): void {
     if (!simulation || isStopped) return;
     const startMs = performance.now();
     const isBehind = run(simulation, startMs);
+    if (simulation.board.operations !== keptOperations && !isWriteTold) {
+        isWriteTold = true;
+        tell({ kind: 'writes' });
+    }
     const bytes = simulation.board.receive();
     if (bytes.length > 0) tell({ kind: 'bytes', bytes }, [bytes.buffer]);
     const nowMs = performance.now();
@@ -101,6 +107,7 @@ function sendFrame(robot: Simulation, nowMs: number): void {
 
 function tellWritten({ board }: Simulation): void {
     keptOperations = seenOperations = board.operations;
+    isWriteTold = false;
     tell({ kind: 'memories', memories: readMemories(board), id: null });
 }
 

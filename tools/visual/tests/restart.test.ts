@@ -4,12 +4,15 @@
 import { readFile } from 'node:fs/promises';
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { SimulatedSource } from '../app/simulated-source.ts';
+import { RobotTransfer } from '../app/transfer.ts';
 import type { Body } from '../model/body.ts';
+import { pageOf } from '../model/document.ts';
 import { MOTIONS_ADDRESS } from '../sim/board.ts';
 import { SimulatedRobot } from '../sim/robot-client.ts';
 import type { ToSim } from '../sim/messages.ts';
 import type { SessionState } from '../view/session/session.ts';
 import type { KeptRobot } from '../view/robot-store.ts';
+import { libraryDocument, makeFormat } from './motion-bench.ts';
 import { NodeWorker } from './node-worker.ts';
 import * as bench from './robot-bench.ts';
 
@@ -131,6 +134,38 @@ test('after a crash the next robot starts, with what was kept', async () => {
     expect(seen.stopped).toBeNull();
     expect(seen.motions.every(byte => byte === 0x5a)).toBe(true);
 });
+
+test('from the first word that a motion is written until the browser has stored it, leaving the page would lose it, and the page knows', async () => {
+    const { source, seen } = page();
+    await source.start('edit');
+    await runs(source, 'edit');
+    const { format } = await makeFormat();
+    const library = await libraryDocument();
+    const [bow, free] = [pageOf(library, 2), 100];
+    let robot: readonly (Uint8Array | null)[] = library.pages;
+    const transfer = new RobotTransfer({
+        format,
+        document: () => ({ ...library, pages: library.pages.with(free, bow) }),
+        robot: () => robot,
+        setRobot: pages => (robot = pages),
+        requests: () => {
+            if (!source.connection) throw new Error('no robot');
+            return source.connection.requests;
+        },
+        becomeEdit: () => Promise.resolve(),
+        backUp: () => Promise.resolve(),
+    });
+    const isUnkept = (): boolean => seen.changes.findLast(({ hasUnkept }) => hasUnkept !== undefined)?.hasUnkept ?? false;
+    const isKept = (): boolean => browser.kept?.flash[MOTIONS_ADDRESS + free * 512] === bow[0];
+    const safe: boolean[] = [];
+    transfer.state.watch(({ account }) => {
+        if (['written', 'verified'].includes(account.get(free) ?? '')) safe.push(isUnkept() || isKept());
+    });
+    expect(await transfer.write([free])).toEqual({ isDone: true });
+    expect(safe.length).toBeGreaterThan(1);
+    expect(safe).not.toContain(false);
+    await vi.waitFor(() => expect([isUnkept(), isKept()]).toEqual([false, true]), { timeout: 240_000 });
+}, 240_000);
 
 test('a browser that keeps nothing: another image has the motions of the one before', async () => {
     const { source, seen } = page();

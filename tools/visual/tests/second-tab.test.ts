@@ -147,6 +147,26 @@ test('the first tab keeps its robot, and nothing is said of another one', async 
     expect(seen).toMatchObject({ isSecond: false, hasUnkept: false, said: [] });
 });
 
+test('what the robot writes is unkept before its memory comes; what a robot had not sent before it crashed is gone', async () => {
+    const { source, seen, robot } = await tab();
+    robot().tell({ kind: 'writes' });
+    expect(seen.hasUnkept).toBe(true);
+    robot().save(5);
+    robot().tell({ kind: 'writes' }); // again, while the disk takes the first
+    await vi.advanceTimersByTimeAsync(0);
+    expect([byteOf(browser.kept), seen.hasUnkept]).toEqual([5, true]);
+    robot().tell({ kind: 'crashed', text: 'out of memory' });
+    const restarted = source.restart('play');
+    await vi.advanceTimersByTimeAsync(1000);
+    await restarted;
+    expect([byteOf(robot().started), seen.hasUnkept]).toEqual([5, false]);
+    robot().tell({ kind: 'writes' });
+    const fresh = source.forget('play');
+    await vi.advanceTimersByTimeAsync(1000);
+    await fresh;
+    expect(seen.hasUnkept).toBe(false);
+});
+
 test('a second tab says so before anything is saved; what is saved is known to be lost with the tab; then the other tab is closed', async () => {
     browser.kept = memories(1);
     locks.hold(ROBOT);
