@@ -41,7 +41,6 @@
 #define MEM_EE_SETTINGS_END 0x0100
 #define MEM_EE_MAILBOX 0x0800
 #define MEM_EE_MAILBOX_END 0x0A02
-#define MEM_EE_LOADER 0x0FF0
 #define MEM_EE_APP_MARK 0x0FF0 /* an application without a record is incomplete (boot/memory.h) */
 #define MEM_EE_PLAY_MODE 0x0FF2
 #define MEM_EE_START_WORD 0x0FF3

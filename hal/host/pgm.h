@@ -8,7 +8,6 @@
 #include <strings.h>
 
 #define PROGMEM
-#define PGM_P const char *
 #define PSTR(text) (text)
 #define pgm_read_byte(address) (*(const uint8_t *)(address))
 #define pgm_read_word(address) (*(const uint16_t *)(address))
@@ -18,11 +17,8 @@
 #define memcmp_P memcmp
 #define strlen_P strlen
 #define strcmp_P strcmp
-#define strncmp_P strncmp
 #define strcasecmp_P strcasecmp
 #define strncasecmp_P strncasecmp
 #define strcpy_P strcpy
-#define strncpy_P strncpy
-#define strchr_P strchr
 
 #endif

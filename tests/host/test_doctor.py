@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 READ, PING, WRITE = 2, 1, 3
-TORQUE, GOAL, BAUD, DELAY = 24, 30, 4, 5
+TORQUE, GOAL, BAUD = 24, 30, 4
 
 
 def doctor(robot, *words, code=0):

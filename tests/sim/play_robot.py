@@ -10,7 +10,6 @@ A session (tests/models/golden/sessions/*.txt) is the text of a terminal, with d
     # press START, # release START              # note ...         a remark
 """
 
-import os
 import pathlib
 import re
 
@@ -20,7 +19,6 @@ from m512.files.page import SCHEDULE_SPEED
 from tests.sim.made_page import JOINTS, page  # noqa: F401 (the tests take them from here)
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
-SHARED = pathlib.Path(os.environ.get("M512_SHARED", TOP.parent / "shared"))
 SESSIONS = TOP / "tests" / "models" / "golden" / "sessions"
 GOLDEN = TOP / "tests" / "models" / "golden"
 IMAGE = "play-cm5.hex"

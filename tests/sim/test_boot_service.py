@@ -10,7 +10,7 @@ from tests.sim.boot_board import BOOT_MODE, BOOT_START, factory_section, new_boa
 SERVICE = "tests/service.hex"
 OURS, FACTORY, MAILBOX = 1, 2, 3
 OK, RANGE, VERIFY = 0, 1, 2
-CLEAN, RESTORED = 0, 1
+CLEAN = 0
 
 
 def service_board(**options):

@@ -48,7 +48,6 @@ HEAD_TILT = -40, 40
 KEYS = {"U": 1, "D": 2, "L": 4, "R": 8, "1": 16, "2": 32, "3": 64, "4": 128}
 ON_THE_FLOOR = {"pushups", "pushups_do", "pushups_up", "get_up", "up_on_arms", "get_up_back", "up_on_elbows", "up_to_seat", "up_from_seat"}
 LEFT_ALONE = {("get_up", 0): {1, 2}, ("get_up_back", 0): {1, 2, 5, 6}}  # joints that a step does not use; they keep their position
-LEANING = {"bow", "dance_end", "sit"} | ON_THE_FLOOR
 CHAINS = [
     "walk walk_r walk_l walk_r walk_l end_r",
     "walk walk_r turn_l turn_l2 turn_l walk_r walk_l turn_r turn_r2 end_r",

@@ -15,7 +15,6 @@ START = 3 * SECOND  # the search for servos is over
 LOOKED_AT = 220  # ticks until everything is painted and the rules have checked it
 CAPITALS, DEAF, SPOILT = 0.06, 0.1, 0.4  # shares: of lines; of sessions in which some servos ignore SYNC WRITE; of sent pages
 TRIMMED, TRIM_MOST = 0.3, 200  # share of sessions; with it every position that a page or a line here names is in reach
-LONG, MANY = 180 * SECOND, 100_000
 LAW_PAGES = range(20, 30)
 SOFT_PAGES = (1, 2, 3, 4, 5, 6, 7, 8, 9, 12, 13, 14, 21, 22, *LAW_PAGES)
 SOFTNESS = (0x55, 0x55, 0x33, 0x66, 0x42)

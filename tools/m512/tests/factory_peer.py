@@ -88,7 +88,7 @@ class FactoryBoard(LoaderBoard):
 
     def _command(self, line):
         line = line.lstrip(b" ")
-        words, word, last_comma = [], bytearray(), False
+        words, word = [], bytearray()
         for byte in line + b" ":
             if byte in SEPARATORS:
                 if word or byte == 0x2C:
@@ -96,7 +96,6 @@ class FactoryBoard(LoaderBoard):
                 word = bytearray()
             else:
                 word.append(byte)
-        del last_comma
         if not words or not words[0]:
             return
         self.words.append(line)

@@ -16,7 +16,6 @@
 #include "violation.h"
 
 #define BOARD_CYCLES_PER_MS 16000u
-#define BOARD_CYCLES_PER_TICK 125000u /* the firmware's 128 Hz */
 
 typedef struct board board_t;
 struct servo_bus;

@@ -14,7 +14,6 @@
 #include "servo_body.h"
 
 #define SERVO_CYCLES_PER_US 16u
-#define SERVO_CYCLES_PER_MS 16000u
 #define SERVO_TABLE_BYTES 50
 #define SERVO_EEPROM_BYTES 24 /* addresses 0..23 survive power-off */
 #define SERVO_PACKET_MAX 143  /* AX-12 receive buffer; a longer instruction packet is lost */

@@ -100,8 +100,6 @@ double board_api_busy(void) { return api.board ? (double)board_busy_cycles(api.b
 
 double board_api_resets(void) { return api.board ? board_resets(api.board) : 0; }
 
-int board_api_reset_cause(void) { return api.board ? (int)board_reset_cause(api.board) : 0; }
-
 int board_api_violation(void) { return api.board ? (int)board_violation(api.board)->kind : 0; }
 
 const char *board_api_violation_name(void)
@@ -266,14 +264,6 @@ void board_api_servo_push(int index, double position)
     servo_t *servo = servo_now(index);
     if (servo) {
         servo_push_to(servo, board_now(api.board), position);
-    }
-}
-
-void board_api_servo_load(int index, double load)
-{
-    servo_t *servo = servo_now(index);
-    if (servo) {
-        servo_api_set_state(servo, board_now(api.board), SERVO_API_LOAD, fmin(fmax(load, -1), 1));
     }
 }
 

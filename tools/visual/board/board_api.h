@@ -49,7 +49,6 @@ int board_api_run(double until_cycle);
 double board_api_now(void);
 double board_api_busy(void); /* cycles in which the CPU executed instructions */
 double board_api_resets(void);
-int board_api_reset_cause(void);
 
 /* A firmware action that the chip does not allow: its kind (violation_kind_t, 0: none), the kind's name, and a sentence
  * with the address. Strings end with a NUL. */
@@ -114,14 +113,13 @@ const double *board_api_servo_table(void);
 /* A register of the control table, one or two bytes wide. */
 int board_api_servo_register(int index, int address, int bytes);
 
-/* push turns the horn by hand to a position (servo units). load applies a load (-1..1 of stall torque). */
+/* push turns the horn by hand to a position (servo units). */
 void board_api_servo_push(int index, double position);
-void board_api_servo_load(int index, double load);
 
 /* Connects the servos' shafts to an external body (servo_body.h) in lockstep with the board. false: each servo turns
  * its own rotor. The module calls its two imports, look and step of the module "body", with a pointer to the shafts
- * (four doubles each: ID, torque, angle, speed) and their number. With a body, pushes and loads of single servos have
- * no effect. */
+ * (four doubles each: ID, torque, angle, speed) and their number. With a body, pushes of single servos have no
+ * effect. */
 void board_api_body(bool attached);
 
 /* Faults by number (servo_fault_t) and their names. answers: how many answers are spoiled; 0 off, -1 until cleared. */

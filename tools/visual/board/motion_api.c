@@ -47,14 +47,6 @@ uint8_t *motion_api_pages(void) { return api.pages[0]; }
 
 int motion_api_check(int page) { return is_page(page) ? (int)page_check(api.pages[page]) : -1; }
 
-int motion_api_check_step(int page, int step)
-{
-    if (!is_page(page) || step < 0 || step >= (int)PAGE_STEPS) {
-        return -1;
-    }
-    return (int)page_check_step(api.pages[page] + PAGE_AT_STEP0 + (unsigned)step * PAGE_STEP_BYTES);
-}
-
 void motion_api_seal(int page)
 {
     if (is_page(page)) {
@@ -310,36 +302,16 @@ int motion_api_start(int page, int law, int mode, int code, uint32_t present)
                              api.pose, present);
 }
 
-int motion_api_fault_page(void) { return api.player.fault_page; }
-
 void motion_api_code(int code) { link_code(&api.link, (uint8_t)code); }
-
-int motion_api_tick(void)
-{
-    int events = player_tick(&api.player, &api.link);
-    if ((events & PLAYER_EV_OUTPUT) != 0) {
-        player_goals(&api.player, UINT32_MAX, api.goal_pos);
-    }
-    return events;
-}
-
-const uint16_t *motion_api_goals(void) { return api.goal_pos; }
-
-uint32_t motion_api_joints(void) { return api.player.joints; }
-
-int motion_api_page(void) { return api.player.now.page; }
-
-int motion_api_step(void) { return api.player.now.step; }
-
-int motion_api_repetition(void) { return api.player.repetition; }
-
-bool motion_api_is_moving(void) { return player_is_moving(&api.player); }
 
 uint32_t motion_api_curve(uint32_t ticks)
 {
     uint32_t played = 0;
     while (played < ticks && played < MOTION_API_CURVE_TICKS && player_is_moving(&api.player)) {
-        int events = motion_api_tick();
+        int events = player_tick(&api.player, &api.link);
+        if ((events & PLAYER_EV_OUTPUT) != 0) {
+            player_goals(&api.player, UINT32_MAX, api.goal_pos);
+        }
         memcpy(api.goals[played], api.goal_pos, sizeof api.goals[played]);
         api.marks[played][0] = api.player.now.page;
         api.marks[played][1] = api.player.now.step;

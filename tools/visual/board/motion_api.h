@@ -18,9 +18,6 @@ uint8_t *motion_api_pages(void);
  * -1: no such page. */
 int motion_api_check(int page);
 
-/* Checks a single step: 0 or 6 (PAGE_ERR_POSITION); -1: no such step. */
-int motion_api_check_step(int page, int step);
-
 /* seal sets the checksum byte. clear makes a page empty. */
 void motion_api_seal(int page);
 void motion_api_clear(int page);
@@ -93,25 +90,14 @@ int motion_api_top_speed_q4_4(int decivolts);
 
 /* Starts a page. law: player_law_t (0 exact, 1 classic); mode: link_mode_t (0 latch, 1 hold); code: the code of the
  * call, 0 for a call by number; present: one bit per joint that may be driven. Returns player_status_t, 0 = started. A
- * running play is ended first. motion_api_fault_page(): the page that was refused. */
+ * running play is ended first. */
 int motion_api_start(int page, int law, int mode, int code, uint32_t present);
-int motion_api_fault_page(void);
 
 /* Passes a code (0 released, 255 stop). It takes effect at the next decision of a link, as in the robot. */
 void motion_api_code(int code);
 
-/* Plays one tick of 1/128 s and returns PLAYER_EV_ bits. The functions below give the goals and the state of the
- * play. */
-int motion_api_tick(void);
-const uint16_t *motion_api_goals(void);
-uint32_t motion_api_joints(void);
-int motion_api_page(void);
-int motion_api_step(void);
-int motion_api_repetition(void);
-bool motion_api_is_moving(void);
-
-/* Continues the play for at most `ticks` (up to MOTION_API_CURVE_TICKS) and writes its curve: for each tick 31 goals
- * and three bytes (page, step, events). Returns the ticks played. Fewer than requested: the play ended. */
+/* Continues the play for at most `ticks` (up to MOTION_API_CURVE_TICKS) and writes its curve: for each tick (1/128 s)
+ * 31 goals and three bytes (page, step, PLAYER_EV_ bits). Returns the ticks played. Fewer than requested: the play ended. */
 #define MOTION_API_CURVE_TICKS 16384
 #define MOTION_API_MARK_BYTES 3
 uint32_t motion_api_curve(uint32_t ticks);

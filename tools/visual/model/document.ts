@@ -67,8 +67,3 @@ export function withChanges(document: MotionDocument, changes: readonly Change[]
     }
     return { ...document, pages };
 }
-
-/** Numbers of the pages that differ. */
-export function differentPages(a: MotionDocument, b: MotionDocument): number[] {
-    return a.pages.flatMap((bytes, page) => (isSamePage(bytes, pageOf(b, page)) ? [] : [page]));
-}

@@ -74,7 +74,6 @@ interface Exports {
     board_api_servo_table(): number;
     board_api_servo_register(index: number, address: number, bytes: number): number;
     board_api_servo_push(index: number, position: number): void;
-    board_api_servo_load(index: number, load: number): void;
     board_api_body(attached: number): void;
     board_api_faults(): number;
     board_api_fault_name(fault: number): number;
@@ -264,11 +263,6 @@ export class Board {
     /** A hand turns the horn to this position (servo units). */
     pushServo(index: number, position: number): void {
         this.api.board_api_servo_push(index, position);
-    }
-
-    /** -1..1 of stall torque. */
-    loadServo(index: number, load: number): void {
-        this.api.board_api_servo_load(index, load);
     }
 
     faultNames(): string[] {

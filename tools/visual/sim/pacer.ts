@@ -26,10 +26,6 @@ export class Pacer {
         return this.speed === 0;
     }
 
-    get isUnthrottled(): boolean {
-        return this.speed === Infinity;
-    }
-
     /** The cycle that should be reached by now. */
     dueCycle(nowMs: number, cycle: number): number {
         if (this.speed === 0) return cycle;

@@ -27,7 +27,6 @@ from .wear import Wear
 
 CYCLES_PER_TICK = 125000
 MOTIONS_ADDRESS = 0xE000
-BOOT_ADDRESS = 0x1E000
 BUTTONS = ("UP", "DOWN", "LEFT", "RIGHT", "START", "MODE")
 LEDS = ("power", "txd", "rxd", "aux", "manage", "program", "play")
 RESET_CAUSES = {1: "power-on", 2: "external", 4: "brown-out", 8: "watchdog"}
