@@ -67,8 +67,9 @@ static void put_sums(uint16_t page, uint16_t count)
         memory_sums.crc = CRC16_START;
         memory_scan_start();
         memory_scan(page++);
+        const uint8_t *byte = (const uint8_t *)&memory_sums; /* its CRC and its sum */
         for (uint8_t i = 0; i < 4; i++) {
-            put(((const uint8_t *)&memory_sums)[i]);
+            put(*byte++);
         }
     }
 }
@@ -102,11 +103,7 @@ static uint8_t perform(uint8_t command, const uint8_t *request, uint16_t *bytes)
         }
         return REFUSED;
     case EE_WRITE:
-        if (count <= EEPROM_WRITE_MAX) {
-            memory_ee_write(body->page, body->bytes, count);
-            return OK;
-        }
-        return REFUSED;
+        return count <= EEPROM_WRITE_MAX && memory_ee_write(body->page, body->bytes, count) ? OK : REFUSED;
     default:
         return REFUSED;
     }

@@ -8,7 +8,6 @@
 #include "uart.h"
 #include BOOT_PORTS_H
 
-#include <string.h>
 #include <util/atomic.h>
 
 #define PAGE_BYTES 512u
@@ -48,7 +47,7 @@ static bool is_ram_good(void)
     bool good = true;
     for (uint16_t addr = MEM_RAM_START; addr < MEM_RAM_END; addr++) {
         volatile uint8_t *cell = (volatile uint8_t *)addr;
-        ATOMIC_BLOCK(ATOMIC_RESTORESTATE)
+        ATOMIC_BLOCK(ATOMIC_FORCEON)
         {
             uint8_t kept = *cell;
             *cell = 0x55;
@@ -77,9 +76,8 @@ static void put_crc(uint16_t page, uint16_t end)
 
 void check_all(void)
 {
-    static uint8_t count[3];
+    uint8_t count[3] = {0};
     uint16_t page = MEM_MOTION_START / 256;
-    memset(count, 0, sizeof count);
     SAY("+ valid . empty X bad");
     memory_sums.crc = CRC16_START;
     do {

@@ -131,16 +131,20 @@ uint8_t memory_ee(uint16_t addr)
 void memory_ee_set(uint16_t addr, uint8_t value)
 {
     wdt_reset();
-    eeprom_update_byte((uint8_t *)(addr & (MEM_EEPROM_BYTES - 1)), value);
+    eeprom_update_byte((uint8_t *)addr, value);
     eeprom_busy_wait();
 }
 
-void memory_ee_write(uint16_t addr, const void *from, uint16_t count)
+bool memory_ee_write(uint16_t addr, const void *from, uint16_t count)
 {
     const uint8_t *byte = from;
-    while (count--) {
-        memory_ee_set(addr++, *byte++);
+    if (addr > MEM_EEPROM_BYTES - count) {
+        return false;
     }
+    for (uint16_t i = 0; i < count; i++) {
+        memory_ee_set(addr + i, byte[i]);
+    }
+    return true;
 }
 
 void memory_scan_start(void)

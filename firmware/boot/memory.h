@@ -57,10 +57,12 @@ extern bool memory_app_came; /* memory_write_work had page 0 since the last prom
 #define MARK_INCOMPLETE 0x50u
 #define MARK_NONE 0xFFu
 
-/* EEPROM: only bytes that differ are written, 8.5 ms each. Addresses are modulo its size. */
+/* EEPROM: reads are modulo its size. Only bytes that differ are written, 8.5 ms each. */
 uint8_t memory_ee(uint16_t addr);
-void memory_ee_set(uint16_t addr, uint8_t value);
-void memory_ee_write(uint16_t addr, const void *from, uint16_t count);
+void memory_ee_set(uint16_t addr, uint8_t value);   /* addr < MEM_EEPROM_BYTES */
+
+/* Writes at most MEM_EEPROM_BYTES. false: they would reach beyond the end; nothing was written. */
+bool memory_ee_write(uint16_t addr, const void *from, uint16_t count);
 
 /* CRC-16 over several pages, and sum and AND of one page. memory_scan first copies the page to memory_scratch. */
 typedef struct {

@@ -75,11 +75,7 @@ static bool program(void)
         return (uint8_t)(stk.address << 1) + count <= FLASH_PAGE_BYTES &&
                memory_write_work(stk.address >> 7);
     }
-    if (stk.address >= MEM_EEPROM_BYTES / 2) {
-        return false;
-    }
-    memory_ee_write(stk.address << 1, memory_work, count);
-    return true;
+    return stk.address < MEM_EEPROM_BYTES / 2 && memory_ee_write(stk.address << 1, memory_work, count);
 }
 
 static void read(void)

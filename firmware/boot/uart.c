@@ -94,9 +94,9 @@ uint16_t uart_since(uint16_t then)
 void uart_pause(uint16_t ticks)
 {
     uint16_t since = uart_clock();
-    while (uart_since(since) < ticks) {
+    do {
         wdt_reset();
-    }
+    } while (uart_since(since) < ticks);
 }
 
 uint8_t uart_lost(void)

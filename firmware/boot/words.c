@@ -125,7 +125,7 @@ static void verify(void)
 
 static void clear_eeprom(const parse_t *line)
 {
-    uint16_t at = (uint16_t)line->arg[0], count = (uint16_t)line->arg[1];
+    uint16_t at = (uint16_t)line->arg[0] /* 0 if there is none */, count = (uint16_t)line->arg[1];
     if (line->count == 1) {
         return;
     }
@@ -136,7 +136,6 @@ static void clear_eeprom(const parse_t *line)
         if ((uart_next() & 0xDF) != 'Y') {
             return;
         }
-        at = 0;
         count = MEM_EEPROM_BYTES;
     }
     SAY("EEPROM Clearing");

@@ -93,7 +93,6 @@ class Figures(NamedTuple):
 def fuzz(make, seed, count):
     rng = random.Random(f"{make.__name__} {seed}" if seed else make.__name__)
     board = prompt_board()
-    board.allow("pullup")  # the noise can dump RAM, which includes the registers and so PINE
     before = b""
     flash, eeprom, licensed, sent = bytes(board.flash), bytes(board.eeprom), 0, 0
     resets = board.resets

@@ -281,6 +281,26 @@ def test_blocks_that_do_not_fit_are_refused(stk, address, count):
     assert bytes(stk.flash) == before
 
 
+def write_eeprom(board, address, data):
+    """The answer to the block."""
+    where, block = page(address, data, b"E")
+    ask(board, b"\x50\x20", 2)
+    ask(board, where, 2)
+    return ask(board, block, 2, ms=3000)
+
+
+@pytest.mark.parametrize("address, count", [(0x1000, 1), (0xFFE, 3), (0xF02, 256), (0x10000, 1), (0x1FFFE, 4), (0, 257)])
+def test_eeprom_blocks_that_do_not_fit_are_refused(stk, address, count):
+    before = bytes(stk.eeprom)
+    assert write_eeprom(stk, address, noise(count)) == b"\x14\x11"
+    assert bytes(stk.eeprom) == before
+
+
+def test_an_eeprom_block_up_to_the_last_byte_is_written(stk):
+    assert write_eeprom(stk, 0xF00, noise(256)) == IN_SYNC_OK
+    assert bytes(stk.eeprom[0xF00:]) == noise(256)
+
+
 def test_missing_end_of_packet_is_no_sync(stk):
     assert ask(stk, b"\x50\x21", 1) == b"\x15"
     assert ask(stk, SYNC, 2) == IN_SYNC_OK

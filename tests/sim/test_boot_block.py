@@ -111,6 +111,12 @@ def test_sums(board, blocks):
     [
         (SUMS, struct.pack("<HH", 0, 65)),
         (EE_WRITE, struct.pack("<HH", 0, 33) + bytes(34)),
+        (EE_WRITE, struct.pack("<HH", 0x1000, 4) + noise(4)),
+        (EE_WRITE, struct.pack("<HH", 0xFFE, 3) + noise(4)),
+        (EE_WRITE, struct.pack("<HH", 0xFE1, 32) + noise(32)),
+        (EE_WRITE, struct.pack("<HH", 0x8000, 1) + noise(2)),
+        (EE_WRITE, struct.pack("<HH", 0xFFFF, 2) + noise(2)),
+        (EE_WRITE, struct.pack("<HH", 0xFFF0, 32) + noise(32)),
         (RATE, page_body(8)),
         (RATE, page_body(0)),
         (WRITE, page_body(0x70, bytes(254))),
@@ -142,6 +148,22 @@ def test_eeprom_write(board, blocks):
     wear = board.eeprom_wear(0x123)
     blocks.ask(EE_WRITE, struct.pack("<HH", 0x123, 32) + data)
     assert board.eeprom_wear(0x123) == wear
+
+
+def test_eeprom_is_written_up_to_its_last_byte(board, blocks):
+    assert blocks.ask(EE_WRITE, struct.pack("<HH", 0xFE0, 32) + noise(32))[0] == OK
+    assert bytes(board.eeprom[0xFE0:]) == noise(32)
+    before = bytes(board.eeprom)
+    assert blocks.ask(EE_WRITE, struct.pack("<HH", 0x1000, 0))[0] == OK
+    assert bytes(board.eeprom) == before
+
+
+def test_read_of_the_registers_tells_which_button_is_down(board, blocks):
+    pine = 0x21
+    assert blocks.ask(READ, page_body(0x8000))[2][pine] & 0xF0 == 0xF0
+    board.press("DOWN")
+    board.run(ms=20)
+    assert blocks.ask(READ, page_body(0x8000))[2][pine] & 0xF0 == 0xD0
 
 
 def test_leave_to_the_prompt(board, blocks):

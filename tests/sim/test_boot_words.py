@@ -76,6 +76,7 @@ def test_eeprom_and_ram_dump(board):
         assert say(board, f"{word} f88") == dump_lines(board.eeprom, 0xF88, 0x1000), word
     for word in ("r", "ram"):
         assert say(board, f"{word} f00") == dump_lines(board.ram, 0xF00, 0x1100), word
+    assert say(board, "r 0").count("\r\n ") == 8  # the registers; those of the buttons' pins are among them
 
 
 def test_dump_goes_on_where_the_last_one_ended(board):
