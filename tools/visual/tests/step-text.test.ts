@@ -13,6 +13,7 @@ import { makeFormat } from './motion-bench.ts';
 import { randomNumbers } from './robot-bench.ts';
 
 const PYTHON = new URL('../../../build/venv/bin/python', import.meta.url).pathname;
+const LIBRARY = new URL('../../../build/motions/motions.bin', import.meta.url).pathname;
 const step = (joints: Record<number, number>, time: number, pause = 0): Step => ({
     positions: Array.from({ length: JOINTS }, (_, id) => joints[id] ?? null),
     time,
@@ -26,12 +27,38 @@ test('the step of FORMAT.md, both ways', () => {
     expect(stepsFromText('step 64 |')).toEqual([step({}, 64)]);
 });
 
+test('steps in rows: with the joints above, in either form', () => {
+    const nod = step({ 1: 600, 3: 424 }, 40, 8);
+    const rows = 'step 40 pause 8 | 600 . 424 - ~512\nstep  3         |   . 7   . .    .';
+    for (const ids of ['# ID            |   1   2   3   4   5', 'row 1..3 4 5'])
+        expect(stepsFromText(`${ids}\n${rows}`)).toEqual([nod, step({ 2: 7 }, 3)]);
+    expect(stepsFromText(`row 1..5\n${rows}\nrow 2\nstep 1 | 9\nstep 2 | 4:5`)?.slice(2)).toEqual([step({ 2: 9 }, 1), step({ 4: 5 }, 2)]);
+    for (const ids of ['', 'row 1..4', 'row 1..6', 'row 27..31', 'row 5..1', '# ID | hand']) expect(stepsFromText(`${ids}\n${rows}`)).toBeNull();
+    for (const value of ['1024', '?512', '0x8001', '+20', '30deg', 'x', '1:600'])
+        expect(stepsFromText(`row 1 2\nstep 40 | 600 ${value}`)).toBeNull();
+});
+
 test.each(['', 'hello', 'step 300 | 1:600', 'step 40 | 1:1024', 'step 40 | 31:5', 'step 40 | 1:600 x', 'step 40 | 1:600\nhello'])(
     '%j is no text of steps',
     text => {
         expect(stepsFromText(text)).toBeNull();
     },
 );
+
+test('the steps of every motion of the library, copied out of the text that m512 makes of it', async () => {
+    const folder = mkdtempSync(join(tmpdir(), 'm512-steps-'));
+    onTestFinished(() => rmSync(folder, { recursive: true }));
+    const image = new Uint8Array(readFileSync(LIBRARY));
+    execFileSync(PYTHON, ['-m', 'm512', 'convert', LIBRARY, join(folder, 'a.m512')]);
+    const { format } = await makeFormat();
+    const motions = readFileSync(join(folder, 'a.m512'), 'utf8').split(/^page /m).slice(1);
+    expect(motions.length).toBeGreaterThan(50);
+    for (const motion of motions) {
+        const page = Number.parseInt(motion, 10);
+        const copied = motion.split('\n').filter(line => /^ *(# ID|step)/.test(line));
+        expect(stepsFromText(copied.join('\n')), `page ${page}`).toEqual(readPage(format, image.slice(page * 512, page * 512 + 512)).steps);
+    }
+});
 
 test('m512 makes the same steps of the text', async () => {
     const random = randomNumbers(41);

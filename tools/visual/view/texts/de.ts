@@ -664,7 +664,7 @@ const DE: Texts = {
         copied: 'Die ausgewählten Schritte sind als Text in der Zwischenablage.',
         noClipboard: 'Der Browser gibt hier die Zwischenablage nicht her. Klicke auf einen Schritt und drücke Strg+C oder Strg+V.',
         noSteps:
-            'In der Zwischenablage sind keine Schritte. Kopiere welche aus einer Bewegung, oder Zeilen einer .m512-Datei, die mit „step“ beginnen.',
+            'In der Zwischenablage sind keine Schritte. Kopiere welche aus einer Bewegung, oder aus einer .m512-Datei Zeilen, die mit „step“ beginnen, und die Zeile „# ID“ darüber.',
         times: 'Wie oft',
         timesHint: 'Wie oft die Schritte hintereinander abgespielt werden',
         takes: seconds => `Die Bewegung dauert ${seconds} Sekunden`,

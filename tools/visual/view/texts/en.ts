@@ -747,7 +747,8 @@ export const EN = {
         shiftKey: 'Shift',
         copied: 'The chosen steps are in the clipboard, as text.',
         noClipboard: 'The browser keeps the clipboard to itself here. Click a step and press Ctrl+C or Ctrl+V.',
-        noSteps: 'There are no steps in the clipboard. Copy some from a motion, or lines that begin with "step" from a .m512 file.',
+        noSteps:
+            'There are no steps in the clipboard. Copy some from a motion, or from a .m512 file lines that begin with "step" and the line "# ID" above them.',
         times: 'Times',
         timesHint: 'How often the steps are played, one time after another',
         takes: (seconds: string) => `The motion takes ${seconds} seconds`,

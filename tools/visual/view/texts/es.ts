@@ -649,7 +649,8 @@ const ES: Texts = {
         shiftKey: 'Mayús',
         copied: 'Los pasos elegidos están en el portapapeles, como texto.',
         noClipboard: 'Aquí el navegador no da acceso al portapapeles. Haz clic en un paso y pulsa Ctrl+C o Ctrl+V.',
-        noSteps: 'No hay pasos en el portapapeles. Copia algunos de un movimiento, o líneas de un archivo .m512 que empiecen por «step».',
+        noSteps:
+            'No hay pasos en el portapapeles. Copia algunos de un movimiento, o de un archivo .m512 líneas que empiecen por «step» y la línea «# ID» que está encima.',
         times: 'Veces',
         timesHint: 'Cuántas veces se reproducen los pasos, una tras otra',
         takes: seconds => `El movimiento dura ${seconds} segundos`,

@@ -630,7 +630,8 @@ const KO: Texts = {
         shiftKey: 'Shift',
         copied: '고른 단계를 텍스트로 클립보드에 복사했습니다.',
         noClipboard: '여기서는 브라우저가 클립보드 사용을 허용하지 않습니다. 단계를 클릭하고 Ctrl+C 또는 Ctrl+V를 누르세요.',
-        noSteps: '클립보드에 단계가 없습니다. 동작에서 복사하거나, .m512 파일에서 “step”으로 시작하는 줄을 복사하세요.',
+        noSteps:
+            '클립보드에 단계가 없습니다. 동작에서 복사하거나, .m512 파일에서 “step”으로 시작하는 줄을 그 위의 “# ID” 줄과 함께 복사하세요.',
         times: '횟수',
         timesHint: '단계를 이어서 재생하는 횟수',
         takes: seconds => `동작에 ${seconds}초 걸립니다`,
