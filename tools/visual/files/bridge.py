@@ -42,7 +42,8 @@ def short(sentence):
 @_told
 def opened(name, data, leave_out=False):
     """Converts a motion file to an image as `m512 convert NAME x.bin` does, but to pages 0..127 even if the file begins with page 1:
-    {"image", "notes", "losses"}. 12 bit is scaled to 10. {"no_room": pages} if pages would be lost (from a board of 256 pages); `leave_out` drops them."""
+    {"image", "notes", "losses"}. 12 bit is scaled to 10. {"no_room": pages} if pages would be lost (from a board of 256 pages);
+    `leave_out` drops them."""
     path = Path(name)
     try:
         image = formats.decode(bytes(data), path)

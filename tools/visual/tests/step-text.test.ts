@@ -33,7 +33,8 @@ test('steps in rows: with the joints above, in either form', () => {
     for (const ids of ['# ID            |   1   2   3   4   5', 'row 1..3 4 5'])
         expect(stepsFromText(`${ids}\n${rows}`)).toEqual([nod, step({ 2: 7 }, 3)]);
     expect(stepsFromText(`row 1..5\n${rows}\nrow 2\nstep 1 | 9\nstep 2 | 4:5`)?.slice(2)).toEqual([step({ 2: 9 }, 1), step({ 4: 5 }, 2)]);
-    for (const ids of ['', 'row 1..4', 'row 1..6', 'row 27..31', 'row 5..1', '# ID | hand']) expect(stepsFromText(`${ids}\n${rows}`)).toBeNull();
+    for (const ids of ['', 'row 1..4', 'row 1..6', 'row 27..31', 'row 5..1', '# ID | hand'])
+        expect(stepsFromText(`${ids}\n${rows}`)).toBeNull();
     for (const value of ['1024', '?512', '0x8001', '+20', '30deg', 'x', '1:600'])
         expect(stepsFromText(`row 1 2\nstep 40 | 600 ${value}`)).toBeNull();
 });
@@ -51,7 +52,9 @@ test('the steps of every motion of the library, copied out of the text that m512
     const image = new Uint8Array(readFileSync(LIBRARY));
     execFileSync(PYTHON, ['-m', 'm512', 'convert', LIBRARY, join(folder, 'a.m512')]);
     const { format } = await makeFormat();
-    const motions = readFileSync(join(folder, 'a.m512'), 'utf8').split(/^page /m).slice(1);
+    const motions = readFileSync(join(folder, 'a.m512'), 'utf8')
+        .split(/^page /m)
+        .slice(1);
     expect(motions.length).toBeGreaterThan(50);
     for (const motion of motions) {
         const page = Number.parseInt(motion, 10);
