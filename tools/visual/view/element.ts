@@ -61,6 +61,25 @@ export function handOver(from: Element, to: HTMLElement | null, take: () => void
     if (hadFocus) to?.focus({ preventScroll: true });
 }
 
+/** Switches a control off or on. If it had the focus, a neighbour gets it: otherwise keyboard and screen reader would be nowhere. */
+export function setDisabled(control: HTMLButtonElement | HTMLInputElement, isDisabled: boolean): void {
+    const hadFocus = isDisabled && control === document.activeElement;
+    control.disabled = isDisabled;
+    if (hadFocus) neighbourOf(control)?.focus({ preventScroll: true });
+}
+
+/** The control before it in its row, or else behind it; if there is none, around the row. */
+function neighbourOf(control: Element): HTMLElement | null {
+    for (let box = control.parentElement; box; box = box.parentElement) {
+        const all = [...box.querySelectorAll<HTMLElement>('button, select, input')];
+        const useful = all.filter(one => one === control || (one.matches(':enabled') && one.checkVisibility()));
+        const at = useful.indexOf(control as HTMLElement);
+        const next = useful[at - 1] ?? useful[at + 1];
+        if (next) return next;
+    }
+    return null;
+}
+
 /** Gets the focus when something over the picture is closed. null: there is no picture. */
 export function pictureCanvas(): HTMLElement | null {
     return document.querySelector<HTMLElement>('robot-view canvas');

@@ -3,7 +3,7 @@
 
 import { wordOf } from '../robot/remote.ts';
 import type { Session, SessionState } from './session/session.ts';
-import { define, make } from './element.ts';
+import { define, make, setDisabled } from './element.ts';
 import { TEXTS } from './texts/texts.ts';
 import { WaveWish } from './wave-wish.ts';
 
@@ -29,7 +29,7 @@ export class WaveButton extends HTMLElement {
 
     private render(state: SessionState): void {
         this.hidden = this.pageOf(state) === undefined;
-        this.button.disabled = state.connection !== 'ready' || state.version?.image !== 'play';
+        setDisabled(this.button, state.connection !== 'ready' || state.version?.image !== 'play');
         if (this.wish.isDue(state, this.session.editor.format.remoteCode(wordOf(['up'])))) this.wave();
     }
 

@@ -54,8 +54,9 @@ test('a pupil: walks, looks round, pushes it over, gets up; teaches a page, name
     await teaching.filter({ hasText: 'Drag the limb' }).waitFor();
     await keys.to('Hold');
     await keys.press('Space'); // presses a button as Enter does
-    await teaching.filter({ hasText: 'All joints hold.' }).waitFor();
-    await keys.enter('Add step from the robot');
+    await teaching.filter({ hasText: 'All joints hold.' }).waitFor(); // nothing more to hold: the button is off
+    await keys.at('Add step from the robot');
+    await keys.press('Enter');
     await expect.poll(() => steps(pupil).count()).toBe(1);
     await keys.to('Step 1');
     await keys.press('d');
@@ -205,6 +206,13 @@ test('in an empty motion: a joint begins where the robot has it; the last step d
     await keys.at('Step 1'); // ready for the next key
     await keys.press('Control+z');
     await keys.at(/^No step yet/);
+    await keys.enter('Add step from the robot');
+    await keys.enter('Delete', 'Shift+Tab');
+    await keys.at('Paste'); // there is nothing more to delete
+    await keys.enter(/^Undo/, 'Shift+Tab');
+    await keys.at(/^Undo: new step/);
+    await keys.press('Enter');
+    await keys.at('Document'); // nor to undo
     await keys.open('Links');
     await keys.to(/^motion \d+ /);
     await keys.press('ArrowDown');

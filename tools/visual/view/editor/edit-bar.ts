@@ -9,7 +9,7 @@ import type { Session } from '../session/session.ts';
 import type { DocumentsState } from '../session/documents.ts';
 import { onChoice } from '../choice.ts';
 import { keyOf } from '../key-of.ts';
-import { define, isTyping, make, setText } from '../element.ts';
+import { define, isTyping, make, setDisabled, setText } from '../element.ts';
 import { ask, askText, awaited } from './ask-dialog.ts';
 import { editText, savingText, transferText } from '../texts/editor.ts';
 import { TEXTS } from '../texts/texts.ts';
@@ -71,7 +71,7 @@ export class EditBar extends HTMLElement {
     private renderEdits(state: EditorState): void {
         const { done, undone } = state.history;
         const show = (button: HTMLButtonElement, way: 'undo' | 'redo', edit: (typeof done)[number] | undefined, without: string): void => {
-            button.disabled = edit === undefined;
+            setDisabled(button, edit === undefined);
             button.title = edit ? editText(edit, `${way}es`) : without;
             button.setAttribute('aria-label', button.title);
         };

@@ -3,7 +3,7 @@
 // or refuses, or the connection ends or the servo adapter is out: a robot that is plugged in again must not move by itself.
 
 import type { Session } from '../session/session.ts';
-import { define, make } from '../element.ts';
+import { define, make, setDisabled } from '../element.ts';
 import type { Store } from '../store.ts';
 import { isEditing } from './editing.ts';
 import type { Editing } from './editing.ts';
@@ -37,7 +37,7 @@ export class FollowBar extends HTMLElement {
         const { tab, connection, adapter } = this.session.state.get();
         const { editor } = this.session;
         const { page, step } = editor.state.get();
-        this.box.disabled = connection !== 'ready' || adapter === 'out';
+        setDisabled(this.box, connection !== 'ready' || adapter === 'out');
         if (follow && this.box.disabled) return this.end(); // this renders again
         const shall = follow && isEditing(tab) && editor.page(page).steps.length > 0;
         if (!shall && !this.isFollowing) return;

@@ -6,7 +6,7 @@ import type { Joint } from '../../model/body.ts';
 import { pageOf } from '../../model/document.ts';
 import { POSITION_MAX, POSITION_MIDDLE } from '../../model/motion.ts';
 import type { Session } from '../session/session.ts';
-import { define, make } from '../element.ts';
+import { define, make, setDisabled } from '../element.ts';
 import { jointTitle, layersText } from '../texts/robot.ts';
 import { TEXTS } from '../texts/texts.ts';
 import './layer-bar.css';
@@ -102,7 +102,7 @@ export class LayerBar extends HTMLElement {
         const { document, gesture } = this.session.editor.state.get();
         if (this.shown !== document.pages && !gesture) this.list(document.pages); // not during a drag
         const isPlay = version?.image === 'play';
-        for (const button of this.actions) button.disabled = !isPlay;
+        for (const button of this.actions) setDisabled(button, !isPlay);
         this.startPlay.hidden = isPlay || version === null || source === 'yours';
         this.showJoint();
         const text =

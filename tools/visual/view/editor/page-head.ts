@@ -4,7 +4,7 @@
 import { pageOf } from '../../model/document.ts';
 import { PAGE_COUNT } from '../../model/motion.ts';
 import type { Session } from '../session/session.ts';
-import { define, make, once } from '../element.ts';
+import { define, make, once, setDisabled } from '../element.ts';
 import { TypedFor } from './shown-for.ts';
 import { TEXTS } from '../texts/texts.ts';
 
@@ -76,7 +76,7 @@ export class PageHead extends HTMLElement {
         this.choice.value = String(page);
         this.library.classList.toggle('away', AGREED.has(pageOf(editor.state.get().document, page)) || !editor.isOfLibrary(page));
         if (!this.typedName.isHalfTyped(editor.state.get())) this.showName();
-        this.play.disabled = editor.page(page).steps.length === 0;
+        setDisabled(this.play, editor.page(page).steps.length === 0);
         this.play.classList.toggle('primary', !this.play.disabled);
     }
 

@@ -3,7 +3,7 @@
 
 import { TICKS_PER_SECOND } from '../../model/motion.ts';
 import type { Session } from '../session/session.ts';
-import { define, make, setText } from '../element.ts';
+import { define, make, setText, setDisabled } from '../element.ts';
 import { TEXTS } from '../texts/texts.ts';
 
 export class PlayBar extends HTMLElement {
@@ -52,7 +52,7 @@ export class PlayBar extends HTMLElement {
         const { page } = editor.state.get();
         const { isRunning, isLooping, tick, ticks } = preview.state.get();
         const isEmpty = editor.page(page).steps.length === 0;
-        for (const control of [this.show, this.fromStep, this.moment]) control.disabled = isEmpty;
+        for (const control of [this.show, this.fromStep, this.moment]) setDisabled(control, isEmpty);
         setText(this.show, isRunning ? TEXTS.preview.pause : TEXTS.preview.show);
         this.moment.max = String(Math.max(1, ticks - 1));
         this.moment.value = String(tick);

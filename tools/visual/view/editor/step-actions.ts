@@ -7,7 +7,7 @@ import type { RobotState } from '../../robot/robot-state.ts';
 import type { Session } from '../session/session.ts';
 import { copyText } from '../clipboard.ts';
 import { keyOf } from '../key-of.ts';
-import { define, make } from '../element.ts';
+import { define, make, setDisabled } from '../element.ts';
 import { TEXTS } from '../texts/texts.ts';
 import { watchRobot } from '../watch-robot.ts';
 
@@ -106,7 +106,7 @@ export class StepActions extends HTMLElement {
         const { page, step } = editor.state.get();
         const count = editor.page(page).steps.length;
         for (const [{ needs }, button] of this.buttons)
-            button.disabled = needs === 'step' ? count === 0 : needs === 'two' ? step + 1 >= count : false;
+            setDisabled(button, needs === 'step' ? count === 0 : needs === 'two' ? step + 1 >= count : false);
     }
 
     private choose(from: number, count: number): void {

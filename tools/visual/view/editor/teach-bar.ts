@@ -5,7 +5,7 @@
 import { handLimb, footLimb } from '../../model/ik.ts';
 import type { Body } from '../../model/body.ts';
 import type { Session, SessionState } from '../session/session.ts';
-import { define, make } from '../element.ts';
+import { define, make, setDisabled } from '../element.ts';
 import type { Store } from '../store.ts';
 import { isPoseKnown, stillTaught } from './editing.ts';
 import type { Editing } from './editing.ts';
@@ -92,10 +92,10 @@ export class TeachBar extends HTMLElement {
         this.adds.classList.toggle('primary', editor.page(editor.state.get().page).steps.length === 0); // then Play is not primary
         for (const [group, button] of this.limbs)
             button.setAttribute('aria-pressed', String(group.servos.every(servo => taught.has(servo))));
-        this.hold.disabled = taught.size === 0 && this.limp.length === 0;
         const { source, connection } = this.session.state.get();
         const isSimulated = source === 'simulated';
-        this.adds.disabled = !isPoseKnown(source, connection);
+        setDisabled(this.adds, !isPoseKnown(source, connection));
+        setDisabled(this.hold, taught.size === 0 && this.limp.length === 0);
         this.hint.textContent = this.hold.disabled ? TEXTS.teach.stiff : isSimulated ? TEXTS.teach.limpSimulated : TEXTS.teach.limpYours;
     }
 
