@@ -130,7 +130,7 @@ export class EditBar extends HTMLElement {
         const reading = this.robotPages();
         const name = await askText(texts.fromRobotTitle, texts.name, freeName(texts.ofMyRobot, this.names()));
         if (!name) return;
-        const status = make('p', { role: 'status' });
+        const status = make('p', { role: 'status', tabindex: -1, autofocus: true }); // an Enter that is held does not cancel
         const unwatch = this.session.transfer.state.watch(state => setText(status, transferText(state, this.session.state.get())));
         const isRead = await awaited(texts.fromRobotTitle, reading, status);
         unwatch();

@@ -113,7 +113,7 @@ export class FilesMenu extends HTMLElement {
         const isSame = (key: keyof FilesState): boolean => shown?.[key] === state[key];
         if ((['busy', 'opened', 'tooLarge', 'trouble', 'done'] as const).every(isSame)) return;
         this.dialog.setAttribute('aria-busy', String(busy !== null));
-        if (busy !== null) this.show(busy, [], [make('button', { onclick: () => this.leave() }, TEXTS.page.cancel)]);
+        if (busy !== null) this.showBusy(busy);
         else if (trouble !== null) this.show(TEXTS.files.failed, [make('p', {}, trouble)], [this.closing(TEXTS.page.close)]);
         else if (done) this.show(done.name, [make('p', {}, done.text)], [this.closing(TEXTS.page.close)]);
         else if (opened) this.showOpened(opened);
@@ -127,6 +127,12 @@ export class FilesMenu extends HTMLElement {
                 ],
             );
         else this.dialog.close();
+    }
+
+    /** The focus is not on Cancel, or an Enter that is held a little too long would press it. */
+    private showBusy(busy: string): void {
+        this.show(busy, [], [make('button', { onclick: () => this.leave() }, TEXTS.page.cancel)]);
+        this.dialog.querySelector('h2')?.focus();
     }
 
     private leave(): void {
@@ -169,7 +175,7 @@ export class FilesMenu extends HTMLElement {
 
     private show(title: string, content: (HTMLElement | null)[], buttons: HTMLButtonElement[]): void {
         this.dialog.replaceChildren(
-            make('h2', { id: 'files-title' }, title),
+            make('h2', { id: 'files-title', tabindex: -1 }, title),
             ...content.filter(part => part !== null),
             make('div', { class: 'buttons' }, ...buttons),
         );
