@@ -43,6 +43,8 @@ async function documentOfTheRobot(page: Page): Promise<void> {
         .getByRole('dialog', { name: title })
         .getByText(/time stands still$/)
         .waitFor();
+    await page.keyboard.press('Enter'); // held a little too long: it does not cancel
+    expect(await page.getByRole('dialog', { name: title }).isVisible()).toBe(true);
     await button(page, 'Cancel').click();
     await page.getByRole('dialog').waitFor({ state: 'hidden' });
     await documents.selectOption('robot');
