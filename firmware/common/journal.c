@@ -14,7 +14,7 @@
 #define FIRST_PAGE (MEM_JOURNAL_START / FLASH_PAGE_BYTES)
 #define FIRST_TARGET (TARGET_MOTION_START / FLASH_PAGE_BYTES)
 #define TARGET_PAGES (JOURNAL_TARGET_BYTES / FLASH_PAGE_BYTES)
-#define NO_SLOT 0xFFu
+#define NO_SLOT 0xFFu   /* + 1 is slot 0 */
 
 typedef struct {
     uint16_t magic;
@@ -45,7 +45,7 @@ static bool read_record(uint8_t slot, record_t *record)
            record->record_crc == crc16_bytes(CRC16_START, record, RECORD_CRC_BYTES);
 }
 
-/* The slot of the newest record, or NO_SLOT; `newest` is set only with a slot. */
+/* The slot of the newest record, or NO_SLOT; then `newest` is what the last slot holds instead of a record. */
 static uint8_t find_newest(record_t *newest)
 {
     uint8_t found = NO_SLOT;
@@ -83,26 +83,27 @@ static flash_status_t mark_done(uint8_t slot, record_t *record)
     return flash_program(slot_page(slot) + TARGET_PAGES, (const uint8_t *)record, sizeof *record);
 }
 
-flash_status_t journal_save(uint8_t motion_page, const uint8_t data[JOURNAL_TARGET_BYTES])
+uint8_t journal_save(uint8_t motion_page, const uint8_t data[JOURNAL_TARGET_BYTES])
 {
     if (!has_target(motion_page)) {
         return FLASH_ERR_RANGE;
     }
     uint16_t target = (uint16_t)(FIRST_TARGET + motion_page * TARGET_PAGES);
-    if (flash_equals(flash_addr(target), data, JOURNAL_TARGET_BYTES)) {
-        return FLASH_OK;
-    }
-
     record_t record;
     uint8_t slot = find_newest(&record);
-    uint16_t sequence = slot == NO_SLOT ? 0 : record.sequence;
+    uint16_t sequence = record.sequence;   /* without a slot that of the last one: the first record may have any */
     flash_status_t status;
     uint8_t slots_left = JOURNAL_SLOTS;
     do { /* a slot that is worn out is left for the next one */
         sequence++;
-        slot = slot >= JOURNAL_SLOTS - 1u ? 0 : (uint8_t)(slot + 1u);   /* also from NO_SLOT */
-        record = (record_t){.magic = MAGIC, .sequence = sequence, .target = motion_page,
-                            .layout = LAYOUT, .state = STATE_PENDING};
+        if (++slot >= JOURNAL_SLOTS) {
+            slot = 0;
+        }
+        record.magic = MAGIC;
+        record.sequence = sequence;
+        record.target = motion_page;
+        record.layout = LAYOUT;
+        record.state = STATE_PENDING;
         record.content_crc = crc16_bytes(CRC16_START, data, JOURNAL_TARGET_BYTES);
         record.record_crc = crc16_bytes(CRC16_START, &record, RECORD_CRC_BYTES);
         status = write_data(slot_page(slot), data);
@@ -110,10 +111,10 @@ flash_status_t journal_save(uint8_t motion_page, const uint8_t data[JOURNAL_TARG
             status = flash_write(slot_page(slot) + TARGET_PAGES, (const uint8_t *)&record, sizeof record);
         }
     } while (status == FLASH_ERR_VERIFY && --slots_left != 0);
-    if (status == FLASH_OK) {
-        status = write_data(target, data);
+    if (status != FLASH_OK) {
+        return (uint8_t)status;
     }
-    return status == FLASH_OK ? mark_done(slot, &record) : status;
+    return write_data(target, data) == FLASH_OK && mark_done(slot, &record) == FLASH_OK ? FLASH_OK : JOURNAL_ERR_PENDING;
 }
 
 journal_result_t journal_recover(uint8_t work[JOURNAL_TARGET_BYTES])

@@ -33,12 +33,14 @@
 #define JOURNAL_TARGET_BYTES 512u
 
 /* Replaces motion page `motion_page` (0..127). Call journal_recover once after start, before the first save.
- * Writes nothing if the page already holds `data`. At most 6 flash operations: five of 9 ms, the last one 4.5 ms; up to
- * three more of 9 ms for each slot that is worn out.
+ * Writes a record even if the page already holds `data`: page_save.h does not call it then. At most 6 flash operations: five
+ * of 9 ms, the last one 4.5 ms; up to three more of 9 ms for each slot that is worn out.
  * FLASH_ERR_RANGE, FLASH_ERR_NO_WRITER : nothing was touched
- * FLASH_ERR_VERIFY : all slots are worn out, and the page is old; or its own flash is, and it is undefined, with a pending
- *                    record that the next recovery carries out */
-MUST_CHECK flash_status_t journal_save(uint8_t motion_page, const uint8_t data[JOURNAL_TARGET_BYTES]);
+ * FLASH_ERR_VERIFY    : all slots are worn out, and the page is old
+ * JOURNAL_ERR_PENDING : its own flash is worn out, and it is undefined; the next recovery tries again, unless another save
+ *                       comes before. The record is not dropped: it makes the page whole if one half of it was written */
+#define JOURNAL_ERR_PENDING (FLASH_ERR_NO_WRITER + 1u)
+MUST_CHECK uint8_t journal_save(uint8_t motion_page, const uint8_t data[JOURNAL_TARGET_BYTES]);
 
 typedef enum {
     JOURNAL_CLEAN = 0, /* nothing was pending */

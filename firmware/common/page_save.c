@@ -13,13 +13,14 @@ page_save_status_t page_save(uint8_t page, uint8_t bytes[PAGE_BYTES])
         return PAGE_SAVE_UNCHANGED;
     }
     console_xoff();
-    flash_status_t status = journal_save(page, bytes);
+    const uint8_t status = journal_save(page, bytes);   /* it reads each flash page back */
     console_xon();
     tick_forgive();
-    if (status == FLASH_ERR_NO_WRITER) {
-        return PAGE_SAVE_ERR_NO_WRITER;
-    }
-    return status == FLASH_OK ? PAGE_SAVE_OK : PAGE_SAVE_ERR_VERIFY;   /* the journal reads each flash page back */
+    STATIC_ASSERT((int)PAGE_SAVE_OK == (int)FLASH_OK && (int)PAGE_SAVE_ERR_VERIFY == (int)FLASH_ERR_VERIFY &&
+                      (int)PAGE_SAVE_ERR_NO_WRITER == (int)FLASH_ERR_NO_WRITER &&
+                      (int)PAGE_SAVE_ERR_PENDING == (int)JOURNAL_ERR_PENDING,
+                  "the errors of a save are those of the journal, but FLASH_ERR_RANGE: every page has a place");
+    return (page_save_status_t)status;
 }
 
 void page_save_by_mailbox(uint8_t page, uint8_t bytes[PAGE_BYTES])

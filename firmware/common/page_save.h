@@ -14,8 +14,9 @@
 typedef enum {
     PAGE_SAVE_OK = 0,
     PAGE_SAVE_UNCHANGED,       /* flash already holds the page: nothing was written */
-    PAGE_SAVE_ERR_VERIFY,      /* the write failed: flash has the old page, or the next start completes the new one */
-    PAGE_SAVE_ERR_NO_WRITER    /* no program here can write flash; try page_save_by_mailbox */
+    PAGE_SAVE_ERR_VERIFY,      /* the write failed: flash has the old page */
+    PAGE_SAVE_ERR_NO_WRITER,   /* no program here can write flash; try page_save_by_mailbox */
+    PAGE_SAVE_ERR_PENDING      /* the write failed half way: flash may have a damaged page. The next start tries again */
 } page_save_status_t;
 
 /* Sets the checksum byte, saves and reads back. Call page_store_refresh afterwards, whatever the result. This function does

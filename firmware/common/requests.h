@@ -37,7 +37,7 @@ typedef enum {
     REQUEST_ERR_RELEASED = 8,  /* torque was switched off by hand */
     REQUEST_ERR_CRC = 9,       /* the CRC is wrong: nothing was changed */
     REQUEST_ERR_IMAGE = 10,    /* not in this image */
-    REQUEST_ERR_SAVE = 11,     /* the page could not be saved */
+    REQUEST_ERR_SAVE = 11,     /* the page is not saved */
     REQUEST_ERR_UNSAVED = 12,  /* the page in RAM has edits that would be lost */
     REQUEST_ERR_FULL = 13,     /* code already moves as many joints as it can */
     REQUEST_ERR_IDLE = 14,     /* nothing is playing */

@@ -151,7 +151,7 @@ page_save_status_t cmd_page_save(uint8_t page)
     servo_link_quiet(&the_servos);   /* no answer may be pending, because interrupts go off for 9 ms at a time */
     page_save_status_t status = page_save(page, the_session.cells);
     page_store_refresh(&the_pages, page);
-    if (page == the_session.page && (status == PAGE_SAVE_OK || status == PAGE_SAVE_UNCHANGED)) {
+    if (page == the_session.page && status <= PAGE_SAVE_UNCHANGED) {
         session_saved();
     }
     if (page == 0) {
@@ -160,12 +160,13 @@ page_save_status_t cmd_page_save(uint8_t page)
     return status;
 }
 
-static void tell_saved(page_save_status_t status)
+const char *cmd_page_saved_P(page_save_status_t status)
 {
-    text_P(status == PAGE_SAVE_OK           ? TEXT_P("OK")
-           : status == PAGE_SAVE_UNCHANGED  ? TEXT_P("OK, no change")
-           : status == PAGE_SAVE_ERR_VERIFY ? TEXT_P("Not saved: flash error")
-                                            : TEXT_P("No boot loader can write: kept in RAM"));
+    return status == PAGE_SAVE_OK            ? TEXT_P("OK")
+           : status == PAGE_SAVE_UNCHANGED   ? TEXT_P("OK, no change")
+           : status == PAGE_SAVE_ERR_VERIFY  ? TEXT_P("Not saved: flash error")
+           : status == PAGE_SAVE_ERR_PENDING ? TEXT_P("Not saved: the next start tries again")
+                                             : TEXT_P("No boot loader can write: kept in RAM");
 }
 
 COMMAND(cmd_save)
@@ -183,7 +184,7 @@ COMMAND(cmd_save)
         return save_by_mailbox(page);
     }
     page_save_status_t status = cmd_page_save(page);
-    tell_saved(status);
+    text_P(cmd_page_saved_P(status));
     if (status == PAGE_SAVE_OK) {
         tell_namesake(page, page);
     }

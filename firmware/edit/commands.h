@@ -27,6 +27,7 @@ COMMAND(cmd_save);
 /* Saves the page in RAM as page `page`, for SAVE and @save; nothing else writes to flash. Sets its checksum byte, keeps the
  * servo bus quiet, and updates the store, the unsaved mark and the trim. 60 ms. */
 page_save_status_t cmd_page_save(uint8_t page);
+const char *cmd_page_saved_P(page_save_status_t status);   /* its result, for the user */
 COMMAND(cmd_exit);
 COMMAND(cmd_name);
 COMMAND(cmd_undo);

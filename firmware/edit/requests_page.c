@@ -79,8 +79,8 @@ REQUEST(do_save)
         return requests_refuse(REQUEST_ERR_CRC, TEXT_P("The CRC does not fit the page in RAM"));
     }
     const page_save_status_t status = cmd_page_save((uint8_t)args->number[0]);
-    if (status != PAGE_SAVE_OK && status != PAGE_SAVE_UNCHANGED) {
-        return requests_refuse(REQUEST_ERR_SAVE, TEXT_P("The page could not be saved"));
+    if (status > PAGE_SAVE_UNCHANGED) {
+        return requests_refuse(REQUEST_ERR_SAVE, cmd_page_saved_P(status));
     }
     return REQUEST_OK;
 }

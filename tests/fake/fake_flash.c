@@ -16,6 +16,7 @@ static struct {
     jmp_buf *cut_where;
     uint16_t broken_page;
     uint8_t broken_tries;
+    uint16_t dead_from, dead_end;
 } flash;
 
 void fake_flash_reset(void)
@@ -54,6 +55,12 @@ void fake_flash_break(uint16_t page, uint8_t tries)
     flash.broken_tries = tries;
 }
 
+void fake_flash_break_all(uint16_t from, uint16_t end)
+{
+    flash.dead_from = from;
+    flash.dead_end = end;
+}
+
 static uint8_t random_byte(void)
 {
     flash.random = flash.random * 1664525u + 1013904223u;
@@ -69,6 +76,7 @@ static void operate(uint16_t page, const uint8_t wanted[FLASH_PAGE_BYTES])
     if (broken) {
         flash.broken_tries--;
     }
+    broken = broken || (page >= flash.dead_from && page < flash.dead_end);
     for (uint16_t i = 0; i < FLASH_PAGE_BYTES && !broken; i++) {
         uint8_t change = (uint8_t)(cell[i] ^ wanted[i]);
         if (cut && flash.cut_phase == FAKE_FLASH_BEFORE) {

@@ -33,4 +33,7 @@ uint32_t fake_flash_wear(uint16_t page);
 /* The next `tries` operations on `page` do nothing (a bad cell), so the verify must fail. */
 void fake_flash_break(uint16_t page, uint8_t tries);
 
+/* No operation on the pages from..end - 1 does anything, until fake_flash_reset. */
+void fake_flash_break_all(uint16_t from, uint16_t end);
+
 #endif

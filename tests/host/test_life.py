@@ -268,13 +268,14 @@ def test_a_file_that_is_not_ours_is_named_and_left_alone(make, files, tmp_path):
 # Through a pipe
 
 
-def through_pipe(robot, text, image="play", pause_s=0):
+def through_pipe(robot, text, image="play", pause_s=0, **options):
     """Pipes this text into the program, ends the input, and returns what it prints. pause_s: between two readings of 512 bytes."""
     process = subprocess.Popen(
         [program(image), "--robot", robot.folder / "robot", "--motions", robot.motions, robot.port],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
+        **options,
     )
     with process:
         fcntl.fcntl(process.stdout, fcntl.F_SETPIPE_SZ, 4096)
@@ -286,6 +287,25 @@ def through_pipe(robot, text, image="play", pause_s=0):
             time.sleep(pause_s)
     assert process.returncode == 0
     return said.decode()
+
+
+# The disk takes files up to this size: nothing; the journal (8 KiB) and pages 1..79, but not page 100.
+@pytest.mark.parametrize("room, said, name", [(0, "Not saved: flash error", b""), (40960, "Not saved: the next start tries again", b"xyz")])
+def test_a_save_that_a_disk_refuses_says_what_the_next_start_does(make, files, tmp_path, room, said, name):
+    robot = make(motions=files)
+    through_pipe(robot, "", "edit")
+    heard = through_pipe(
+        robot,
+        "page 100\rinsert 0\rname xyz\rsave\r",
+        "edit",
+        restore_signals=False,  # SIGXFSZ stays ignored
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (room, room)),
+    )
+    assert said in heard, heard
+    pages = tmp_path / "robot" / "pages.bin"
+    assert from_bytes(pages.read_bytes())[100].name == b""
+    through_pipe(robot, "", "edit")
+    assert from_bytes(pages.read_bytes())[100].name == name
 
 
 def test_every_line_of_a_pipe_is_carried_out_before_its_end_ends_the_program(make, files):

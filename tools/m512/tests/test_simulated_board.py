@@ -190,7 +190,7 @@ def test_put_leaves_nothing_in_edit_that_the_board_cannot_save(m512, started, mo
     edit = started("edit-cm5.hex")  # no boot loader can write
     edit.pass_time(1.5)
     result = m512("put", motions, "walk:30", "-p", edit.path)
-    assert result.exit_code != 0 and "could not be saved" in result.stderr, result.stderr
+    assert result.exit_code != 0 and "No boot loader can write" in result.stderr, result.stderr
     with VirtualLink(edit.path) as link:
         assert not Client(link).has_edits()
 

@@ -33,6 +33,6 @@ test('the image to flash is that of the board; where the board is not known, bot
 });
 
 test('a board that cannot save: what it lacks, and that nothing is lost', async () => {
-    const text = await refusedSave(11, 'The page could not be saved');
+    const text = await refusedSave(11, 'No boot loader can write: kept in RAM');
     expect(text).toMatch(/^The robot could not save a motion: .*boot loader.*\. .*Your motions are safe here\.$/);
 });

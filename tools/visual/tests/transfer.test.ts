@@ -417,7 +417,7 @@ function wornAt(bench: RobotBench, { requests }: Connection, worn: number, how: 
     const before = flashPage(bench, worn);
     const ask: typeof requests.ask = async (text, options) => {
         const isWorn = text.startsWith(`@save ${worn} `);
-        if (isWorn && how === 'refuses') throw new RobotError('refused', 'The page could not be saved', { number: 11 });
+        if (isWorn && how === 'refuses') throw new RobotError('refused', 'Not saved: flash error', { number: 11 });
         const answer = await requests.ask(text, options);
         if (isWorn) bench.board.writeFlash(MOTIONS_ADDRESS + 512 * worn, before);
         return answer;
