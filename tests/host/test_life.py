@@ -223,6 +223,12 @@ def test_a_number_of_an_option_is_checked(number, option, range):
         assert asked.returncode == 2 and f"{option} {number}: {range}" in asked.stderr
 
 
+@pytest.mark.parametrize("option", ["--bogus", "--rate"])
+def test_an_option_that_is_none_or_has_no_value_points_to_the_help(option):
+    asked = subprocess.run([program("play"), option], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    assert asked.returncode == 2 and option.strip("-") in asked.stderr and "motion512-play --help" in asked.stderr
+
+
 def test_there_is_one_console():
     asked = subprocess.run([program("play"), "--pty", "--tcp=4514", "/dev/null"], stdin=subprocess.DEVNULL, capture_output=True, text=True)
     assert asked.returncode == 2 and "--pty and --tcp: one console only" in asked.stderr

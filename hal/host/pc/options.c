@@ -61,7 +61,9 @@ void pc_read_options(int argc, char **argv)
             break;
         case 'o': pc_options.off = true; break;
         case 'h': printf(help, pc_options.name, TCP_PORT); exit(EXIT_SUCCESS);
-        default: exit(EXIT_USAGE);
+        default:   /* getopt_long has said what is wrong */
+            fprintf(stderr, "%s --help lists the options\n", pc_options.name);
+            exit(EXIT_USAGE);
         }
     }
     if (pc_options.pty_link != NULL && pc_options.tcp_port != 0) {
