@@ -30,6 +30,16 @@ def test_flash_and_eeprom_are_kept(tmp_path):
     assert (tmp_path / "robot.bin").stat().st_size == 0x20000
 
 
+def test_a_kept_flash_starts_in_its_boot_loader(tmp_path):
+    """START held at a reset opens the loader, which no image of the second run brings."""
+    kept = ["--flash", tmp_path / "robot.bin"]
+    assert run("boot-cm5.hex", "play-cm5.hex", "--time", "500ms", "--no-stdio", "--fast", *kept).returncode == 0
+    held = tmp_path / "held.txt"
+    held.write_text('press START 0\nreset\nwait 300ms\nrelease START\nexpect " - " within 3s\n')
+    for images in ((), ("play-cm5.hex",)):
+        assert run(*images, "--script", held, *kept).returncode == 0, images
+
+
 def test_servo_eeprom_is_kept(tmp_path):
     kept = tmp_path / "servos.bin"
     assert play(tmp_path, "quit\n", "--servos", "3,7", "--servo-eeprom", kept).returncode == 0

@@ -27,6 +27,7 @@ from .wear import Wear
 
 CYCLES_PER_TICK = 125000
 MOTIONS_ADDRESS = 0xE000
+LOADER_ADDRESS = 0x1E000
 BUTTONS = ("UP", "DOWN", "LEFT", "RIGHT", "START", "MODE")
 LEDS = ("power", "txd", "rxd", "aux", "manage", "program", "play")
 RESET_CAUSES = {1: "power-on", 2: "external", 4: "brown-out", 8: "watchdog"}
@@ -119,6 +120,10 @@ class Board(Inside, Wear):
         self.close()
 
     # Images and power
+
+    def start_in_loader(self) -> None:
+        """Programs the fuse BOOTRST: a reset starts the boot loader, which something else than load() has put into the flash."""
+        self._lib.board_set_bootrst(self._pointer, True)
 
     def load(self, image: str | pathlib.Path, address: int = 0) -> None:
         """Loads a HEX, ELF or binary file (a path, or a name below build/firmware) with its symbols."""

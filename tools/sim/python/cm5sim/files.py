@@ -10,7 +10,7 @@ from contextlib import ExitStack, contextmanager
 from fcntl import LOCK_EX, LOCK_NB, flock
 from typing import IO
 
-from .board import MOTIONS_ADDRESS, Board, find_image
+from .board import LOADER_ADDRESS, MOTIONS_ADDRESS, Board, find_image
 from .options import Options
 from .servo import EEPROM_BYTES, Servos
 
@@ -99,6 +99,8 @@ def load_memories(board: Board, options: Options, say: Callable[[str], None]) ->
     eeprom = read_kept(options.eeprom, len(board.eeprom)) if options.eeprom else None
     if flash:
         board.flash[:] = flash
+        if any(byte != 0xFF for byte in flash[LOADER_ADDRESS:]):
+            board.start_in_loader()
     if eeprom:
         board.eeprom[:] = eeprom
     for image in options.images:
