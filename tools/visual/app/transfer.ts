@@ -167,7 +167,7 @@ export class RobotTransfer implements Transfer {
         const robot = await this.readRobot(left);
         await backUp(robot);
         const wanted = pages.flatMap(page => {
-            const [before, after] = [robot[page], pageOf(document, page)];
+            const [before, after] = [robot[page], format.forRobot(pageOf(document, page))];
             return before && !format.isSame(before, after) && format.fault(after) === null ? [{ page, before, after }] : [];
         });
         const changed = wanted.find(({ page, before }) => !format.isSame(seen[page] ?? before, before));

@@ -89,6 +89,11 @@ export class PageFormat {
         return a === b || a.every((byte, i) => byte === b[i]) || (this.isEmpty(a) && this.isEmpty(b));
     }
 
+    /** As a robot is to have it. Edit seals what it saves, and sealed erased flash is a damaged page, so the empty page goes there instead. */
+    forRobot(bytes: Uint8Array): Uint8Array {
+        return this.isErased(bytes) ? this.empty : bytes;
+    }
+
     /** It has an action: steps and a play count other than 0. */
     isPlayable(bytes: Uint8Array): boolean {
         if (this.fault(bytes) !== null || this.isErased(bytes)) return false;

@@ -11,7 +11,7 @@ import { readPages } from '../robot/page-read.ts';
 import { askList } from '../robot/protocol.ts';
 import { hasUnsavedEdits } from '../robot/page-requests.ts';
 import { PageWrite } from '../robot/page-write.ts';
-import type { PageToWrite } from '../robot/page-write.ts';
+import type { PageAccount, PageToWrite } from '../robot/page-write.ts';
 import { MOTIONS_ADDRESS } from '../sim/board.ts';
 import type { TransferState } from '../view/session/transfer.ts';
 import { transferText } from '../view/texts/editor.ts';
@@ -450,6 +450,29 @@ test('a page that the robot has not kept: the others are verified, and it is sai
     const run = write.run({ ask: wornAt(bench, connection, 7, 'forgets').ask });
     await expect(bench.until(run, 60_000)).rejects.toMatchObject({ code: 'page-not-saved', words: '7' });
     expect([...write.account.values()]).toEqual(['verified', 'lost', 'verified']);
+});
+
+test.each(['saving', 'lost'] as const)('a page that may be another one now (%s): the others are not said to be as they were', state => {
+    const account = new Map<number, PageAccount>([
+        [1, 'verified'],
+        [7, state],
+        [13, 'waiting'],
+    ]);
+    const said = transferText({ phase: 'stopped', done: 1, total: 3, account, trouble: 'Trouble.', putBack: null });
+    expect(said).toBe('Trouble. 1 of 3 motions are done. "Read the robot again" shows what it has of the others.');
+});
+
+test('erased flash of the document becomes the empty page in a robot; a robot that has either of them has it already', async () => {
+    const { bench, connection } = await ready('edit', 68, spoil);
+    const erased = [1, 7, 13, 25].map(page => ({ page, before: flashPage(bench, page), after: format.erased }));
+    const { transfer, robot, before } = transferOn(bench, connection, erased);
+    const sent = onTheLine(bench, line => line);
+    for (const _ of ['three motions and erased flash', 'three empty pages and erased flash'])
+        expect(await bench.until(transfer.write([1, 7, 13, 25]), 60_000)).toEqual({ isDone: true });
+    const wanted = before.map((bytes, page) => ([1, 13, 25].includes(page) ? format.empty : bytes));
+    expect(Array.from({ length: 128 }, (_, page) => flashPage(bench, page))).toEqual(wanted);
+    expect(robot()).toEqual(wanted);
+    expect(sent.filter(line => line.startsWith('@save')).map(line => line.split(' ')[1])).toEqual(['1', '13', '25']);
 });
 
 test('a page that came damaged from a robot is not passed on: not a byte of it goes down the line', async () => {

@@ -925,6 +925,8 @@ const DE: Texts = {
         putBack: page =>
             `Im Speicher von Edit stand Bewegung ${page} zur Hälfte, aus einer abgebrochenen Übertragung. Sie ist verworfen; die gespeicherte Bewegung ist unverändert.`,
         stopped: (done, total) => `${done} von ${total} Bewegungen sind fertig; die anderen sind unverändert.`,
+        stoppedUnsure: (done, total) =>
+            `${done} von ${total} Bewegungen sind fertig. „Roboter neu lesen“ zeigt, was er von den anderen hat.`,
     },
 
     files: {

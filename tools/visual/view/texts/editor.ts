@@ -65,10 +65,16 @@ function phaseText({ phase, done, total, account, trouble }: TransferState): str
             return compare.written(total);
         case 'stopped':
             // Without an account the robot was only read.
-            return [trouble ?? '', total > 0 && account.size > 0 ? compare.stopped(done, total) : ''].filter(Boolean).join(' ');
+            return [trouble ?? '', total > 0 && account.size > 0 ? stoppedText(done, total, account) : ''].filter(Boolean).join(' ');
         default:
             return phase satisfies never;
     }
+}
+
+/** What the robot was told to save and has not been seen to have may be another page by now. */
+function stoppedText(done: number, total: number, account: TransferState['account']): string {
+    const isUnsure = [...account.values()].some(state => state === 'saving' || state === 'lost');
+    return isUnsure ? TEXTS.compare.stoppedUnsure(done, total) : TEXTS.compare.stopped(done, total);
 }
 
 /** Beyond this factor a servo cannot follow at all: the limit is 90 % of its no-load speed. */

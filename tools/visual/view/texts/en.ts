@@ -975,6 +975,8 @@ export const EN = {
         putBack: (page: number) =>
             `Edit's memory had half of motion ${page} from a transfer that broke off. It is dropped; the saved motion is as it was.`,
         stopped: (done: number, total: number) => `${done} of ${total} motions are done; the others are as they were.`,
+        stoppedUnsure: (done: number, total: number) =>
+            `${done} of ${total} motions are done. "Read the robot again" shows what it has of the others.`,
     },
 
     files: {

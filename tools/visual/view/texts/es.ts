@@ -907,6 +907,8 @@ const ES: Texts = {
         putBack: page =>
             `La memoria de Edit tenía la mitad del movimiento ${page}, de una transferencia interrumpida. Se ha descartado; el movimiento guardado sigue como estaba.`,
         stopped: (done, total) => `${done} de ${total} movimientos están hechos; los demás siguen como estaban.`,
+        stoppedUnsure: (done, total) =>
+            `${done} de ${total} movimientos están hechos. «Leer otra vez el robot» muestra qué tiene de los demás.`,
     },
 
     files: {

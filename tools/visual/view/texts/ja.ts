@@ -907,6 +907,8 @@ const JA: Texts = {
         putBack: page =>
             `Edit のメモリーに、中断した転送のモーション ${page} が途中まで残っていました。それは破棄しました。保存済みのモーションは元のままです。`,
         stopped: (done, total) => `モーション ${total} 個のうち ${done} 個が完了しました。残りは元のままです。`,
+        stoppedUnsure: (done, total) =>
+            `モーション ${total} 個のうち ${done} 個が完了しました。残りがロボットにどう入っているかは「ロボットを読み直す」で分かります。`,
     },
 
     files: {

@@ -875,6 +875,8 @@ const KO: Texts = {
         putBack: page =>
             `Edit의 메모리에 중단된 전송의 동작 ${page}이(가) 일부만 남아 있었습니다. 그것은 버렸고, 저장된 동작은 그대로입니다.`,
         stopped: (done, total) => `동작 ${total}개 가운데 ${done}개가 끝났습니다. 나머지는 그대로입니다.`,
+        stoppedUnsure: (done, total) =>
+            `동작 ${total}개 가운데 ${done}개가 끝났습니다. 나머지가 로봇에 어떻게 들어 있는지는 “로봇 다시 읽기”로 볼 수 있습니다.`,
     },
 
     files: {
