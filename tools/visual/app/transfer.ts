@@ -96,20 +96,26 @@ export class RobotTransfer implements Transfer {
         return this.reading;
     }
 
-    write(pages: readonly number[], seen: readonly (Uint8Array | null)[] = []): Promise<TransferEnd> {
+    write(pages: readonly number[], seen: readonly (Uint8Array | null)[] = [], shown = this.parts.document()): Promise<TransferEnd> {
         if (this.isBusy) return Promise.resolve(BUSY);
-        const document = this.parts.document();
         this.under = null;
-        this.goesOn = () =>
+        const go = (): Promise<TransferEnd> =>
             this.during('writing', async left => {
                 await this.orStopped(this.parts.becomeEdit());
-                const under = (await this.stopped(left)) ?? (await this.begin(document, pages, seen, left));
+                const under = (await this.stopped(left)) ?? (await this.begin(shown, pages, seen, left));
                 left.throwIfAborted();
                 this.under = under;
                 await this.run(under.write, left);
                 this.tell(left, { phase: 'written' });
             });
-        return this.goesOn();
+        // Of a document that has changed meanwhile, the list of what is to be written is another one.
+        this.goesOn = () => (this.isAsShown(shown, pages) ? go() : this.read());
+        return go();
+    }
+
+    private isAsShown(shown: MotionDocument, pages: readonly number[]): boolean {
+        const document = this.parts.document();
+        return pages.every(page => this.parts.format.isSame(pageOf(shown, page), pageOf(document, page)));
     }
 
     tryAgain(): Promise<TransferEnd> {

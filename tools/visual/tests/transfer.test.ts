@@ -260,7 +260,12 @@ test('the cable pulled at requests of a write: old or new, the account right, "t
 
 /** A RobotTransfer of the page, connected to the bench. */
 function transferOn(bench: RobotBench, connection: Connection, pages: readonly PageToWrite[], edit = Promise.resolve()) {
-    const document = { name: 'mine', pages: library.pages.map((bytes, page) => pages.find(one => one.page === page)?.after ?? bytes) };
+    const original = { name: 'mine', pages: library.pages.map((bytes, page) => pages.find(one => one.page === page)?.after ?? bytes) };
+    let document = original;
+    const replace = (replaced: readonly number[]): void => {
+        const pageNow = (bytes: Uint8Array, page: number): Uint8Array => (replaced.includes(page) ? another(bytes, bench.random) : bytes);
+        document = { name: 'mine', pages: original.pages.map(pageNow) };
+    };
     const kept: Uint8Array[][] = [];
     let robot: readonly (Uint8Array | null)[] = [];
     const transfer = new RobotTransfer({
@@ -274,7 +279,14 @@ function transferOn(bench: RobotBench, connection: Connection, pages: readonly P
         becomeEdit: () => (connection.version?.can.has('save') ? edit : Promise.reject(new RobotError('needs-edit', 'cm5'))),
         backUp: now => Promise.resolve(void kept.push([...now])),
     });
-    return { transfer, kept, robot: () => robot, before: Array.from({ length: 128 }, (_, page) => flashPage(bench, page)) };
+    return {
+        transfer,
+        kept,
+        original,
+        replace,
+        robot: () => robot,
+        before: Array.from({ length: 128 }, (_, page) => flashPage(bench, page)),
+    };
 }
 
 test('the page: a backup before the first write, a cable pulled in mid-write, "try again" finishes, and what is known of the robot is right', async () => {
@@ -299,6 +311,40 @@ test('the page: a backup before the first write, a cable pulled in mid-write, "t
     expect(transfer.state.get()).toMatchObject({ phase: 'written', done: 20, total: 20, trouble: null });
     for (const [page, bytes] of robot().entries()) expect(flashPage(bench, page), `page ${page}`).toEqual(bytes);
     expect(kept).toHaveLength(1);
+});
+
+test('the page: the document changes under the list of what is to be written: only what the list shows is written', async () => {
+    const { bench, connection } = await ready('edit', 69);
+    const pages = twenty(bench, 4);
+    const { transfer, original, replace, before } = transferOn(bench, connection, pages);
+    const flash = (): Uint8Array[] => Array.from({ length: 128 }, (_, page) => flashPage(bench, page));
+    replace([1]);
+    expect(await bench.until(transfer.write([1], before, original), 60_000)).toEqual({ isDone: true });
+    expect(flash()).toEqual(before.with(1, pageOf(original, 1)));
+
+    const pull = pullAt(bench, '@open', 2);
+    expect(await bench.until(transfer.write([7, 13], before, original), 60_000)).toMatchObject({ error: { code: 'port-lost' } });
+    pull.restore();
+    await untilReady(bench, connection);
+    const stopped = flash();
+    replace([13]);
+    expect(await bench.until(transfer.tryAgain(), 60_000)).toEqual({ isDone: true });
+    expect(transfer.state.get().phase).toBe('idle'); // the robot is read, for a new list
+    expect(flash()).toEqual(stopped);
+});
+
+test('the page: "try again" goes on if the document changes elsewhere', async () => {
+    const { bench, connection } = await ready('edit', 70);
+    const pages = twenty(bench, 4);
+    const { transfer, original, replace, before } = transferOn(bench, connection, pages);
+    const pull = pullAt(bench, '@open', 2);
+    expect(await bench.until(transfer.write([7, 13], before, original), 60_000)).toMatchObject({ error: { code: 'port-lost' } });
+    pull.restore();
+    await untilReady(bench, connection);
+    replace([1, 19]);
+    expect(await bench.until(transfer.tryAgain(), 60_000)).toEqual({ isDone: true });
+    const wanted = before.map((bytes, page) => ([7, 13].includes(page) ? pageOf(original, page) : bytes));
+    expect(Array.from({ length: 128 }, (_, page) => flashPage(bench, page))).toEqual(wanted);
 });
 
 /** The cable is pulled at the second page of a write, and then leads to another robot, which differs at these pages. */

@@ -2,6 +2,7 @@
 // Opening a file, and comparing with one, that cannot be read or whose reading is cancelled.
 import { expect, test } from 'vitest';
 import { Visitor } from './page-bench.ts';
+import type { Shell } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
 
 const suite = pageSuite();
@@ -37,7 +38,16 @@ test('a file to open or to compare with: a reading that does not end is cancelle
     const dialog = page.getByRole('dialog', { name: 'Compare and write' });
     const status = dialog.getByRole('status', { name: 'Transfer' });
     const choose = (): Promise<void> => dialog.getByLabel('File to compare with').setInputFiles(THEIRS);
-    await dialog.getByRole('button', { name: /^Write 1 motion/ }).waitFor();
+    const write = dialog.getByRole('button', { name: /^Write [01] motion/ });
+    await write.filter({ hasText: 'Write 1 motion ' }).waitFor();
+    // The document changes under the dialog, as by a file that is dropped on it: the list is made anew.
+    const editor = (way: 'undo' | 'redo'): Promise<void> =>
+        page.locator('app-shell').evaluate((shell, way) => (shell as unknown as Shell).session.editor[way](), way);
+    await editor('undo');
+    await dialog.getByText('Nothing differs.').waitFor();
+    expect(await write.isEnabled()).toBe(false);
+    await editor('redo');
+    await write.filter({ hasText: 'Write 1 motion ' }).waitFor();
 
     await choose();
     await status.filter({ hasText: 'Reading theirs.m512 …' }).waitFor();

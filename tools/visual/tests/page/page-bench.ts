@@ -86,7 +86,7 @@ export type Shell = {
         state: { set(change: { adapter: 'out' | 'back' | null }): void };
         /** The cable to the robot in the page. */
         sources: { simulated: { connection: { port: { deliver(bytes: Uint8Array): void; unplug(): void } } } };
-        editor: { state: { get(): { robot: Pages } }; setRobot(pages: Pages): void };
+        editor: { state: { get(): { robot: Pages } }; setRobot(pages: Pages): void; undo(): void; redo(): void };
         documents: { create(name: string): Promise<void> };
         sim: { setSpeed(speed: number): void };
     };

@@ -3,6 +3,8 @@
 // copied into the document or written to the robot.
 
 import { documentFrom, imageOf, pageOf } from '../../model/document.ts';
+import type { MotionDocument } from '../../model/document.ts';
+import type { EditorState } from '../../model/editor-state.ts';
 import { readPage } from '../../model/page.ts';
 import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
@@ -44,8 +46,11 @@ export class CompareDialog extends HTMLElement {
     private reading: string | null = null;
     private trouble: string | null = null;
     private other: readonly (Uint8Array | null)[] = [];
-    /** What was last known of the robot's pages. */
+    /** The document that the list is of. */
+    private shown!: MotionDocument;
+    /** What was last known of the robot's pages, and the document's. */
     private robot: readonly (Uint8Array | null)[] = [];
+    private ours: readonly Uint8Array[] = [];
     private readonly ticks = new Map<number, HTMLInputElement>();
     private readonly marks = new Map<number, HTMLElement>();
     private looked = 0;
@@ -70,7 +75,7 @@ export class CompareDialog extends HTMLElement {
         const { transfer, editor } = this.session;
         this.disposals.push(
             transfer.state.watch(state => this.dialog.open && this.renderTransfer(state)),
-            editor.state.watch(({ robot }) => this.robotRead(robot)),
+            editor.state.watch(state => this.sidesChanged(state)),
         );
     }
 
@@ -105,14 +110,18 @@ export class CompareDialog extends HTMLElement {
 
     private async readRobot(): Promise<void> {
         const { isDone } = await this.session.transfer.read();
-        if (!isDone) await this.look(); // otherwise robotRead() has
+        if (!isDone) await this.look(); // otherwise sidesChanged() has
     }
 
-    /** The page reads the robot by itself, too, when the cable leads to another one. A write shows what became of each page instead. */
-    private robotRead(robot: readonly (Uint8Array | null)[]): void {
-        if (robot === this.robot) return;
+    /** The page reads the robot by itself, too, when the cable leads to another one; and the document changes by a file that is dropped on
+     *  the dialog. The list is then made anew, except during a write, which shows what became of each page. */
+    private sidesChanged({ robot, document }: EditorState): void {
+        const isRobot = this.key === 'robot';
+        const isSame = document.pages === this.ours && (robot === this.robot || !isRobot);
         this.robot = robot;
-        if (this.dialog.open && this.key === 'robot' && this.session.transfer.state.get().phase !== 'writing') void this.look();
+        this.ours = document.pages;
+        if (isSame || !this.dialog.open || (isRobot && this.session.transfer.state.get().phase === 'writing')) return;
+        void this.look();
     }
 
     private readAgain(): Promise<void> {
@@ -157,6 +166,7 @@ export class CompareDialog extends HTMLElement {
         this.clear();
         this.other = found ?? [];
         const { document } = session.editor.state.get();
+        this.shown = document;
         const pages = this.other.flatMap((bytes, page) =>
             bytes && !session.editor.format.isSame(bytes, pageOf(document, page)) ? [page] : [],
         );
@@ -175,8 +185,8 @@ export class CompareDialog extends HTMLElement {
 
     private row(page: number): HTMLElement {
         const { session } = this;
-        const { format, state } = session.editor;
-        const ours = pageOf(state.get().document, page);
+        const { format } = session.editor;
+        const ours = pageOf(this.shown, page);
         const theirs = this.other[page] ?? format.empty;
         const [mine, other] = [readPage(format, ours), readPage(format, theirs)];
         const isRobot = this.key === 'robot';
@@ -214,10 +224,10 @@ export class CompareDialog extends HTMLElement {
 
     /** Adds m512's descriptions of the differences. Loading m512 the first time takes some seconds. */
     private async addWords(mine: number): Promise<void> {
-        const { format, state } = this.session.editor;
-        const { document } = state.get();
+        const { format } = this.session.editor;
+        const ours = imageOf(this.shown);
         const theirs = imageOf({ name: '', pages: this.other.map(bytes => bytes ?? format.empty) });
-        const images = this.key === 'robot' ? ([theirs, imageOf(document)] as const) : ([imageOf(document), theirs] as const);
+        const images = this.key === 'robot' ? ([theirs, ours] as const) : ([ours, theirs] as const);
         const differences = await this.session.files.formats.differences(...images).catch(() => null);
         if (mine !== this.looked) return;
         for (const [page] of this.ticks) {
@@ -244,9 +254,10 @@ export class CompareDialog extends HTMLElement {
     private async action(): Promise<void> {
         this.trouble = null;
         if (this.key !== 'robot') return this.takeOver(this.chosen);
-        const end = await this.session.transfer.write(this.chosen, this.other);
+        const { shown } = this;
+        const end = await this.session.transfer.write(this.chosen, this.other, shown);
         this.fillWhich(this.key); // adds the new backup
-        if (end.isDone || end.error.code === 'page-changed') await this.look();
+        if (end.isDone || end.error.code === 'page-changed' || shown.pages !== this.ours) await this.look();
     }
 
     private async takeOver(pages: readonly number[]): Promise<void> {

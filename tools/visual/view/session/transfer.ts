@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Interface of the views to the transfer of pages between document and robot. app/transfer.ts implements it.
 
+import type { MotionDocument } from '../../model/document.ts';
 import type { PageAccount } from '../../robot/page-write.ts';
 import type { RobotError } from '../../robot/robot-error.ts';
 import type { Store } from '../store.ts';
@@ -26,9 +27,11 @@ export interface Transfer {
     /** Reads the robot's pages; known ones are not read again. */
     read(): Promise<TransferEnd>;
     /** Backs up the robot, then writes these pages of the document. seen: the robot's pages that the person has compared; if one of them is
-     *  another one by now (another board is on the cable, or somebody has saved it), nothing is written. */
-    write(pages: readonly number[], seen?: readonly (Uint8Array | null)[]): Promise<TransferEnd>;
-    /** Continues a stopped transfer. A write begins anew if the robot is another one by now: it is read, backed up and compared. */
+     *  another one by now (another board is on the cable, or somebody has saved it), nothing is written. shown: the document that it was
+     *  compared with, of which the pages are; without it, the one that is open. */
+    write(pages: readonly number[], seen?: readonly (Uint8Array | null)[], shown?: MotionDocument): Promise<TransferEnd>;
+    /** Continues a stopped transfer. A write begins anew if the robot is another one by now: it is read, backed up and compared. If the
+     *  document has other pages there by now, the robot is only read. */
     tryAgain(): Promise<TransferEnd>;
     /** Stops at once or between two pages. */
     cancel(): void;
