@@ -6,6 +6,7 @@ export type RefusalCode =
     | 'trim-page' // page 0 holds a robot's trim, not a motion
     | 'page-damaged' // its checksum or a field is wrong; replace or clear it
     | 'page-in-use' // the target already holds a page
+    | 'page-changed' // it is another one than when the person was asked
     | 'page-empty' // there is nothing to copy or move
     | 'no-room' // not enough free pages
     | 'no-such-step'

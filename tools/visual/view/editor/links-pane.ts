@@ -10,6 +10,7 @@ import { define, keepFocus, make } from '../element.ts';
 import { LINK_FIELDS, PARTNER_FIELDS } from '../../model/page.ts';
 import type { LinkField } from '../../model/page.ts';
 import { ask } from './ask-dialog.ts';
+import { dispatchAsked } from './asked.ts';
 import { linkChart, markChart } from './link-chart.ts';
 import { linkList } from './link-list.ts';
 import { TEXTS } from '../texts/texts.ts';
@@ -123,13 +124,15 @@ export class LinksPane extends HTMLElement {
         if (from === to) return this.choose(from);
         const { editor } = this.session;
         const title = (page: number): string => TEXTS.motion.title(page, editor.page(page).name);
+        const { document } = editor.state.get();
         const kinds: readonly LinkField[] = [...LINK_FIELDS, ...PARTNER_FIELDS];
         const answer = await ask(
             TEXTS.links.ask,
             TEXTS.links.which(title(from), title(to)),
             kinds.map(kind => [TEXTS.links.names[kind], kind]),
         );
-        if (answer) editor.dispatch(editor.edits.setLink(editor.state.get().document, from, answer as LinkField, to)); // one of `kinds`
+        const kind = answer as LinkField; // one of `kinds`
+        if (answer) dispatchAsked(editor, document, [from, to], now => editor.edits.setLink(now, from, kind, to));
         this.choose(from);
     }
 

@@ -2,10 +2,12 @@
 // Actions on whole pages with their dialogs: copy, move, swap, rename, clear.
 
 import { pageOf } from '../../model/document.ts';
+import type { MotionDocument } from '../../model/document.ts';
 import { freePage } from '../../model/page-edits.ts';
 import type { Editor } from '../session/editor.ts';
 import { make } from '../element.ts';
 import { ask, askText } from './ask-dialog.ts';
+import { dispatchAsked } from './asked.ts';
 import { TEXTS } from '../texts/texts.ts';
 
 /** What a dialog takes, as the pattern of its field. A name has more than blanks. */
@@ -22,19 +24,21 @@ export class PageActions {
     }
 
     async rename(page: number): Promise<void> {
+        const { document } = this.editor.state.get();
         const name = await askText(TEXTS.motions.renameTitle(this.title(page)), TEXTS.motions.name, this.editor.page(page).name, {
             maxLength: 13,
             pattern: MOTION_NAME,
             hint: TEXTS.motions.nameHint,
         });
-        if (name !== null) this.editor.dispatch(this.editor.edits.rename(this.editor.state.get().document, page, name));
+        if (name !== null) dispatchAsked(this.editor, document, [page], now => this.editor.edits.rename(now, page, name));
     }
 
     async clear(page: number): Promise<void> {
         if (this.isEmpty(page)) return;
         const { motions } = TEXTS;
+        const { document } = this.editor.state.get();
         const answer = await ask(motions.clearTitle(this.title(page)), motions.clearMeans(this.title(page)), [[motions.clears, 'clear']]);
-        if (answer) this.editor.dispatch(this.editor.edits.clearPages(this.editor.state.get().document, [page]));
+        if (answer) dispatchAsked(this.editor, document, [page], now => this.editor.edits.clearPages(now, [page]));
     }
 
     take(page: number): void {
@@ -61,6 +65,7 @@ export class PageActions {
     async transfer(from: number, to: number): Promise<void> {
         if (from === to) return;
         const { editor } = this;
+        const { document } = editor.state.get();
         const isFree = this.isEmpty(to);
         const follow = make('input', { type: 'checkbox', checked: true });
         const { motions } = TEXTS;
@@ -71,14 +76,13 @@ export class PageActions {
             [[motions.copy, 'copy'], [motions.move, 'move'], ...(isFree ? [] : [[motions.swap, 'swap'] as const])],
             make('label', {}, follow, motions.linksFollow),
         );
-        const { document } = editor.state.get(); // it may have changed while the question was open
         const options = { linksFollow: follow.checked, replace: true };
         const edit = {
-            copy: () => editor.edits.copyPage(document, from, to, options),
-            move: () => editor.edits.movePage(document, from, to, options),
-            swap: () => editor.edits.swapPages(document, from, to, options),
+            copy: (now: MotionDocument) => editor.edits.copyPage(now, from, to, options),
+            move: (now: MotionDocument) => editor.edits.movePage(now, from, to, options),
+            swap: (now: MotionDocument) => editor.edits.swapPages(now, from, to, options),
         }[answer ?? ''];
-        if (edit && editor.dispatch(edit())) editor.select({ page: to });
+        if (edit && dispatchAsked(editor, document, [from, to], edit)) editor.select({ page: to });
     }
 
     private isEmpty(page: number): boolean {

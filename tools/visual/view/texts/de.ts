@@ -605,6 +605,8 @@ const DE: Texts = {
                 `Diese Bewegung ist beschädigt und lässt sich nicht bearbeiten. Leere sie, oder hole sie aus einer Sicherung oder einer Datei: Bewegung ${words}.`,
             'page-in-use': words =>
                 `Dort ist schon eine Bewegung. Wähle einen anderen Platz, oder erlaube, sie zu ersetzen: Bewegung ${words}.`,
+            'page-changed': words =>
+                `Diese Bewegung hat sich geändert, während die Frage offen war. Nichts wurde getan; versuche es noch einmal: Bewegung ${words}.`,
             'page-empty': words => `Diese Bewegung ist leer: Bewegung ${words}.`,
             'no-such-step': words => `Die Bewegung hat diesen Schritt nicht: ${words}.`,
             'steps-full': () =>

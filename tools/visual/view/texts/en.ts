@@ -96,6 +96,7 @@ const refusals: Record<RefusalCode, (words: string) => string> = {
     'trim-page': () => 'Number 0 holds the trim of the robot, not a motion. Choose one from 1 to 127.',
     'page-damaged': words => `This motion is damaged and cannot be edited. Clear it, or take it from a backup or a file: motion ${words}.`,
     'page-in-use': words => `There is a motion already. Choose another place, or say that it may be replaced: motion ${words}.`,
+    'page-changed': words => `This motion changed while the question was open. Nothing was done; ask for it once more: motion ${words}.`,
     'page-empty': words => `There is nothing in that motion: motion ${words}.`,
     'no-such-step': words => `The motion has no such step: ${words}.`,
     'steps-full': () => 'A motion holds at most seven steps. Put the others into another motion and link it as "next".',

@@ -592,6 +592,8 @@ const ES: Texts = {
             'page-damaged': words =>
                 `Este movimiento está dañado y no se puede editar. Vacíalo, o tómalo de una copia de seguridad o de un archivo: movimiento ${words}.`,
             'page-in-use': words => `Ya hay un movimiento ahí. Elige otro sitio, o di que se puede reemplazar: movimiento ${words}.`,
+            'page-changed': words =>
+                `Este movimiento ha cambiado mientras la pregunta estaba abierta. No se ha hecho nada; inténtalo otra vez: movimiento ${words}.`,
             'page-empty': words => `No hay nada en ese movimiento: movimiento ${words}.`,
             'no-such-step': words => `El movimiento no tiene ese paso: ${words}.`,
             'steps-full': () => 'Un movimiento tiene como mucho siete pasos. Pon los demás en otro movimiento y enlázalo como «siguiente».',
