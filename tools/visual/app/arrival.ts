@@ -7,6 +7,7 @@ import { askList, askPose } from '../robot/protocol.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { SessionState } from '../view/session/session.ts';
 import type { Store } from '../view/store.ts';
+import { ranges } from '../view/texts/robot.ts';
 import { TEXTS } from '../view/texts/texts.ts';
 import type { DocumentEditor } from './editor.ts';
 import type { RobotSources } from './sources.ts';
@@ -107,6 +108,6 @@ export class Arrival {
         const ids = (await askPose(sources.connection.requests)).map(({ id }) => id);
         if (ids.length === 0) return messages.say({ text: TEXTS.robot.noServos, tone: 'bad' });
         const missing = Array.from({ length: Math.max(...ids) }, (_, i) => i + 1).filter(id => !ids.includes(id));
-        messages.say({ text: TEXTS.robot.servosFound(ids.length, missing), tone: missing.length > 0 ? 'bad' : 'good' });
+        messages.say({ text: TEXTS.robot.servosFound(ids.length, ranges(missing)), tone: missing.length > 0 ? 'bad' : 'good' });
     }
 }

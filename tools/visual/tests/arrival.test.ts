@@ -58,6 +58,8 @@ test('a robot whose backup could not be stored is not said to be backed up', asy
 
 test.each([
     ['1:512:0 2:512:0 3:512:0 5:512:0 ', /^4 servos answer\. Nothing moves before you say so\. No answer from 4: not plugged in/],
+    ['23:512:0 ', /^One servo answers\. .* No answer from 1-22: not plugged in/],
+    ['1:512:0 4:512:0 8:512:0 ', /No answer from 2, 3, 5-7: /],
     ['', /^No servo answers\. Is their power on\?/],
 ] as const)('My servos with the pose "%s": those that are missing are named', async (pose, text) => {
     const say = vi.fn();

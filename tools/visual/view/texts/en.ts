@@ -471,7 +471,7 @@ export const EN = {
         adapterBack: 'The servo adapter is back. The servos move again once their torque is switched on: type on in the terminal.',
         noServos:
             'No servo answers. Is their power on? Is the bus cable plugged in? Do they talk at 1,000,000 bits a second? Check this, then type @reset in the terminal.',
-        servosFound: (count: number, missing: readonly number[]) =>
+        servosFound: (count: number, missing: readonly string[]) =>
             `${plural(count, 'One servo answers', `${count} servos answer`)}. Nothing moves before you say so.${missing.length > 0 ? ` No answer from ${missing.join(', ')}: not plugged in, or two servos have that number.` : ''}`,
         servosCrashed:
             'The program for your servos has crashed. Servos that held their position still hold it. Choose "My servos …" again.',

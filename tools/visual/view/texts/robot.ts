@@ -20,6 +20,17 @@ export function errorText(error: RobotError): string {
     return `${sentence} ${error.words}${end}`;
 }
 
+/** Rising numbers, three or more in a row as "5-7", as the board writes them. */
+export function ranges(numbers: readonly number[]): string[] {
+    const rows: number[][] = [];
+    for (const number of numbers) {
+        const row = rows.at(-1);
+        if (row?.at(-1) === number - 1) row.push(number);
+        else rows.push([number]);
+    }
+    return rows.flatMap(row => (row.length > 2 ? [`${row[0]}-${row.at(-1)}`] : row.map(String)));
+}
+
 export function connectionText(state: ConnectionState): string {
     return TEXTS.robot.connections[state];
 }
