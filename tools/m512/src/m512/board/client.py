@@ -7,6 +7,7 @@ types and its echo, is skipped here.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 from contextlib import suppress
@@ -23,7 +24,10 @@ ANSWER_SECONDS = 3.0
 TRIES = 3
 NAMES_MOST = 16  # damaged pages whose names are read; each takes 0.2 s
 DATA_BYTES = 32
-ERR_WORD, ERR_EMPTY, ERR_EDITS, ERR_LINE, ERR_ASKED = 1, 6, 12, 15, 16
+PIECES = range(0, PAGE_BYTES, DATA_BYTES)
+FIRST_OPEN = 1  # the page that Edit opens when it starts
+RESTART_SECONDS = 0.2  # less than a board is silent when it restarts
+ERR_WORD, ERR_EMPTY, ERR_CRC, ERR_EDITS, ERR_LINE, ERR_ASKED = 1, 6, 9, 12, 15, 16
 # Fields of @where: the pattern of each, and its value when it is missing ("": it is mandatory).
 WHERE = {
     **{word: ("[0-9]+", "") for word in ("page", "repetition")},
@@ -53,6 +57,10 @@ def framed(request: str) -> bytes:
     """A request without the final CR."""
     text = f"@{request} ".encode()
     return BEGIN + text + b"%04X" % crc16(text)
+
+
+def _with_piece(page: bytes, other: bytes, at: int) -> bytes:
+    return page[:at] + other[at : at + DATA_BYTES] + page[at + DATA_BYTES :]
 
 
 class Client:
@@ -246,38 +254,82 @@ class Client:
         """Saves a page in the board's flash, by way of the board's page in RAM. After Ctrl-C or a signal it saves that page before it ends: a
         part of it would stay in RAM, as edits that nobody made."""
         self._listed, self._damaged = None, {}
-        self.open_page(number, page)
         try:
-            self._send_page(number, bytes(page))
+            self._save_page(number, page)
         except (KeyboardInterrupt, SystemExit):
             with suppress(M512Error):
-                self._send_page(number, bytes(page))
+                self._save_page(number, page)
             raise
+
+    def _save_page(self, number: int, page: Page) -> None:
+        """If the board restarts meanwhile, the page is opened and sent once more."""
+        new = bytes(page)
+        for _ in range(TRIES):
+            self.open_page(number, page)
+            old = self._loaded(number)
+            if not self._fill_ram(old, new, PIECES):
+                continue
+            try:
+                self.ask(f"save {number} {crc16(new):04X}", 10.0)
+                self.open_page(number, page)  # refused if a page that looked the same was open since a restart: that has edits now
+                return
+            except BoardError as error:
+                if error.number != ERR_CRC:  # RAM as flash again, or the page that cannot be saved would stay as edits that nobody made
+                    with suppress(BoardError):
+                        self.open_page(number, page)
+                    raise
+            if bytes(self.page(number)) == new:  # saved before the restart
+                return
+        raise BoardError(f"the board has restarted {TRIES} times while the page was sent. Check its power supply, then {self.link.remedy}")
 
     def open_page(self, number: int, page: Page) -> None:
         """Opens a page that is to become `page`. BoardError: the page in RAM has edits, unless they are a part of `page` that m512 sent before
-        the cable came off."""
+        the cable came off or the board restarted."""
         try:
             self.ask(f"open {number}")
         except BoardError as error:
-            if error.number != ERR_EDITS:
-                raise
-            old, new = self._loaded(number), bytes(page)
-            parts = {crc16(new[:at] + old[at:]) for at in range(DATA_BYTES, PAGE_BYTES + 1, DATA_BYTES)}
-            if self.ask("crc") not in {f"{part:04X}" for part in parts}:
+            if error.number != ERR_EDITS or not self._put_back(number, bytes(page)):
                 raise
 
-    def _send_page(self, number: int, data: bytes) -> None:
-        self._fill_ram(data)
-        try:
-            self.ask(f"save {number} {crc16(data):04X}", 10.0)
-        except BoardError:  # RAM as flash again, or the page that cannot be saved would stay as edits that nobody made
-            self._fill_ram(self._loaded(number))
-            raise
+    def _put_back(self, number: int, new: bytes) -> bool:
+        """Gives RAM the bytes of flash back if all of its edits are pieces of `new`, and opens page `number`. They are the first pieces over
+        that page; or, over the page that Edit opens when it starts, one piece that was on its way when the board restarted, or all. The CRC
+        of RAM tells which, and Edit whether that was right: it opens no other page while there are edits."""
+        for base in (number, FIRST_OPEN):
+            old = self._loaded(base)
+            sent = [new[: at + DATA_BYTES] + old[at + DATA_BYTES :] if base == number else _with_piece(old, new, at) for at in PIECES] + [new]
+            crc = self.ask("crc")
+            ram = next((part for part in sent if crc == f"{crc16(part):04X}"), None)
+            # From the last piece to the first: what an interruption leaves is known, too.
+            if ram is not None and self._fill_ram(ram, old, PIECES[::-1]):
+                with suppress(BoardError):
+                    self.ask(f"open {number}")
+                    return True
+        return False
 
-    def _fill_ram(self, data: bytes) -> None:
-        for at in range(0, PAGE_BYTES, DATA_BYTES):
-            self.ask(f"data {at} {data[at : at + DATA_BYTES].hex()}")
+    def _fill_ram(self, ram: bytes, wanted: bytes, pieces: Sequence[int]) -> bool:
+        """Turns the page in RAM, which is `ram`, into `wanted`. False: it is another page now, because the board has restarted."""
+        sure = -math.inf  # when a request was sent, since whose answer the board has had no time to restart
+        for at in pieces:
+            before, ram = ram, _with_piece(ram, wanted, at)
+            if ram == before:
+                continue
+            for _ in range(TRIES):
+                if self.link.now() - sure > RESTART_SECONDS:
+                    crc = self.ask("crc")
+                    if crc == f"{crc16(ram):04X}":
+                        break
+                    if crc != f"{crc16(before):04X}":
+                        return False
+                sure = self.link.now()
+                try:
+                    self.ask(f"data {at} {ram[at : at + DATA_BYTES].hex()}", tries=1)
+                    break
+                except NoAnswerError:  # never repeated unseen: a restarted Edit would write it into the page that it has opened
+                    sure = -math.inf
+            else:
+                raise NoAnswerError(f"no answer to @data. {CHECK}{self.link.remedy}")
+        return True
 
     def _loaded(self, number: int) -> bytes:
         """What @open loads. Erased flash is read as Edit's new page (session_new_byte in firmware/edit/session.c), which is not EMPTY."""
