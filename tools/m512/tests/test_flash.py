@@ -676,6 +676,29 @@ def test_restore_leaves_the_mailbox_alone():
     assert backup.eeprom_changes(bytes(wanted), bytes(found)) == {0xFF3: 1, 0xFF6: 2}
 
 
+@pytest.mark.parametrize("mode, before", [(0x11, 0x11), (0x11, 0xFF), (0xFF, 0x11)])
+@pytest.mark.parametrize("at", [0x100, 0xE000 + 512 * 3, 0xE000 + 512 * 124])
+def test_restore_leaves_no_eeprom_cell_that_writing_flash_has_changed(m512, tmp_path, at, mode, before):
+    """The factory loader notes each download at FF6..FFE; the last motion pages go through the mailbox at 0x800; code, with the boot mode
+    changed until it is complete."""
+    with FactoryPeer() as peer:
+        peer.flash[: 4 * 256], peer.flash[0xE000:0x1E000] = make_app()[: 4 * 256], EMPTY * 128
+        peer.eeprom[0x800:0xA00], peer.eeprom[0xFF6:0xFFF], peer.eeprom[0xFFF] = bytes(range(256)) * 2, b"downloads", mode
+        assert m512("backup", tmp_path / "b", "-p", peer.path, "--board", "cm5").exit_code == 0
+        wanted, flash = bytes(peer.eeprom), bytes(peer.flash)
+        peer.flash[at] ^= 1
+        peer.eeprom[0x20] ^= 1
+        peer.eeprom[0xFFF] = before
+        result = m512("restore", tmp_path / "b", "-p", peer.path, "--yes", "--board", "cm5", "--wait", "5")
+        assert result.exit_code == 0 and bytes(peer.flash) == flash, result.stderr
+        different = [hex(cell) for cell in range(4096) if peer.eeprom[cell] != wanted[cell] and cell not in backup.MAILBOX_CELLS]
+        assert not different, f"{different}: {result.stderr}"
+        assert f"EEPROM: {'1 cell differs' if mode == before else '2 cells differ'}\n" in result.stderr
+        assert " changed while flash was written" in result.stderr
+        again = m512("restore", tmp_path / "b", "-p", peer.path, "--board", "cm5", "--wait", "5")
+        assert again.exit_code == 0 and "The board holds this already" in again.stderr, again.stderr
+
+
 @pytest.fixture
 def other_eeprom(m512, tmp_path):
     """other_eeprom(peer) -> a backup whose cells 0x20..0x3F differ from those of the peer."""

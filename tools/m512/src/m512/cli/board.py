@@ -321,6 +321,7 @@ def restore(folder: Path, what: str | None, yes: bool, port: str, board: str, wa
     """Show what a backup would change on the board, ask, and write it."""
     from m512.board import backup as backups
     from m512.board import download, loaders
+    from m512.board.factory import FactoryLoader
     from m512.board.memory import Plan
     from m512.files.wording import counted
 
@@ -341,10 +342,18 @@ def restore(folder: Path, what: str | None, yes: bool, port: str, board: str, wa
                 ui.confirm("Write this to the board?", yes)
         if todo:
             ui.say(str(download.download(loader, Plan(pages), ui.phase, todo)))
-        if cells:
-            with ui.phase("EEPROM") as progress:
-                backups.write_eeprom(loader, cells, progress)
-            ui.say(f"{counted(len(cells), 'EEPROM cell')} written and read back")
+        if "eeprom" in areas and (todo or cells):
+            shown, cells = cells, _eeprom_after_flash(loader, saved, cells, bool(todo))
+            if cells:
+                with ui.phase("EEPROM") as progress:
+                    backups.write_eeprom(loader, cells, progress)
+                own = len(cells.keys() - shown.keys())
+                ui.say(
+                    f"{counted(len(cells), 'EEPROM cell')} written and read back"
+                    + (f", {own} of them changed while flash was written" if own else "")
+                )
+            if isinstance(loader, FactoryLoader):
+                loader.stays = False  # the boot mode is the backup's now
         if todo or cells:
             ui.say(loaders.restart(loader))
         else:
@@ -352,6 +361,17 @@ def restore(folder: Path, what: str | None, yes: bool, port: str, board: str, wa
             loaders.give_back(loader)
     if as_json:
         ui.show(json.dumps({"flash_pages": len(todo), "eeprom_cells": len(cells), "changes": [change.as_dict() for change in changes]}, indent=2))
+
+
+def _eeprom_after_flash(loader: Any, saved: Any, cells: dict[int, int], has_written: bool) -> dict[int, int]:
+    """The EEPROM cells that differ from the backup now. Writing flash through the factory's boot loader changes some: its mailbox, its note of
+    the last download, and the boot mode until code is complete."""
+    from m512.board import backup as backups
+
+    if not has_written:
+        return cells
+    with ui.phase("Reading EEPROM") as progress:
+        return backups.eeprom_changes(saved.data["eeprom"], loader.read_eeprom(progress=progress))
 
 
 def _compare(loader: Any, saved: Any, areas: list[str], pages: Any) -> Any:
