@@ -15,6 +15,8 @@ const CRCS_MS = 4000;
 const SAVE_MS = 2000;
 /** ERR of `@open`: the page in the board's RAM has unsaved edits. */
 export const ERR_UNSAVED = 12;
+/** ERR of `@save`: the page in RAM has another CRC. */
+export const ERR_CRC = 9;
 /** ERR of `@save`: no boot loader there can write, or flash did not take the page. */
 const ERR_SAVE = 11;
 

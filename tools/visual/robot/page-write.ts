@@ -12,9 +12,9 @@
 // The pages behind one that is refused or lost are written all the same. The next run() tries it once more.
 
 import type { PageFormat } from '../model/page-format.ts';
-import { HalfSent, differences, everyPiece, isSame, piece } from './half-sent.ts';
+import { HalfSent, isOpened, isSame } from './half-sent.ts';
 import type { SentPage } from './half-sent.ts';
-import { ERR_UNSAVED, askPageCrcs, askRamCrc, openPage, savePage, sendData } from './page-requests.ts';
+import { ERR_CRC, askPageCrcs, askRamCrc, openPage, savePage } from './page-requests.ts';
 import type { Ask } from './page-requests.ts';
 import { RobotError } from './robot-error.ts';
 
@@ -31,7 +31,7 @@ export interface WriteOptions {
     readonly putBack?: (page: number) => void;
 }
 
-/** A request without an answer is sent again. All of them can safely be repeated. */
+/** A request without an answer is sent again, except `@data` (HalfSent.fill). */
 const TRIES = 3;
 
 export class PageWrite {
@@ -123,35 +123,33 @@ export class PageWrite {
         { putBack }: WriteOptions,
     ): Promise<void> {
         const { page, after } = one;
-        set(page, 'sending');
-        await this.open(requests, page, putBack);
-        this.sent.begin(one);
         const crc = this.format.crc(after);
-        const inRam = this.sent.loaded(one);
-        for (const offset of differences(inRam, after)) await sendData(requests, offset, piece(after, offset));
-        if ((await askRamCrc(requests)) !== crc) {
-            for (const offset of everyPiece(after)) await sendData(requests, offset, piece(after, offset));
+        for (let tries = 1; tries <= TRIES; tries++) {
+            set(page, 'sending');
+            await this.open(requests, page, putBack);
+            this.sent.begin(one);
+            // Another page in RAM: the board has restarted. So the page is opened and sent once more.
+            if (!(await this.sent.fill(requests, this.sent.loaded(one), after)) || (await askRamCrc(requests)) !== crc) continue;
+            set(page, 'saving');
+            const end = await saved(requests, page, crc);
+            if (end === 'restarted' && (await askPageCrcs(requests, page, page))[0] !== crc) continue;
+            // Edit has no edits now, unless it refuses the page, or had a page open that looked the same, since a restart.
+            await this.open(requests, page);
+            this.sent.end(one);
+            return set(page, end === 'refused' ? 'refused' : 'written');
         }
-        set(page, 'saving');
-        const isSaved = await saved(requests, page, crc);
-        if (isSaved) this.sent.end(one);
-        else await this.sent.takeBack(requests, one);
-        set(page, isSaved ? 'written' : 'refused');
+        throw new RobotError('dropped');
     }
 
-    /** Unsaved edits in Edit's RAM are dropped if they are ours: of a transfer that a pulled cable or a reload has interrupted. Anything
-     *  else is somebody's work, perhaps on a page of ours. */
+    /** Unsaved edits in Edit's RAM are dropped if they are ours: of a transfer that a pulled cable, a restart or a reload has interrupted.
+     *  Anything else is somebody's work, perhaps on a page of ours. */
     private async open(requests: Ask, page: number, putBack?: (page: number) => void): Promise<void> {
-        try {
-            await openPage(requests, page);
-        } catch (error) {
-            if (!(error instanceof RobotError) || error.number !== ERR_UNSAVED) throw error;
-            const { last } = this.sent;
-            const ours = await this.sent.putBack(requests);
-            if (!ours) throw last ? new RobotError('page-mixed', String(last.page)) : new RobotError('page-unsaved');
-            await openPage(requests, page);
-            if (!this.hasSame(ours)) putBack?.(ours.page);
-        }
+        if (await isOpened(requests, page)) return;
+        const { last } = this.sent;
+        const ours = await this.sent.putBack(requests);
+        if (!ours) throw last ? new RobotError('page-mixed', String(last.page)) : new RobotError('page-unsaved');
+        await openPage(requests, page);
+        if (!this.hasSame(ours)) putBack?.(ours.page);
     }
 
     private hasSame(sent: SentPage): boolean {
@@ -159,13 +157,14 @@ export class PageWrite {
     }
 }
 
-/** false: the board refuses this page for good. */
-async function saved(requests: Ask, page: number, crc: number): Promise<boolean> {
+/** refused: for good. restarted: RAM has another page than a moment ago. */
+async function saved(requests: Ask, page: number, crc: number): Promise<'saved' | 'refused' | 'restarted'> {
     try {
         await savePage(requests, page, crc);
-        return true;
+        return 'saved';
     } catch (error) {
-        if (error instanceof RobotError && error.code === 'save-failed') return false;
+        if (error instanceof RobotError && error.code === 'save-failed') return 'refused';
+        if (error instanceof RobotError && error.number === ERR_CRC) return 'restarted';
         throw error;
     }
 }
@@ -177,7 +176,8 @@ function patient(line: Ask): Ask {
                 try {
                     return await line.ask(text, options);
                 } catch (error) {
-                    if (tries === TRIES || !(error instanceof RobotError) || error.code !== 'no-answer') throw error;
+                    if (tries === TRIES || text.startsWith('@data') || !(error instanceof RobotError) || error.code !== 'no-answer')
+                        throw error;
                 }
             }
         },

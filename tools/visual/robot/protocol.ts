@@ -141,7 +141,7 @@ export async function askList(requests: Requests): Promise<PageEntry[]> {
 export type PageCrc = (page: Uint8Array) => number;
 
 /** The 512 bytes of a page, checked by their CRC. */
-export function askPage(requests: Requests, page: number, crcOf: PageCrc, options?: RequestOptions): Promise<Uint8Array> {
+export function askPage(requests: Pick<Requests, 'ask'>, page: number, crcOf: PageCrc, options?: RequestOptions): Promise<Uint8Array> {
     return readWhole(requests, `@page ${page}`, crcOf, bytesOfHex, options);
 }
 
@@ -151,7 +151,7 @@ export function askDensePage(requests: Requests, page: number, crcOf: PageCrc, o
 }
 
 async function readWhole(
-    requests: Requests,
+    requests: Pick<Requests, 'ask'>,
     request: string,
     crcOf: PageCrc,
     decode: (text: string) => Uint8Array,

@@ -12,7 +12,7 @@ import { askList } from '../robot/protocol.ts';
 import { hasUnsavedEdits } from '../robot/page-requests.ts';
 import { PageWrite } from '../robot/page-write.ts';
 import type { PageAccount, PageToWrite } from '../robot/page-write.ts';
-import { MOTIONS_ADDRESS } from '../sim/board.ts';
+import { CYCLES_PER_MS, MOTIONS_ADDRESS } from '../sim/board.ts';
 import type { TransferState } from '../view/session/transfer.ts';
 import { transferText } from '../view/texts/editor.ts';
 import { libraryDocument, makeFormat, must } from './motion-bench.ts';
@@ -258,6 +258,79 @@ test('the cable pulled at requests of a write: old or new, the account right, "t
     console.log(`${cuts.length} of ${every.length} requests cut`);
 }, 3_600_000);
 
+/** The power fails for a moment at the n-th request behind the first `@open`. It is sent `waitMs` later. */
+function restartAt(bench: RobotBench, nth: number, waitMs: number): { restore(): void; hasBeen(): boolean } {
+    const send = bench.board.send.bind(bench.board);
+    let requests = -1;
+    let hasBeen = false;
+    bench.board.send = (who, bytes) => {
+        const text = new TextDecoder().decode(bytes);
+        if (requests >= 0 || text.startsWith('\x1e@open')) requests++;
+        if (hasBeen || requests !== nth) return send(who, bytes);
+        hasBeen = true;
+        bench.board.setPower(false);
+        bench.board.setPower(true);
+        bench.board.runTo(bench.board.nowCycles + waitMs * CYCLES_PER_MS);
+        send(who, bytes);
+    };
+    return {
+        restore: () => {
+            bench.board.send = send;
+        },
+        hasBeen: () => hasBeen,
+    };
+}
+
+test.each([
+    ['the request is lost', 0, 1, 47],
+    ['the request comes whole', 5000, 1, 48],
+    ['the request is lost, and page 1 looks the same', 0, 30, 49],
+    ['the request comes whole, and page 1 looks the same', 5000, 30, 50],
+] as const)(
+    'the board restarts at a request of a write, %s: nothing is left in the page that Edit opens then',
+    async (_, waitMs, one, seed) => {
+        const nothing = new Uint8Array(512).fill(0xff);
+        const { bench, connection } = await ready('edit', seed, ({ board }) => {
+            if (one !== 1) board.writeFlash(MOTIONS_ADDRESS + 512, nothing);
+        });
+        const first = flashPage(bench, 1);
+        let hasBeen = true;
+        let nth = 0;
+        for (; hasBeen; nth++) {
+            const page = 30 + nth;
+            bench.board.writeFlash(MOTIONS_ADDRESS + 512 * page, nothing);
+            const write = new PageWrite([{ page, before: nothing, after: another(pageOf(library, 3), bench.random) }], format);
+            const restart = restartAt(bench, nth, waitMs);
+            const run = (): Promise<string> =>
+                bench.until(
+                    write.run(connection.requests).then(
+                        () => 'done',
+                        (error: { code: string }) => error.code,
+                    ),
+                    60_000,
+                );
+            const told = [await run()];
+            restart.restore();
+            hasBeen = restart.hasBeen();
+            const where = (): string => `request ${nth}: ${told.join(', ')}`;
+            expect(flashPage(bench, 1), where()).toEqual(first);
+            if (!write.isDone) told.push(await run());
+            expect(write.isDone, where()).toBe(true);
+            expect(
+                await bench.until(
+                    connection.requests.ask('@open 1').then(
+                        () => 'clean',
+                        () => 'edits',
+                    ),
+                ),
+                where(),
+            ).toBe('clean');
+        }
+        expect(nth).toBeGreaterThan(7);
+    },
+    120_000,
+);
+
 /** A RobotTransfer of the page, connected to the bench. */
 function transferOn(bench: RobotBench, connection: Connection, pages: readonly PageToWrite[], edit = Promise.resolve()) {
     const original = { name: 'mine', pages: library.pages.map((bytes, page) => pages.find(one => one.page === page)?.after ?? bytes) };
@@ -375,7 +448,7 @@ test('the page: "try again" meets another robot: it is read and backed up before
     });
     expect(await bench.until(transfer.tryAgain(), 60_000)).toEqual({ isDone: true });
     expect(kept).toEqual([before, other]);
-    expect(keptAtOpen).toEqual(pages.map(() => 2));
+    expect(keptAtOpen).toEqual(pages.flatMap(() => [2, 2])); // before it is sent, and after it is saved
     const wanted = other.map((bytes, page) => pages.find(one => one.page === page)?.after ?? bytes);
     expect(Array.from({ length: 128 }, (_, page) => flashPage(bench, page))).toEqual(wanted);
     expect(robot()).toEqual(wanted);
