@@ -33,6 +33,7 @@ typedef struct {
 } probe_t;
 bool board_probe(board_t *board, const char *function);
 const probe_t *board_probe_result(const board_t *board, const char *function);
+void board_probe_clear(board_t *board); /* sets the figures to 0, keeps the probes */
 
 /* Number of interrupts taken through a vector 1..34. */
 uint64_t board_interrupt_count(const board_t *board, int vector);

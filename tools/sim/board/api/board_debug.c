@@ -44,6 +44,7 @@ const probe_t *board_probe_result(const board_t *board, const char *function)
     return probe_result(&board->cpu.probes, function);
 }
 
+void board_probe_clear(board_t *board) { probe_clear(&board->cpu.probes); }
 
 uint64_t board_interrupt_count(const board_t *board, int vector)
 {

@@ -88,3 +88,10 @@ const probe_t *probe_result(const probes_t *probes, const char *function)
     int place = find(probes, function);
     return place < probes->count ? &probes->entries[place].result : NULL;
 }
+
+void probe_clear(probes_t *probes)
+{
+    for (int i = 0; i < probes->count; i++) {
+        memset(&probes->entries[i].result, 0, sizeof probes->entries[i].result);
+    }
+}

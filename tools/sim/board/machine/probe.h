@@ -24,5 +24,6 @@ void probe_leave(probes_t *probes, uint32_t pc);
 /* For board_probe() and the like. address UINT32_MAX: no such function. */
 bool probe_add(probes_t *probes, const char *function, uint32_t address);
 const probe_t *probe_result(const probes_t *probes, const char *function);
+void probe_clear(probes_t *probes);
 
 #endif

@@ -72,6 +72,9 @@ class Inside:
         calls = max(r.calls, 1)
         return Cycles(r.calls, r.own_max, r.own_sum / calls, r.total_max, r.total_sum / calls, r.max_at)
 
+    def clear_probes(self) -> None:
+        self._lib.board_probe_clear(self._pointer)
+
     def interrupt(self, vector: int | str, byte: int = 0) -> None:
         """Raises an interrupt now (a number as for board_interrupt() in board_debug.h, or a name from VECTORS)."""
         if not self._lib.board_interrupt(self._pointer, number_of(vector), byte):

@@ -137,6 +137,7 @@ _FUNCTIONS: dict[str, tuple[Any, ...]] = {  # name: result, arguments...
     "board_stack_headroom": (U32, P),
     "board_probe": (B, P, S),
     "board_probe_result": (ctypes.POINTER(ProbeResult), P, S),
+    "board_probe_clear": (None, P),
     "board_interrupt_count": (U64, P, I),
     "board_interrupt_max": (U64, P, I),
     "board_interrupt": (B, P, I, U8),
