@@ -7,7 +7,7 @@
 //                     +--trouble--> stopped <------trouble---------+  |
 //                                      +-------------tryAgain---------+
 
-import { pageOf } from '../model/document.ts';
+import { firstDifferent, pageOf } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
 import { PAGE_COUNT } from '../model/motion.ts';
 import type { PageFormat } from '../model/page-format.ts';
@@ -109,13 +109,9 @@ export class RobotTransfer implements Transfer {
                 this.tell(left, { phase: 'written' });
             });
         // Of a document that has changed meanwhile, the list of what is to be written is another one.
-        this.goesOn = () => (this.isAsShown(shown, pages) ? go() : this.read());
+        const { parts } = this;
+        this.goesOn = () => (firstDifferent(parts.format, pages, shown, parts.document()) === undefined ? go() : this.read());
         return go();
-    }
-
-    private isAsShown(shown: MotionDocument, pages: readonly number[]): boolean {
-        const document = this.parts.document();
-        return pages.every(page => this.parts.format.isSame(pageOf(shown, page), pageOf(document, page)));
     }
 
     tryAgain(): Promise<TransferEnd> {

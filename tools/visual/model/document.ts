@@ -67,3 +67,8 @@ export function withChanges(document: MotionDocument, changes: readonly Change[]
     }
     return { ...document, pages };
 }
+
+/** The first of these pages that the two documents do not have alike; undefined: none. */
+export function firstDifferent(format: PageFormat, pages: readonly number[], a: MotionDocument, b: MotionDocument): number | undefined {
+    return pages.find(page => !format.isSame(pageOf(a, page), pageOf(b, page)));
+}

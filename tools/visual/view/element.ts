@@ -63,9 +63,10 @@ export function handOver(from: Element, to: HTMLElement | null, take: () => void
 
 /** Switches a control off or on. If it had the focus, a neighbour gets it: otherwise keyboard and screen reader would be nowhere. */
 export function setDisabled(control: HTMLButtonElement | HTMLInputElement, isDisabled: boolean): void {
-    const hadFocus = isDisabled && control === document.activeElement;
-    control.disabled = isDisabled;
-    if (hadFocus) neighbourOf(control)?.focus({ preventScroll: true });
+    const to = isDisabled && control === document.activeElement ? neighbourOf(control) : null;
+    handOver(control, to, () => {
+        control.disabled = isDisabled;
+    });
 }
 
 /** The control before it in its row, or else behind it; if there is none, around the row. */

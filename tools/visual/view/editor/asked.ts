@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Edits that a person agrees to in a dialog. Meanwhile a dropped file, for example, may replace the motions that the question is about.
 
-import { pageOf } from '../../model/document.ts';
+import { firstDifferent } from '../../model/document.ts';
 import type { MotionDocument } from '../../model/document.ts';
 import { refuse } from '../../model/result.ts';
 import type { Result } from '../../model/result.ts';
@@ -16,6 +16,6 @@ export function dispatchAsked(
     edit: (document: MotionDocument) => Result<Transaction>,
 ): boolean {
     const { document } = editor.state.get();
-    const changed = pages.find(page => !editor.format.isSame(pageOf(asked, page), pageOf(document, page)));
+    const changed = firstDifferent(editor.format, pages, asked, document);
     return editor.dispatch(changed === undefined ? edit(document) : refuse('page-changed', String(changed)));
 }

@@ -343,7 +343,9 @@ def restore(folder: Path, what: str | None, yes: bool, port: str, board: str, wa
         if todo:
             ui.say(str(download.download(loader, Plan(pages), ui.phase, todo)))
         if "eeprom" in areas and (todo or cells):
-            shown, cells = cells, _eeprom_after_flash(loader, saved, cells, bool(todo))
+            shown = cells
+            if todo:  # the factory's boot loader changes cells then: its mailbox, its note of the last download, and the boot mode
+                cells = _eeprom_cells(loader, saved)
             if cells:
                 with ui.phase("EEPROM") as progress:
                     backups.write_eeprom(loader, cells, progress)
@@ -363,13 +365,10 @@ def restore(folder: Path, what: str | None, yes: bool, port: str, board: str, wa
         ui.show(json.dumps({"flash_pages": len(todo), "eeprom_cells": len(cells), "changes": [change.as_dict() for change in changes]}, indent=2))
 
 
-def _eeprom_after_flash(loader: Any, saved: Any, cells: dict[int, int], has_written: bool) -> dict[int, int]:
-    """The EEPROM cells that differ from the backup now. Writing flash through the factory's boot loader changes some: its mailbox, its note of
-    the last download, and the boot mode until code is complete."""
+def _eeprom_cells(loader: Any, saved: Any) -> dict[int, int]:
+    """The EEPROM cells that differ from the backup now, with the backup's values."""
     from m512.board import backup as backups
 
-    if not has_written:
-        return cells
     with ui.phase("Reading EEPROM") as progress:
         return backups.eeprom_changes(saved.data["eeprom"], loader.read_eeprom(progress=progress))
 
@@ -389,8 +388,7 @@ def _compare(loader: Any, saved: Any, areas: list[str], pages: Any) -> Any:
         todo = loader.different(pages, progress) if pages else []
     cells, changes = {}, []
     if "eeprom" in areas:
-        with ui.phase("Reading EEPROM") as progress:
-            cells = backups.eeprom_changes(saved.data["eeprom"], loader.read_eeprom(progress=progress))
+        cells = _eeprom_cells(loader, saved)
     in_motions = [n for n in todo if n * FLASH_PAGE >= MOTIONS[0]]
     if in_motions:
         with ui.phase("Reading") as progress:

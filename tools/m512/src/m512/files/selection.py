@@ -95,14 +95,7 @@ def means_pages(word: str, pages: Pages) -> bool:
     return is_several or page_number(target) is not None and (means_pages(name, pages) or page_number(name) is not None or pages.is_named(name))
 
 
-def _refuse_two_meanings(word: str, pages: Pages) -> None:
-    if pages.is_named(word) and means_pages(word, pages):
-        several = ", or 1..127 for all pages" if word == "all" else ""
-        raise WordError(f"page {pages.find(word)} is called {word!r}, too: say {pages.find(word)} for that page{several}")
-
-
 def _moves(word: str, pages: Pages) -> list[tuple[int, int]]:
-    _refuse_two_meanings(word, pages)
     name, colon, target = ("", "", "") if pages.is_named(word) else word.rpartition(":")
     if not colon:
         return [(number, number) for number in _meant(word, pages)]
@@ -118,9 +111,12 @@ def _moves(word: str, pages: Pages) -> list[tuple[int, int]]:
 
 
 def _meant(word: str, pages: Pages) -> list[int]:
-    _refuse_two_meanings(word, pages)
     if pages.is_named(word):
-        return [pages.find(word)]
+        number = pages.find(word)
+        if means_pages(word, pages):
+            several = ", or 1..127 for all pages" if word == "all" else ""
+            raise WordError(f"page {number} is called {word!r}, too: say {number} for that page{several}")
+        return [number]
     span = number_range(word)
     if word != "all" and not span:
         return [holding(word, pages)]
