@@ -38,9 +38,9 @@ export async function openPage(requests: Ask, page: number): Promise<void> {
     await requests.ask(`@open ${page}`);
 }
 
-/** Writes at most 32 bytes into the page in RAM. */
+/** Writes at most 32 bytes into the page in RAM, which after a restart is another page. */
 export async function sendData(requests: Ask, offset: number, bytes: Uint8Array): Promise<void> {
-    await requests.ask(`@data ${offset} ${hexOf(bytes)}`);
+    await requests.ask(`@data ${offset} ${hexOf(bytes)}`, { once: true });
 }
 
 /** CRC-16 of the page in RAM. */

@@ -31,7 +31,6 @@ export interface WriteOptions {
     readonly putBack?: (page: number) => void;
 }
 
-/** A request without an answer is sent again, except `@data` (HalfSent.fill). */
 const TRIES = 3;
 
 export class PageWrite {
@@ -169,6 +168,7 @@ async function saved(requests: Ask, page: number, crc: number): Promise<'saved' 
     }
 }
 
+/** Sends a request without an answer again. */
 function patient(line: Ask): Ask {
     return {
         ask: async (text, options) => {
@@ -176,8 +176,7 @@ function patient(line: Ask): Ask {
                 try {
                     return await line.ask(text, options);
                 } catch (error) {
-                    if (tries === TRIES || text.startsWith('@data') || !(error instanceof RobotError) || error.code !== 'no-answer')
-                        throw error;
+                    if (tries === TRIES || options?.once || !(error instanceof RobotError) || error.code !== 'no-answer') throw error;
                 }
             }
         },

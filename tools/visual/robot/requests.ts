@@ -29,6 +29,8 @@ export interface RequestOptions {
     readonly stops?: boolean;
     /** Moves the robot. */
     readonly moves?: boolean;
+    /** Must not be sent again blindly if there is no answer: what it does depends on the board's state, which a restart changes. */
+    readonly once?: boolean;
 }
 
 interface Request {
