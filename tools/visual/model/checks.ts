@@ -27,6 +27,8 @@ export interface PageFinding {
     /** too-fast: multiple of the top speed; tips-over: metres outside the soles; else 0. */
     readonly amount: number;
     readonly fault: PageFault | null;
+    /** The motion before it, without which there is no such finding; null: it is the motion's own. */
+    readonly after: number | null;
 }
 
 /** Tolerance for rounding beyond the body's joint limits. Radians. */
@@ -48,20 +50,23 @@ export interface CheckOptions {
 }
 
 function finding(kind: CheckKind, page: number, more: Partial<PageFinding> = {}): PageFinding {
-    return { kind, page, step: null, joint: null, amount: 0, fault: null, ...more };
+    return { kind, page, step: null, joint: null, amount: 0, fault: null, after: null, ...more };
 }
 
-/** All findings of one page that do not depend on other pages. */
+/** All findings of one page and of the way into its next page. They depend on the pages that it can reach. */
 export function checkPage(document: MotionDocument, page: number, { format, body, topSpeed, curve }: CheckOptions): PageFinding[] {
     const bytes = pageOf(document, page);
     const fault = format.fault(bytes);
     if (fault !== null) return [finding('damaged', page, { fault })];
     if (page === 0 || !format.isPlayable(bytes)) return [];
     const played = curve(page);
-    const fast = played ? fastSteps(played, topSpeed).filter(one => one.page === page) : [];
     const { steps, next } = readPage(format, bytes);
+    // Where step 1 of the next page begins is known here only.
+    const fast = played ? fastSteps(played, topSpeed).filter(one => one.page === page || (one.page === next && one.step === 0)) : [];
     return [
-        ...fast.map(({ step, joint, times }) => finding('too-fast', page, { step, joint, amount: times })),
+        ...fast.map(one =>
+            finding('too-fast', one.page, { step: one.step, joint: one.joint, amount: one.times, after: one.page === page ? null : page }),
+        ),
         ...steps.flatMap((step, index) => checkReach(body, page, index, step)),
         ...checkBalance(body, page, steps, next === 0),
     ];
@@ -97,6 +102,28 @@ function tipsOver(body: Body, step: Step): number {
     const [x, y] = centreOfMass(body, places);
     const margin = marginInside(supportPolygon(body, places), [x, y]);
     return margin < 0 && Number.isFinite(margin) ? -margin : 0;
+}
+
+/** The findings of checkPage() of a document's pages. Only pages are checked again that have changed or that reach a changed one. */
+export class PageChecks {
+    private readonly known = new Map<number, { readonly reached: readonly Uint8Array[]; readonly found: readonly PageFinding[] }>();
+
+    look(document: MotionDocument, options: CheckOptions): PageFinding[] {
+        const worst = new Map<string, PageFinding>();
+        for (const page of document.pages.keys()) {
+            const reached = [page, ...options.format.reach(document, page)].map(one => pageOf(document, one));
+            const before = this.known.get(page);
+            const isSame = before?.reached.length === reached.length && reached.every((bytes, i) => bytes === before.reached[i]);
+            const found = before && isSame ? before.found : checkPage(document, page, options);
+            this.known.set(page, { reached, found });
+            for (const one of found) {
+                // Several motions may lead too fast into the same step.
+                const key = one.kind === 'too-fast' ? `${one.page} ${one.step}` : `${one.kind} ${one.page} ${one.step} ${one.joint}`;
+                if (one.amount >= (worst.get(key)?.amount ?? 0)) worst.set(key, one);
+            }
+        }
+        return [...worst.values()];
+    }
 }
 
 /** Findings on the links of all pages. m512 reports links that lead nowhere. */

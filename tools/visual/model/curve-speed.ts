@@ -37,11 +37,15 @@ export interface FastStep {
 export function fastSteps(curve: Curve, unitsPerTick: number): FastStep[] {
     const worst = new Map<number, FastStep>();
     for (let joint = 0; joint < JOINTS; joint++) {
+        const way = (from: number, to: number): number =>
+            Math.abs((curve.goals[to * JOINTS + joint] ?? 0) - (curve.goals[from * JOINTS + joint] ?? 0));
         for (const [from, to] of tooFast(curve, joint, unitsPerTick)) {
             for (let tick = from + OVER_TICKS; tick < to; tick++) {
-                const [page = 0, step = 0] = curve.marks.subarray(MARK_BYTES * tick);
-                const way = Math.abs((curve.goals[tick * JOINTS + joint] ?? 0) - (curve.goals[(tick - OVER_TICKS) * JOINTS + joint] ?? 0));
-                const times = way / OVER_TICKS / unitsPerTick;
+                // The four ticks may reach over the end of a step. Their fastest tick is in the step that is too fast.
+                let fastest = tick;
+                for (let one = tick - OVER_TICKS + 1; one < tick; one++) if (way(one - 1, one) > way(fastest - 1, fastest)) fastest = one;
+                const [page = 0, step = 0] = curve.marks.subarray(MARK_BYTES * fastest);
+                const times = way(tick - OVER_TICKS, tick) / OVER_TICKS / unitsPerTick;
                 const key = (page << 3) | step;
                 if (times > Math.max(1, worst.get(key)?.times ?? 0)) worst.set(key, { page, step: step - 1, joint, times });
             }

@@ -3,8 +3,8 @@
 import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import type { Body } from '../model/body.ts';
-import { checkLinks, checkPage } from '../model/checks.ts';
-import { emptyDocument, withChanges } from '../model/document.ts';
+import { PageChecks, checkLinks, checkPage } from '../model/checks.ts';
+import { emptyDocument, pageOf, withChanges } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
 import { linkGraph } from '../model/links.ts';
 import type { HeaderChange } from '../model/page-edits.ts';
@@ -38,6 +38,31 @@ test('a step of 300 units in 20 ticks without a ramp is told, with how much too 
     expect(found?.amount).toBeCloseTo(15 / 6.8, 1); // 90 % of 7.5 units per tick (body/README.md)
     const slow = withPage(emptyDocument(format, ''), 5, [step({ 3: 512 }), step({ 3: 812 }, 60)], { accelTime: 0 });
     expect(checkPage(slow, 5, options(slow)).filter(one => one.kind === 'too-fast')).toEqual([]);
+});
+
+test('of a fast step, the slow ones around it are not told; of a leap into the next motion, the worst; a finding goes when its cause goes', () => {
+    const slow = [step({ 3: 200 }), step({ 3: 500 }, 20), step({ 3: 520 }, 100)];
+    let document = withPage(emptyDocument(format, ''), 5, slow, { accelTime: 0 });
+    const found = checkPage(document, 5, options(document)).filter(one => one.kind === 'too-fast');
+    expect(found.map(one => one.step)).toEqual([1]);
+
+    document = withPage(emptyDocument(format, ''), 60, [step({ 3: 200 })], { accelTime: 0, next: 62 });
+    document = withPage(document, 61, [step({ 3: 500 })], { accelTime: 0, next: 62 });
+    document = withPage(document, 62, [step({ 3: 800 }, 20)], { accelTime: 0, next: 63 });
+    document = withPage(document, 63, [step({ 3: 800 }, 20)]);
+    const checks = new PageChecks();
+    const told = (now: MotionDocument) =>
+        checks
+            .look(now, options(now))
+            .filter(one => one.kind === 'too-fast')
+            .map(one => `${one.page}.${one.step} after ${one.after}`);
+    expect(told(document)).toEqual(['62.0 after 60']);
+    const changed = (pages: ReadonlyMap<number, Uint8Array>): MotionDocument =>
+        withChanges(document, must(edits.replacePages(document, pages)).changes);
+    const of = (position: number): Uint8Array =>
+        pageOf(withPage(emptyDocument(format, ''), 62, [step({ 3: position }, 20)], { next: 63 }), 62);
+    expect(told(changed(new Map([[62, of(230)]])))).toEqual(['62.0 after 61', '63.0 after 62']);
+    expect(told(document)).toEqual(['62.0 after 60']);
 });
 
 test('no page of the library is too fast for its servos at 12 V, or damaged; a changed byte is', async () => {

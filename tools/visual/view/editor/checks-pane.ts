@@ -2,13 +2,13 @@
 // The area Checks: findings from the firmware, the body and m512, each with a button that goes to its place. It checks only while it is
 // shown, and only pages that have changed.
 
-import { checkLinks, checkPage } from '../../model/checks.ts';
+import { PageChecks, checkLinks } from '../../model/checks.ts';
 import type { PageFinding } from '../../model/checks.ts';
 import { imageOf, pageOf } from '../../model/document.ts';
 import type { MotionDocument } from '../../model/document.ts';
 import type { Finding } from '../../model/file-formats.ts';
-import { NOMINAL_VOLTS } from '../../model/motion.ts';
-import type { Law } from '../../model/motion.ts';
+import { MARK_BYTES, NOMINAL_VOLTS } from '../../model/motion.ts';
+import type { Curve, Law } from '../../model/motion.ts';
 import type { Session, Tab } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import type { PageTrial } from '../session/trials.ts';
@@ -20,8 +20,10 @@ import { touchText, verdictText } from '../texts/trials.ts';
 import './checks-pane.css';
 
 const WAIT_MS = 400;
-/** 47 s: usually enough for a page's own steps. */
+/** 47 s: usually enough for a page's own steps. A motion that loops is played that long each time that it is checked. */
 const CURVE_TICKS = 6000;
+/** 128 s: as much as the player gives at once (MOTION_API_CURVE_TICKS). */
+const LONG_CURVE_TICKS = 16384;
 
 interface Shown {
     readonly page: number;
@@ -42,7 +44,7 @@ export class ChecksPane extends HTMLElement {
     private readonly list = make('ul', { 'aria-label': TEXTS.checks.findings });
     /** The law of the findings. */
     private law: Law | null = null;
-    private byPage = new WeakMap<Uint8Array, readonly PageFinding[]>();
+    private pageChecks = new PageChecks();
     private shown: MotionDocument | null = null;
     /** The document to check next, or checked last. */
     private due: MotionDocument | null = null;
@@ -83,7 +85,7 @@ export class ChecksPane extends HTMLElement {
     /** Another law moves the joints at other speeds. */
     private forget(law: Law): void {
         this.law = law;
-        this.byPage = new WeakMap();
+        this.pageChecks = new PageChecks();
         this.shown = this.due = null;
     }
 
@@ -107,15 +109,17 @@ export class ChecksPane extends HTMLElement {
             format: editor.format,
             body,
             topSpeed: editor.topSpeed(NOMINAL_VOLTS),
-            curve: (page: number) => editor.curve(page, { ticks: CURVE_TICKS }),
+            curve: (page: number) => this.curve(page),
         };
-        const ofPages = document.pages.flatMap((_, page) => {
-            const bytes = pageOf(document, page);
-            const found = this.byPage.get(bytes) ?? checkPage(document, page, options);
-            this.byPage.set(bytes, found);
-            return found.map(one => ({ ...one, page })); // two pages may have the same bytes
-        });
-        return [...ofPages, ...checkLinks(editor.format, document)];
+        return [...this.pageChecks.look(document, options), ...checkLinks(editor.format, document)];
+    }
+
+    /** At least one pass of the page, as far as the player gives it at once. */
+    private curve(page: number): Curve | null {
+        const { editor } = this.session;
+        const curve = editor.curve(page, { ticks: CURVE_TICKS });
+        const isLonger = curve !== null && !curve.ended && curve.marks.every((mark, i) => i % MARK_BYTES > 0 || mark === page);
+        return isLonger ? editor.curve(page, { ticks: LONG_CURVE_TICKS }) : curve;
     }
 
     private shownOf(one: PageFinding): Shown {
@@ -126,7 +130,11 @@ export class ChecksPane extends HTMLElement {
             page: one.page,
             step: one.step,
             joint: one.joint,
-            text: findingText(one, joint ? jointTitle(joint) : TEXTS.joint(one.joint ?? 0)),
+            text: findingText(
+                one,
+                joint ? jointTitle(joint) : TEXTS.joint(one.joint ?? 0),
+                one.after === null ? null : this.titleOf(one.after),
+            ),
             isFault: isFaulty(one),
             tab,
             isGuess: one.kind === 'tips-over',

@@ -829,6 +829,7 @@ const DE: Texts = {
         damaged: why => `Beschädigt: ${why}. Sie wird nicht abgespielt. Leere sie, oder hole sie aus einer Sicherung oder einer Datei.`,
         tooFast: (step, joint, times, volts) =>
             `${step === null ? '' : `Schritt ${step}: `}${joint}: gefordert ist das ${times}-Fache der Geschwindigkeit, die der Servo bei ${volts} V gut schafft; er bleibt zurück. Gib dem Schritt mehr Zeit.`,
+        leadIn: before => `Das ist so nach ${before}.`,
         outOfReach: (step, joint) => `${step === null ? '' : `Schritt ${step}: `}${joint}: weiter gedreht, als der Körper es zulässt.`,
         tipsOver: (step, mm) =>
             `${step === null ? '' : `Schritt ${step}: `}So gehalten kippt er um: Sein Schwerpunkt ist ${mm} mm außerhalb der Sohlen. In einer schnellen Bewegung oder im Liegen kann das gewollt sein.`,

@@ -85,15 +85,17 @@ export function isFaulty({ kind, amount }: PageFinding): boolean {
     return kind === 'damaged' || kind === 'out-of-reach' || kind === 'exit-circle' || (kind === 'too-fast' && amount > HOPELESS);
 }
 
-/** One finding as a sentence; joint: title of its joint. */
-export function findingText({ kind, step, amount, fault }: PageFinding, joint: string): string {
+/** One finding as a sentence; joint: title of its joint; after: of the motion before it. */
+export function findingText({ kind, step, amount, fault }: PageFinding, joint: string, after: string | null): string {
     const { checks } = TEXTS;
     const at = step === null ? null : step + 1;
     switch (kind) {
         case 'damaged':
             return checks.damaged(fault ? checks.pageFaults[fault] : '');
         case 'too-fast':
-            return checks.tooFast(at, joint, amount.toFixed(2), NOMINAL_VOLTS);
+            return [checks.tooFast(at, joint, amount.toFixed(2), NOMINAL_VOLTS), after === null ? '' : checks.leadIn(after)]
+                .filter(Boolean)
+                .join(' ');
         case 'out-of-reach':
             return checks.outOfReach(at, joint);
         case 'tips-over':

@@ -897,6 +897,7 @@ export const EN = {
         damaged: (why: string) => `Damaged: ${why}. It is not played. Clear it, or take it from a backup or a file.`,
         tooFast: (step: number | null, joint: string, times: string, volts: number) =>
             `${step === null ? 'The' : `Step ${step}: the`} ${joint} is asked for ${times} times the speed that suits the servo at ${volts} V, and lags behind. Give the step more time.`,
+        leadIn: (before: string) => `This happens after ${before}.`,
         outOfReach: (step: number | null, joint: string) =>
             `${step === null ? 'The' : `Step ${step}: the`} ${joint} is turned farther than the body allows.`,
         tipsOver: (step: number | null, mm: number) =>

@@ -813,6 +813,7 @@ const ES: Texts = {
         damaged: why => `Dañado: ${why}. No se reproduce. Vacíalo, o tómalo de una copia de seguridad o de un archivo.`,
         tooFast: (step, joint, times, volts) =>
             `${step === null ? '' : `Paso ${step}: `}${joint}: se le pide ${times} veces la velocidad que le conviene al servo a ${volts} V, y se retrasa. Da más tiempo al paso.`,
+        leadIn: before => `Ocurre después de ${before}.`,
         outOfReach: (step, joint) => `${step === null ? '' : `Paso ${step}: `}${joint}: se gira más de lo que el cuerpo permite.`,
         tipsOver: (step, mm) =>
             `${step === null ? '' : `Paso ${step}: `}Sostenido así, se cae: su centro de masa está ${mm} mm fuera de las suelas. En un movimiento rápido, o en el suelo, puede ser lo que se quiere.`,

@@ -818,6 +818,7 @@ const JA: Texts = {
         damaged: why => `破損：${why}。再生されません。空にするか、バックアップまたはファイルから取り込んでください。`,
         tooFast: (step, joint, times, volts) =>
             `${step === null ? '' : `ステップ ${step}：`}${joint}に求められる速度は、${volts} V のサーボに適した速度の ${times} 倍なので、遅れます。ステップの時間を延ばしてください。`,
+        leadIn: before => `これは${before}の後に起こります。`,
         outOfReach: (step, joint) => `${step === null ? '' : `ステップ ${step}：`}${joint}が、体の可動範囲を超えています。`,
         tipsOver: (step, mm) =>
             `${step === null ? '' : `ステップ ${step}：`}この姿勢で止まると倒れます。重心が足裏の ${mm} mm 外にあります。速い動きや寝た姿勢では、意図したものかもしれません。`,

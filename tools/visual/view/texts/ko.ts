@@ -788,6 +788,7 @@ const KO: Texts = {
         damaged: why => `손상됨: ${why}. 재생되지 않습니다. 비우거나 백업 또는 파일에서 가져오세요.`,
         tooFast: (step, joint, times, volts) =>
             `${step === null ? '' : `단계 ${step}: `}${joint} – ${volts} V에서 서보에 알맞은 속도의 ${times}배가 필요해 늦어집니다. 단계의 시간을 늘리세요.`,
+        leadIn: before => `${before} 다음에 그렇습니다.`,
         outOfReach: (step, joint) => `${step === null ? '' : `단계 ${step}: `}${joint} – 몸의 가동 범위보다 더 돌아갑니다.`,
         tipsOver: (step, mm) =>
             `${step === null ? '' : `단계 ${step}: `}이 자세로 멈추면 넘어집니다. 무게 중심이 발바닥에서 ${mm} mm 벗어나 있습니다. 빠른 동작이나 누운 자세에서는 의도한 것일 수 있습니다.`,
