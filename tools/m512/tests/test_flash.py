@@ -23,6 +23,7 @@ from m512.board.block import frame
 from m512.board.client import Client
 from m512.board.factory import FactoryLoader
 from m512.board.factory_flash import LAST_START
+from m512.board.loaders import BANNER_IN_FLASH
 from m512.board.memory import APP, BOOT, RECORD_AT, Record
 from m512.crc16 import crc16
 from m512.errors import BoardError, RefusedError
@@ -674,6 +675,23 @@ def test_restore_leaves_the_mailbox_alone():
     wanted, found = bytearray(4096), bytearray(4096)
     wanted[0xFF3:0xFF7] = b"\1\xaa\5\2"  # FF4: a page waits; FF5: its number (boot/ORIGINAL.md, section 7)
     assert backup.eeprom_changes(bytes(wanted), bytes(found)) == {0xFF3: 1, 0xFF6: 2}
+
+
+@pytest.mark.parametrize("command", [["flash", "{old}"], ["restore", "{b}", "--what", "motions"], ["restore", "{b}"]])
+def test_a_page_that_an_interrupted_command_left_in_the_mailbox_is_not_copied_later(m512, tmp_path, command):
+    (tmp_path / "old.m512").write_text(MOTIONS + "page 124 bow\n  step 50 | 1..18:300\n")
+    with FactoryPeer() as peer:
+        peer.flash[0xE000:0x1E000] = read_text((tmp_path / "old.m512").read_text()).to_bytes()
+        start, end = BANNER_IN_FLASH  # so that nothing restarts the loader to learn its name
+        peer.flash[start:end] = peer.says.rjust(end - start)
+        assert m512("backup", tmp_path / "b", "-p", peer.path, "--board", "cm5").exit_code == 0
+        flash = bytes(peer.flash)
+        peer.eeprom[0x800:0xA00], peer.eeprom[0xFF4], peer.eeprom[0xFF5] = EMPTY, 0xAA, 124
+        words = [word.format(old=tmp_path / "old.m512", b=tmp_path / "b") for word in command]
+        result = m512(*words, "-p", peer.path, "--yes", "--board", "cm5", "--wait", "5")
+        assert result.exit_code == 0, result.stderr
+        peer.press_mode()
+        assert bytes(peer.flash) == flash
 
 
 @pytest.mark.parametrize("mode, before", [(0x11, 0x11), (0x11, 0xFF), (0xFF, 0x11)])

@@ -20,7 +20,7 @@ from typing import Callable, Union
 
 from click import Abort
 
-from m512.board import banner
+from m512.board import banner, mailbox
 from m512.board.block import IDENTITY, RESET, STAY, BlockLoader
 from m512.board.client import BEGIN, FLOW, Client, framed
 from m512.board.factory import FactoryLoader
@@ -106,6 +106,7 @@ def _factory(link: Link, started: bytes, board: str) -> FactoryLoader:
             )
         name = banner.name_in(said)
     loader.board = banner.board_of(name, board)
+    mailbox.empty(loader)
     return loader
 
 

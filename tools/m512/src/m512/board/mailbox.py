@@ -41,6 +41,13 @@ def write_motion_page(loader: FactoryLine, number: int, data: bytes) -> None:
     _settle(loader, STATE, NOTHING)
 
 
+def empty(loader: FactoryLine) -> None:
+    """Takes back a page that an interrupted command has left in the mailbox. The loader would copy it at its next start, over whatever has
+    been compared or written meanwhile."""
+    if loader.read_eeprom(STATE, STATE + 1)[0] == PLEASE:
+        _settle(loader, STATE, NOTHING)
+
+
 def different(loader: FactoryLine, wanted: dict[int, int]) -> dict[int, int]:
     """Returns those of the cells that differ on the board."""
     out = {}
