@@ -1046,6 +1046,20 @@ def test_a_closed_output_is_a_sentence(files):
     assert found.returncode == 4 and b"standard output is closed" in found.stderr
 
 
+@pytest.mark.parametrize(
+    "words, code, says",
+    [
+        ("pose --sim >&-", 4, "standard output is closed"),
+        ("get all -o g.bin --sim --motions x.bin 2>&-", 0, ""),
+        ("get all -o g.bin --sim --motions x.bin <&-", 0, ""),
+        ("drive 3 --sim --motions x.bin <&-", 5, "driving by keys needs a terminal"),
+    ],
+)
+def test_a_closed_stream_is_no_file_that_is_opened_next(files, words, code, says):
+    found = subprocess.run(f"{sys.executable} -m m512 {words}", shell=True, stderr=subprocess.PIPE, text=True, cwd=files, timeout=300)
+    assert found.returncode == code and says in found.stderr and "Traceback" not in found.stderr, found.stderr
+
+
 def test_a_reader_that_goes_away_ends_results_and_no_work(files):
     """Results without a reader end the command as a failure. Remarks without a reader end nothing."""
     for words, streams, code in (("pages x.bin list", "", 141), ("pages x.bin rename 3 stand -o y.bin", "2>&1", 0), ("pages no.bin list", "2>&1", 4)):

@@ -12,6 +12,9 @@ def main() -> None:
     if on_interrupt is not signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
     try:
+        from m512.streams import fill_closed
+
+        fill_closed()
         from m512.cli import main as command_line
 
         signal.signal(signal.SIGINT, on_interrupt)

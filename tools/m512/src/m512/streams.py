@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Handling of a stream that nobody reads any more: `m512 ... | head`."""
+"""Standard streams that nobody reads any more (`m512 ... | head`) or that are closed (`2>&-`)."""
 
 from __future__ import annotations
 
@@ -9,6 +9,21 @@ import select
 import stat
 import sys
 from typing import TextIO
+
+
+def fill_closed() -> None:
+    """Opens a descriptor that is closed, on nothing. Otherwise the next file that is opened would become that stream. sys.stdin and
+    sys.stdout stay None."""
+    while (number := os.open(os.devnull, os.O_RDWR)) <= 2:
+        os.set_inheritable(number, True)
+    os.close(number)
+    if sys.stderr is None:
+        sys.stderr = open(2, "w", closefd=False)
+
+
+def is_terminal(stream: TextIO | None) -> bool:
+    """False also for a closed stream."""
+    return stream is not None and stream.isatty()
 
 
 def reader_has_gone(stream: TextIO | None) -> bool:

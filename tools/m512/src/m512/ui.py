@@ -12,7 +12,7 @@ from typing import Callable
 import click
 
 from m512.errors import FileError, RefusedError
-from m512.streams import drop, reader_has_gone
+from m512.streams import drop, is_terminal, reader_has_gone
 
 Progress = Callable[[int, int], None]
 _unread = False  # the reader of remarks has gone, and they are dropped since
@@ -48,7 +48,7 @@ def is_unread() -> bool:
 @contextmanager
 def phase(title: str) -> Iterator[Progress]:
     """`with phase("Writing") as progress: ... progress(done, total)`. A bar on a terminal, else a line every 10 s."""
-    if sys.stderr.isatty():
+    if is_terminal(sys.stderr):
         with click.progressbar(length=1000, label=f"{title:12}", file=sys.stderr) as bar:
             yield lambda done, total: bar.update(1000 * done // max(total, 1) - bar.pos)
         return
@@ -66,7 +66,7 @@ def confirm(question: str, yes: bool) -> None:
     """Continues only after a yes. Without a terminal it needs --yes. RefusedError: a no, or nobody to ask."""
     if yes:
         return
-    if not sys.stdin.isatty():
+    if not is_terminal(sys.stdin):
         raise RefusedError(f"{question} Nobody can be asked here: say --yes")
     if not click.confirm(question, default=False, err=True):
         raise RefusedError("nothing was changed")

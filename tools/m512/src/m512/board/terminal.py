@@ -21,6 +21,7 @@ from m512.board.link import Link
 from m512.board.loaders import BANNER
 from m512.errors import FileError, M512Error, PortError
 from m512.files import storage
+from m512.streams import is_terminal
 
 KEY = "\x1d"  # Ctrl-]
 HELP = """
@@ -80,8 +81,11 @@ class Terminal:
                 log.close()
 
     def run(self, send: Path | None = None, data: bytes = b"") -> None:
-        """data: the content of the file `send`. It goes to the board first, line by line."""
-        if not sys.stdin.isatty():
+        """data: the content of the file `send`. It goes to the board first, line by line. FileError: standard output is
+        closed."""
+        if sys.stdout is None:
+            raise FileError("standard output is closed: nothing would be seen of the board")
+        if not is_terminal(sys.stdin):
             self._run_plain(data)
             return
         from serial.tools.miniterm import Console
@@ -111,7 +115,7 @@ class Terminal:
         """For standard input that is not a terminal: sends each line after the answer to the line before, and copies the answers to
         standard output."""
         try:
-            for line in chain(data.decode("utf-8", "replace").splitlines(), sys.stdin):
+            for line in chain(data.decode("utf-8", "replace").splitlines(), sys.stdin or ()):
                 self.link.write(line.rstrip("\r\n").encode("utf-8", "replace") + b"\r")
                 answer = self.link.drain(PIPE_QUIET, LINE_SECONDS)
                 sys.stdout.buffer.write(bytes(b for b in answer if b not in HIDDEN))

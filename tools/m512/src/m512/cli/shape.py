@@ -13,6 +13,7 @@ from m512 import ui
 from m512.cli.layers import must_last, show_shape
 from m512.cli.robot import STOPPED, apply, broken_off, robot, robot_options, shape_options
 from m512.errors import CancelledError, NoAnswerError, PortError
+from m512.streams import is_terminal
 
 if TYPE_CHECKING:
     from m512.board.driving import Keys, Stick
@@ -92,7 +93,7 @@ def _keys() -> Iterator[Keys]:
     from m512.board.driving import Keys
     from m512.errors import RefusedError
 
-    if not sys.stdin.isatty():
+    if not is_terminal(sys.stdin):
         raise RefusedError("driving by keys needs a terminal")
     console, keys = Console(), Keys()
     if isinstance(sys.stdin, io.TextIOWrapper):
