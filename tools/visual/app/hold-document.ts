@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Locks of the browser: one tab for each document, one for the memory of the robot in the page, one for that of My servos. They are released
-// when the tab closes. Over plain http from another machine the browser has none; the tabs then ask each other.
+// when the tab closes. Over plain http from another machine the browser has none, and where it may not store data it refuses them; the tabs
+// then ask each other.
 
 import { TabLocks } from './tab-locks.ts';
 
@@ -28,7 +29,8 @@ export async function holdRobot(): Promise<boolean> {
 /** Resolves when the tab that has the memory of the robot in the page is closed. This tab then has the lock. */
 export async function robotFreed(): Promise<void> {
     do {
-        if ('locks' in navigator) await navigator.locks.request(nameOf(ROBOT), () => undefined); // waits for it and lets go
+        // Waits for it and lets go.
+        if ('locks' in navigator) await navigator.locks.request(nameOf(ROBOT), () => undefined).catch(() => undefined);
         await new Promise(resolve => setTimeout(resolve, CLOSED_MS));
     } while (!(await tryLock(ROBOT)));
 }
@@ -49,11 +51,17 @@ async function lock(name: string): Promise<Release | null> {
     return tryLock(name);
 }
 
-function tryLock(name: string): Promise<Release | null> {
-    if (!('locks' in navigator)) {
-        tabLocks ??= new TabLocks();
-        return tabLocks.request(nameOf(name));
+async function tryLock(name: string): Promise<Release | null> {
+    try {
+        if ('locks' in navigator) return await browserLock(name);
+    } catch {
+        // Refused.
     }
+    tabLocks ??= new TabLocks();
+    return tabLocks.request(nameOf(name));
+}
+
+function browserLock(name: string): Promise<Release | null> {
     return new Promise((resolve, reject) => {
         const held = navigator.locks.request(nameOf(name), { ifAvailable: true }, async granted => {
             if (granted) await new Promise<void>(release => resolve(release));

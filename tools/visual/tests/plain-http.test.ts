@@ -5,6 +5,7 @@ import { readFileSync } from 'node:fs';
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { makeDocuments } from '../app/document-parts.ts';
 import { DocumentEditor } from '../app/editor.ts';
+import { holdDocument } from '../app/hold-document.ts';
 import { TabLocks } from '../app/tab-locks.ts';
 import type { Body } from '../model/body.ts';
 import { copyText } from '../view/clipboard.ts';
@@ -46,6 +47,11 @@ test('two tabs: what one has the other does not get, until it is let go; and no 
     release?.();
     expect(await second.request('document-1')).not.toBeNull();
     expect(await first.request('document-1')).toBeNull();
+});
+
+test('a browser that may not store data refuses its locks as well: the tabs ask each other', async () => {
+    vi.stubGlobal('navigator', { locks: { request: () => Promise.reject(new DOMException('The request was denied.', 'SecurityError')) } });
+    expect([await holdDocument('1'), await holdDocument('1')]).toEqual([expect.any(Function), null]);
 });
 
 test('three tabs that ask at the same time, or while another one waits for answers: one of them gets it', async () => {
