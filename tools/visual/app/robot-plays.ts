@@ -93,11 +93,11 @@ export class RobotPlays {
         return true;
     }
 
-    async shape({ rate, amplitude, blend }: Shape): Promise<void> {
+    async shape({ rate, amplitude, blend }: Partial<Shape>): Promise<void> {
         const { requests } = this;
-        await setRate(requests, rate);
-        await setAmplitude(requests, amplitude);
-        await setBlend(requests, blend);
+        if (rate !== undefined) await setRate(requests, rate);
+        if (amplitude !== undefined) await setAmplitude(requests, amplitude);
+        if (blend !== undefined) await setBlend(requests, blend);
     }
 
     async overlay(what: Overlay): Promise<void> {

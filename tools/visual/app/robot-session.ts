@@ -296,8 +296,8 @@ export class RobotSession implements Session {
         });
     }
 
-    async shape(shape: Shape): Promise<void> {
-        await this.act(() => this.plays.shape(shape));
+    async shape(change: Partial<Shape>): Promise<void> {
+        await this.act(() => this.plays.shape(change));
     }
 
     async overlay(what: Overlay): Promise<void> {

@@ -87,6 +87,14 @@ test('menus, Ctrl+A, F6, a joint spoken, double clicks on "Add step" and Play, a
     await person.untilStanding();
     await person.open('Remote');
     await expect.poll(() => speed.inputValue()).toBe('100'); // the robot's own value again
+
+    await person.open('Terminal');
+    await person.type('rate 130\r');
+    await person.open('Remote');
+    await expect.poll(() => speed.inputValue()).toBe('130');
+    await page.getByRole('slider', { name: 'Size' }).fill('80');
+    await person.robotSeconds(1); // four reports
+    expect(await speed.inputValue()).toBe('130');
     await person.leave();
 });
 

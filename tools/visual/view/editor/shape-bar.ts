@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Speed, amplitude and turn of the current play. They are sent to the robot while Play runs, and drawn in the curves. A robot that starts or is
-// connected has values of its own, which are shown then.
+// Speed, amplitude and turn of the current play. They are sent to the robot while Play runs, and drawn in the curves. What the robot reports
+// is shown: its values when it starts, and what somebody has typed.
 
 import { AS_STORED, SHAPE_RANGES } from '../../model/motion.ts';
 import type { Shape } from '../../model/motion.ts';
@@ -18,15 +18,17 @@ export class ShapeBar extends HTMLElement {
     session!: Session; // these are set before it is connected
     shape!: Store<Shape>;
     private readonly hint = make('p', { class: 'hint' });
-    /** The start or connection whose values were taken. */
-    private taken: SessionState['version'] = null;
+    /** Changes that the robot has not answered yet. */
+    private sending = 0;
+    /** The robot's report when they were answered: older than they are. */
+    private stale: SessionState['where'] = null;
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.replaceChildren(
             make('h2', {}, TEXTS.remote.shape),
             ...SLIDERS.map(name => this.slider(name)),
-            make('div', { class: 'row' }, make('button', { onclick: () => this.set(AS_STORED, true) }, TEXTS.remote.asStored), this.hint),
+            make('div', { class: 'row' }, make('button', { onclick: () => void this.set(AS_STORED, true) }, TEXTS.remote.asStored), this.hint),
         );
         this.disposals.push(this.session.state.watch(state => this.take(state)));
     }
@@ -34,8 +36,8 @@ export class ShapeBar extends HTMLElement {
     private take(state: SessionState): void {
         const { version, where } = state;
         setText(this.hint, shapeText(state));
-        if (!where?.shape || version === this.taken) return;
-        this.taken = version;
+        const isHeld = this.querySelector('input:active') !== null;
+        if (version?.image !== 'play' || !where?.shape || where === this.stale || this.sending > 0 || isHeld) return;
         this.shape.set(where.shape);
     }
 
@@ -47,8 +49,8 @@ export class ShapeBar extends HTMLElement {
         const [min, max] = SHAPE_RANGES[name];
         const output = make('output');
         const input = make('input', { type: 'range', min, max, step: PERCENT_STEP });
-        input.addEventListener('input', () => this.set({ [name]: input.valueAsNumber }, false));
-        input.addEventListener('change', () => this.set({ [name]: input.valueAsNumber }, true));
+        input.addEventListener('input', () => void this.set({ [name]: input.valueAsNumber }, false));
+        input.addEventListener('change', () => void this.set({ [name]: input.valueAsNumber }, true));
         this.disposals.push(
             this.shape.watch(shape => {
                 input.value = String(shape[name]);
@@ -58,10 +60,15 @@ export class ShapeBar extends HTMLElement {
         return make('label', { class: 'slider' }, make('span', {}, TEXTS.remote.shapes[name]), input, output);
     }
 
-    /** tell: also sends the shape to the robot if Play runs there. */
-    private set(change: Partial<Shape>, tell: boolean): void {
+    /** tell: also sends the change to the robot if Play runs there. */
+    private async set(change: Partial<Shape>, tell: boolean): Promise<void> {
         this.shape.set(change);
-        if (tell && this.session.state.get().version?.image === 'play') void this.session.shape(this.shape.get());
+        const { state } = this.session;
+        if (!tell || state.get().version?.image !== 'play') return;
+        this.sending++;
+        await this.session.shape(change);
+        this.sending--;
+        this.stale = state.get().where;
     }
 }
 

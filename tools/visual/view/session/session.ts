@@ -137,8 +137,8 @@ export interface Session {
     playEdited(page: number): Promise<void>;
     /** Previews a page of the document in a loop until the robot is ready to play it. */
     run(page: number): Promise<void>;
-    /** Shape of the current play, from its next step on. Only for Play. */
-    shape(shape: Shape): Promise<void>;
+    /** Changes the shape of the current play, from its next step on. Only for Play. Refusals have been reported when it resolves. */
+    shape(change: Partial<Shape>): Promise<void>;
     /** Starts, changes or ends what runs in parallel to a play. Only for Play. */
     overlay(what: Overlay): Promise<void>;
     /** Makes the robot move slowly to this pose and keep following (servo units by ID; null: this joint stays). null: ends it.
