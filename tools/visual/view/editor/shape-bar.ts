@@ -28,7 +28,12 @@ export class ShapeBar extends HTMLElement {
         this.replaceChildren(
             make('h2', {}, TEXTS.remote.shape),
             ...SLIDERS.map(name => this.slider(name)),
-            make('div', { class: 'row' }, make('button', { onclick: () => void this.set(AS_STORED, true) }, TEXTS.remote.asStored), this.hint),
+            make(
+                'div',
+                { class: 'row' },
+                make('button', { onclick: () => void this.set(AS_STORED, true) }, TEXTS.remote.asStored),
+                this.hint,
+            ),
         );
         this.disposals.push(this.session.state.watch(state => this.take(state)));
     }
