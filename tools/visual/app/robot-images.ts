@@ -37,10 +37,27 @@ export class RobotImages {
         this.parts = parts;
     }
 
-    /** For a button press: errors are reported, not thrown. */
+    /** For a button press: errors are reported, not thrown. Refused while Edit has unsaved edits. */
     run(image: ImageName): void {
         const { source } = this.state;
-        void this.restart(image).catch((error: unknown) => source === this.state.source && this.parts.fail(error));
+        const run = async (): Promise<void> => {
+            if (this.edit !== null && (await this.wouldLoseEdits())) throw new RobotError('page-unsaved');
+            await this.restart(image);
+        };
+        void run().catch((error: unknown) => source === this.state.source && this.parts.fail(error));
+    }
+
+    /** Whether a restart of this robot would lose edits in Edit. false also if it cannot be asked: a robot that hangs is to restart. */
+    async wouldLoseEdits(): Promise<boolean> {
+        const { edit } = this;
+        return edit !== null && this.hasEdits(edit).catch(() => false);
+    }
+
+    /** Edit, if it runs and answers. */
+    private get edit(): Ask | null {
+        const { connection, version, stopped } = this.state;
+        const answers = connection === 'ready' && version?.image === 'edit' && stopped === null;
+        return answers ? (this.parts.robot().connection?.requests ?? null) : null;
     }
 
     /** Restarts the robot in its factory state. */
@@ -97,13 +114,16 @@ export class RobotImages {
             if (this.state.image === 'play') return; // changed meanwhile
             const { connection } = this.parts.robot();
             if (!connection) throw new RobotError('not-connected');
-            const { requests } = connection;
-            const isUnsaved = await hasUnsavedEdits(requests, this.parts.format);
-            if (isUnsaved && !(await this.parts.isHalfSent(requests))) throw new RobotError('page-unsaved');
+            if (await this.hasEdits(connection.requests)) throw new RobotError('page-unsaved');
             if (source !== this.state.source) throw new RobotError('cancelled');
         }
         this.tell(TEXTS.robot.startsPlay);
         await this.restart('play');
+    }
+
+    /** Unsaved edits that somebody has made. */
+    private async hasEdits(requests: Ask): Promise<boolean> {
+        return (await hasUnsavedEdits(requests, this.parts.format)) && !(await this.parts.isHalfSent(requests));
     }
 
     /** Rejects with RobotError if the image cannot be had. The robot then keeps running as before. By then another one may be used. */

@@ -359,7 +359,16 @@ export class RobotSession implements Session {
     }
 
     takeNewVersion(): void {
-        this.version.take();
+        void this.reload(() => this.version.take());
+    }
+
+    async reload(reload: () => void): Promise<boolean> {
+        if (this.state.get().source !== 'yours' && (await this.images.wouldLoseEdits())) {
+            this.messages.fail(new RobotError('page-unsaved'));
+            return false;
+        }
+        reload();
+        return true;
     }
 
     useSimulated(): void {

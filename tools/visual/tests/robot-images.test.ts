@@ -92,7 +92,8 @@ test.each([true, false])(
     'a key of the remote while Edit has a page in RAM that the page has half sent (%s): Play starts, else not',
     async isHalfSent => {
         const ready = { source: 'simulated', image: 'edit', connection: 'ready', version: { image: 'edit' }, physics: 'on', stopped: null };
-        const ask = (text: string) => Promise.resolve(text.startsWith('@crcs') ? '0001'.repeat(128) : '0002');
+        const ask = vi.fn((text: string) => Promise.resolve(text.startsWith('@crcs') ? '0001'.repeat(128) : '0002'));
+        const told: unknown[] = [];
         const restart = vi.fn(() => Promise.resolve());
         const robot = { restart, forget: vi.fn(), prepare: () => Promise.resolve(), connection: { requests: { ask } } };
         const state = new Store(ready as unknown as SessionState);
@@ -102,11 +103,18 @@ test.each([true, false])(
             format: { crc: () => 0 } as unknown as PageFormat,
             robot: () => robot as unknown as ReturnType<ImageParts['robot']>,
             isHalfSent: () => Promise.resolve(isHalfSent),
+            fail: error => told.push(error),
         });
         const driven = images.becomeDriven();
         if (isHalfSent) await driven;
         else await expect(driven).rejects.toMatchObject({ code: 'page-unsaved' });
         expect(restart.mock.calls).toEqual(isHalfSent ? [['play']] : []);
+        if (isHalfSent) return;
+        images.run('play'); // nor by a button
+        await vi.waitFor(() => expect(told).toMatchObject([{ code: 'page-unsaved' }]));
+        ask.mockRejectedValue(new RobotError('no-answer'));
+        images.run('play'); // but a robot that hangs is restarted
+        await vi.waitFor(() => expect(restart.mock.calls).toEqual([['play']]));
     },
 );
 

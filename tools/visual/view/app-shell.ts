@@ -147,7 +147,7 @@ export class AppShell extends HTMLElement {
                 sources,
                 this.give(this.files),
                 make('a', { href: './licences.html' }, TEXTS.menu.licences),
-                new LanguageChoice(),
+                this.give(new LanguageChoice()),
                 keys,
                 theme,
             ],

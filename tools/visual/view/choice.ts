@@ -3,7 +3,7 @@
 // acts; Escape or leaving the list reverts the choice.
 
 /** action: gets the chosen value; it may set another one. */
-export function onChoice(list: HTMLSelectElement, action: (value: string) => void): void {
+export function onChoice(list: HTMLSelectElement, action: (value: string) => unknown): void {
     let isKeyDown = false;
     let before: string | null = null; // value before a pending choice by keyboard
     const act = (): void => {

@@ -3,17 +3,22 @@
 
 import { onChoice } from './choice.ts';
 import { define, make } from './element.ts';
+import type { Session } from './session/session.ts';
 import { LANGUAGES, chooseLanguage } from './texts/languages.ts';
 import { TEXTS } from './texts/texts.ts';
 
 export class LanguageChoice extends HTMLElement {
+    session!: Session; // set before it is connected
+
     connectedCallback(): void {
         const { lang } = document.documentElement;
         const choices = Object.entries(LANGUAGES).map(([value, name]) =>
             make('option', { value, lang: value, selected: value === lang }, name),
         );
         const list = make('select', { 'aria-label': TEXTS.menu.language }, ...choices);
-        onChoice(list, chooseLanguage);
+        onChoice(list, async language => {
+            if (!(await this.session.reload(() => chooseLanguage(language)))) list.value = lang;
+        });
         list.title = TEXTS.menu.translation;
         this.replaceChildren(list, ...(TEXTS.menu.translation === '' ? [] : [make('p', { class: 'hint' }, TEXTS.menu.translation)]));
     }

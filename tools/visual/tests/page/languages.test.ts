@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Another language, from the menu, the address or the browser. Only its file is loaded, and the person's work is kept.
 import { expect, test } from 'vitest';
+import { EN } from '../../view/texts/en.ts';
 import DE from '../../view/texts/de.ts';
 import JA from '../../view/texts/ja.ts';
 import { Visitor } from './page-bench.ts';
@@ -31,14 +32,28 @@ test('German by the menu, after a new motion; Japanese by the address; each load
     const { page } = person;
     const languages = (): string[] =>
         asked.splice(0).flatMap(url => (comesLater(url, '') === 'languages' ? [url.replace(/^.*\/(\w+)-[^/]*$/, '$1')] : []));
-    const doing = (text: string) => page.locator('status-bar .doing').filter({ hasText: text });
+    const doing = (text: string | RegExp) => page.locator('status-bar .doing').filter({ hasText: text });
     await person.untilStanding();
     expect(languages()).toEqual([]);
     await person.open('Steps');
     await person.button('New motion').click();
     await person.button('Add step from the robot').click();
+    // Somebody's edits in Edit would be lost, because the robot in the page restarts.
+    await person.open('Robot');
+    await person.button('Run Edit').click();
+    await doing(EN.status.editRuns).waitFor();
+    await person.open('Terminal');
+    await person.untilScreenSays('PageNumber');
+    await person.type('page 100\rname mine\r');
+    await person.untilScreenSays('unsaved');
     await person.openMenu();
-    await page.getByRole('combobox', { name: 'Language' }).selectOption('de');
+    const language = page.getByRole('combobox', { name: 'Language' });
+    await language.selectOption('de');
+    await page.getByRole('log').filter({ hasText: 'has edits that are not saved' }).waitFor();
+    expect(await language.inputValue()).toBe('en');
+    await person.type('undo\r');
+    await person.openMenu();
+    await language.selectOption('de');
     await doing(DE.status.waits).waitFor();
     expect(languages()).toEqual(['de']);
     const description = page.locator('meta[name="description"]');

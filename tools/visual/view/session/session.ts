@@ -153,6 +153,9 @@ export interface Session {
 
     /** Reloads the web page in its newest version. */
     takeNewVersion(): void;
+    /** Calls `reload`, which reloads the page. The robot in the page restarts then. false: it has edits in Edit that would be lost, which has
+     *  been reported. */
+    reload(reload: () => void): Promise<boolean>;
     useSimulated(): void;
     /** Opens the browser's port chooser; call it in a click handler. */
     connectYours(): Promise<void>;
