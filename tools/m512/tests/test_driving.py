@@ -238,6 +238,14 @@ def test_a_stop_counts_behind_any_key(key, done):
         assert after(before + key).done == done and after(before, key).done == done, before
 
 
+@pytest.mark.parametrize(
+    "keys, done, cancelled", [(" x", "break", False), ("x ", "break", False), ("\x03 ", "break", True), ("\x03x", "break", True)]
+)
+def test_of_two_stops_the_stronger_one_counts(keys, done, cancelled):
+    stick = after(keys)
+    assert (stick.done, stick.cancelled) == (done, cancelled)
+
+
 @pytest.mark.parametrize("key, code", [(" ", 0), ("x", 0), ("\x03", 130)])
 def test_the_exit_code_tells_ctrl_c(m512, monkeypatch, key, code):
     from contextlib import contextmanager

@@ -27,6 +27,7 @@ from m512.errors import EXIT_BAD_FILE, FileError, M512Error, MissingError, PortE
 from m512.places import build_folder
 
 PREFIX = "bus:"
+PLAY_RATE = 1_000_000  # of bus:DEVICE without a rate
 START_SECONDS = 120.0  # the search for servos takes up to 10 s; a busy computer needs more
 END_SECONDS = 30.0
 LAST_SECONDS = 2.0  # from the end of a program's console to the end of the program
@@ -61,7 +62,7 @@ def parts(word: str) -> tuple[str, int]:
     match = re.fullmatch(r"bus:(?P<device>[^@]+)(@(?P<rate>\d+))?", word)
     if not match:
         raise PortError(f"{word}: say bus:DEVICE or bus:DEVICE@RATE, such as bus:/dev/ttyUSB0")
-    return match["device"], int(match["rate"] or 1_000_000)
+    return match["device"], int(match["rate"] or PLAY_RATE)
 
 
 def find_program(image: str) -> Path:

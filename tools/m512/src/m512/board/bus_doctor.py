@@ -53,7 +53,7 @@ def examine(word: str, tell: Callable[[Finding], None], mend: bool = False) -> l
     try:
         with servos.Bus(word) as line:
             _adapter(line, add)
-            _servos(line, add, line.rate, mend)
+            _servos(line, add, next((rate for rate in RATES if abs(rate - line.rate) < line.rate / 50), line.rate), mend)
     except M512Error as error:
         add("adapter", BAD, str(error), "m512 term --list names the ports")
     return out
@@ -109,18 +109,18 @@ def _scan(line: servos.Bus, ids: range) -> list[int]:
 
 def _at_rate(line: servos.Bus, add: Add, rate: int, ids: list[int], wanted: int, mend: bool) -> None:
     is_right = rate == wanted
+    word = f"bus:{line.device}" + ("" if wanted == bus.PLAY_RATE else f"@{wanted}")
     add(
         "servos",
         OK if is_right else WARN,
         f"{len(ids)} at {rate} baud: IDs {ranges(ids) or 'none'}",
         ""
         if is_right
-        else f"they are not played at {wanted}. One command moves them: m512 doctor -p bus:{line.device} --mend; "
+        else f"they are not played at {wanted}. One command moves them: m512 doctor -p {word} --mend; "
         f"or play them as they are: -p bus:{line.device}@{rate}",
     )
     for id_ in ids:
-        _servo(line, add, id_, mend)
-        if mend and not is_right:
+        if _servo(line, add, id_, mend) and mend and not is_right:
             _mend_rate(line, add, id_, rate, wanted)
 
 
@@ -141,19 +141,20 @@ def _missing(ids: list[int], add: Add) -> None:
         )
 
 
-def _servo(line: servos.Bus, add: Add, id_: int, mend: bool) -> None:
+def _servo(line: servos.Bus, add: Add, id_: int, mend: bool) -> bool:
+    """Returns whether it may be moved to another rate: False if two servos may have this ID. Where they are they disturb nobody."""
     what = f"servo {id_}"
     table: dict[int, int] = {}
     for at, count in ((0, 19), (24, 23)):
         data = line.read(id_, at, count)
         if data is None:
             add(what, BAD, *_no_answer(line, id_))
-            return
+            return not line.noise
         table.update(enumerate(data, at))
     answer = line.ask(id_, servos.PING)
     if line.noise or answer is None:
-        add(what, BAD, f"two servos have ID {id_}, or its cable is bad", "unplug one of them, and give the other another ID")
-        return
+        add(what, BAD, *_two(id_))
+        return False
     problems = [f"{name}: {what_to_do}" for bit, name, what_to_do in servos.ERRORS if answer.error & bit]
     volts, sold = table[42], _word(table, 0)
     if volts < LOW_BATTERY_DV and not problems:
@@ -170,6 +171,11 @@ def _servo(line: servos.Bus, add: Add, id_: int, mend: bool) -> None:
         add(what, WARN, "turns without end (both angle limits are 0), so it takes no goals", "set its angle limits: 0 and 1023")
     if table[AT_DELAY] < DELAY_MIN:
         _mend_delay(line, add, id_, table[AT_DELAY], mend)
+    return True
+
+
+def _two(id_: int, told: str = "") -> tuple[str, str]:
+    return f"{told}two servos have ID {id_}, or its cable is bad", "unplug one of them, and give the other another ID"
 
 
 def _word(table: dict[int, int], at: int) -> int:
@@ -178,7 +184,7 @@ def _word(table: dict[int, int], at: int) -> int:
 
 def _no_answer(line: servos.Bus, id_: int) -> tuple[str, str]:
     if line.noise:
-        return f"what it answers is damaged: two servos have ID {id_}, or its cable is bad", "unplug one of them, and give the other another ID"
+        return _two(id_, "what it answers is damaged: ")
     return "answers PING only", "its status return level (address 16) is 0: set it to 2"
 
 
@@ -196,7 +202,11 @@ def _mend_rate(line: servos.Bus, add: Add, id_: int, rate: int, wanted: int) -> 
     line.write(id_, AT_BAUD, divisor)  # the answer comes at the old rate or at the new one
     line.set_rate(wanted)
     done = line.ask(id_, servos.PING) is not None
+    noise = line.noise
     line.set_rate(rate)
+    if noise:
+        add(f"servo {id_}", BAD, *_two(id_, f"moved from {rate} to {wanted} baud: "))
+        return
     add(
         f"servo {id_}",
         OK if done else BAD,
@@ -212,4 +222,7 @@ def _mend_delay(line: servos.Bus, add: Add, id_: int, delay: int, mend: bool) ->
         return
     line.write(id_, AT_DELAY, DELAY_SOLD)
     done = line.read(id_, AT_DELAY, 1) == bytes([DELAY_SOLD])
-    add(what, OK if done else BAD, "its return delay is 500 us now" if done else "its return delay could not be changed")
+    if done:
+        add(what, OK, "its return delay is 500 us now")
+    else:
+        add(what, BAD, "its return delay could not be changed", "its settings may be locked: switch its power off and on, and look again")

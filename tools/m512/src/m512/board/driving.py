@@ -70,9 +70,11 @@ class Keys:
             stick.rate = _clamp(stick.rate + self.FASTER * ((key == "w") - (key == "s")), (50, 150))
             stick.amplitude = _clamp(stick.amplitude + self.LARGER * ((key == "e") - (key == "q")), (0, 120))
             stick.layer ^= key == "f"
-            if key in " x\x03":
-                stick.done = "stop" if key == " " else "break"
-                stick.cancelled = key == "\x03"
+            if key in "x\x03":
+                stick.done = "break"
+            elif key == " ":
+                stick.done = stick.done or "stop"  # x a moment before is the stronger wish
+            stick.cancelled |= key == "\x03"
 
 
 def _arrow(sequence: re.Match[str]) -> str:
