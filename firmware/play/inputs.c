@@ -200,13 +200,12 @@ bool inputs_get(inputs_t *inputs, uint8_t *byte)
 
 /* ---- time ---- */
 
+/* START counts once it was up itself: a jammed arrow must not take away the stop. */
 static void take_panel(inputs_t *inputs)
 {
-    const uint8_t buttons = panel_buttons();
-    if (!inputs->panel_was_free) {
-        inputs->panel_was_free = buttons == 0 && panel_buttons_now() == 0;
-        return;
-    }
+    const uint8_t down = panel_buttons() | panel_buttons_now();
+    inputs->panel_heard |= down == 0 ? PANEL_ARROWS | PANEL_START : (uint8_t)~down & PANEL_START;
+    const uint8_t buttons = panel_buttons() & inputs->panel_heard;
     const uint8_t changed = buttons ^ inputs->panel_buttons;
     inputs->panel_buttons = buttons;
     const uint8_t arrows = buttons & PANEL_ARROWS;

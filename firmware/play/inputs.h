@@ -45,11 +45,11 @@ typedef struct {
     uint8_t remote_act;        /* remote_act_t of the last packet, to detect presses */
     inputs_held_t remote_held; /* the first eight buttons */
     inputs_held_t panel_held;  /* the arrows */
-    uint8_t panel_buttons;
+    uint8_t panel_heard;       /* the buttons that count; one held since the start is not a press. The arrows: all were up */
+    uint8_t panel_buttons;     /* of these, the ones that are down */
     uint8_t holes;             /* bytes lost before the next typed one */
     uint8_t silent_ticks;      /* since the start or the last packet with buttons; INPUTS_SILENCE_TICKS: none held */
     uint8_t quiet_ticks;       /* since the last byte; at most INPUTS_ESC_TICKS */
-    bool panel_was_free;   /* all buttons were up once; a button held since the start is not a press */
     bool pc_waits;         /* XOFF was sent to the PC */
     bool refused;
     steer_t steer;

@@ -572,6 +572,28 @@ static void test_inputs_button_held_at_power_on_is_no_press(void)
     TEST_ASSERT_EQUAL_STRING("start 2 1;", told);
 }
 
+/* A jammed arrow must not take away the stop. A START that is held itself counts after it was up. */
+static void test_inputs_start_button_stops_under_an_arrow_held_since_power_on(void)
+{
+    for (uint8_t held = PANEL_UP; held <= (PANEL_UP | PANEL_START); held += PANEL_START) {
+        setUp();
+        fake_panel_press(held);
+        panel_init();
+        inputs_init(&inputs, &performer, &pages, &settings);
+        performer.state = PERFORMER_PLAY;
+        ticks(5);
+        fake_panel_press(PANEL_UP | PANEL_LEFT);
+        ticks(5);
+        TEST_ASSERT_EQUAL_STRING("", told);
+        fake_panel_press(PANEL_UP | PANEL_START);
+        ticks(50);
+        TEST_ASSERT_EQUAL_STRING("code 255 0;", told);
+        fake_panel_press(0);
+        ticks(5);
+        TEST_ASSERT_EQUAL_STRING("code 255 0;", told);
+    }
+}
+
 /* ---- typed text ---- */
 
 static void typed(char text[128])
