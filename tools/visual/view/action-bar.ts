@@ -3,11 +3,12 @@
 
 import type { PageEntry } from '../robot/protocol.ts';
 import type { RobotState } from '../robot/robot-state.ts';
-import type { Session, SessionState } from './session/session.ts';
+import type { SessionState } from './session/session.ts';
 import { onChoice } from './choice.ts';
 import { define, handOver, keepFocus, make, once } from './element.ts';
 import { GetUp } from './get-up.ts';
 import { TEXTS } from './texts/texts.ts';
+import { SessionElement } from './session-element.ts';
 import './action-bar.css';
 
 /** Motions of the library that get a button; `lesser` ones only where there is space. */
@@ -23,8 +24,7 @@ const BUTTONS = [
 /** Pages for a robot on its face and on its back. */
 const GET_UP = { face: 'get_up', back: 'get_up_back' };
 
-export class ActionBar extends HTMLElement {
-    session!: Session; // set before it is connected
+export class ActionBar extends SessionElement {
     private shown = '';
     private readonly getUp = make(
         'button',
@@ -38,7 +38,6 @@ export class ActionBar extends HTMLElement {
     );
     private readonly gettingUp = new GetUp(motion => this.playNamed(GET_UP[motion]));
     private frame: RobotState | null = null;
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.setAttribute('role', 'toolbar');
@@ -48,10 +47,6 @@ export class ActionBar extends HTMLElement {
             this.session.onFrame(frame => this.look(frame)),
             this.session.onStop(() => this.gettingUp.stop()),
         );
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     private render(state: SessionState): void {

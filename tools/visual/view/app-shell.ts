@@ -3,7 +3,7 @@
 
 import { ActionBar } from './action-bar.ts';
 import { AreaTabs } from './area-tabs.ts';
-import type { Session, SessionState, Tab } from './session/session.ts';
+import type { SessionState, Tab } from './session/session.ts';
 import { FilesMenu } from './editor/files-menu.ts';
 import { CurvesPane } from './editor/curves-pane.ts';
 import { EDITING_START } from './editor/editing.ts';
@@ -32,13 +32,13 @@ import { TerminalPane } from './terminal-pane.ts';
 import { LanguageChoice } from './language-choice.ts';
 import { TEXTS } from './texts/texts.ts';
 import { changeTheme, showTheme } from './theme.ts';
+import { SessionElement } from './session-element.ts';
 import './app-shell.css';
 
 /** Areas that show the document. */
 const EDITING: readonly Tab[] = ['steps', 'curves', 'pages', 'links', 'checks'];
 
-export class AppShell extends HTMLElement {
-    session!: Session; // set before it is connected
+export class AppShell extends SessionElement {
     private readonly editing = new Store<Editing>(EDITING_START);
     private readonly shape = new Store<Shape>(AS_STORED);
     private readonly tabs = new AreaTabs();
@@ -62,39 +62,34 @@ export class AppShell extends HTMLElement {
         onclick: () => this.foldSheet(!this.isFolded),
     });
     private startTour: () => void = () => undefined;
-    private unwatch: () => void = () => undefined;
 
     connectedCallback(): void {
         showTheme();
         const actions = this.give(new ActionBar());
-        const robot = Object.assign(this.give(new RobotView()), { editing: this.editing, cover: actions });
-        const poses = Object.assign(this.give(new PoseBar()), {
-            editing: this.editing,
-            margin: () => robot.margin,
-            touches: () => robot.touches,
-        });
-        const robotPane = this.give(new RobotPane());
-        robotPane.onTilt = (front, left) => robot.tilt(front, left);
-        this.addPanel('remote', Object.assign(this.give(new RemotePad()), { shape: this.shape }));
-        this.addPanel('steps', Object.assign(this.give(new StepsPane()), { editing: this.editing }));
+        const { editing, shape } = this;
+        const robot = this.give(new RobotView(), { editing, cover: actions });
+        const poses = this.give(new PoseBar(), { editing, margin: () => robot.margin, touches: () => robot.touches });
+        this.addPanel('remote', this.give(new RemotePad(), { shape }));
+        this.addPanel('steps', this.give(new StepsPane(), { editing }));
         const pages = this.give(new PagesPane());
         const compare = this.give(new CompareDialog());
         pages.onCompare = this.editBar.onTransfer = () => void compare.open();
         this.addEventListener('open-steps', () => this.session.show('steps'));
-        this.addPanel('curves', Object.assign(this.give(new CurvesPane()), { shape: this.shape }));
+        this.addPanel('curves', this.give(new CurvesPane(), { shape }));
         this.addPanel('pages', pages);
         this.addPanel('links', this.give(new LinksPane()));
         this.addPanel('checks', this.give(new ChecksPane()));
         this.addPanel('terminal', this.give(new TerminalPane()));
-        this.addPanel('robot', robotPane);
-        const tour = Object.assign(this.give(new TourCard()), { editing: this.editing, placeOf: (shape: string) => robot.placeOf(shape) });
+        this.addPanel('robot', this.give(new RobotPane(), { onTilt: (front, left) => robot.tilt(front, left) }));
+        const tour = this.give(new TourCard(), {
+            editing,
+            placeOf: part => robot.placeOf(part),
+            onArea: () => this.foldSheet(false),
+            onSend: () => void this.files.send(),
+        });
         this.startTour = () => tour.start();
-        tour.onArea = () => this.foldSheet(false);
-        tour.onSend = () => void this.files.send();
-        const first = Object.assign(this.give(new FirstMinute()), { onTeach: () => tour.teach() });
-        const sent = this.give(new SentCard());
-        sent.onSent = () => first.close(false);
-        sent.onTeach = () => tour.teach();
+        const first = this.give(new FirstMinute(), { onTeach: () => tour.teach() });
+        const sent = this.give(new SentCard(), { onSent: () => first.close(false), onTeach: () => tour.teach() });
         this.tabs.onChoose = (tab, isClick) => (isClick ? this.choose(tab) : this.session.show(tab));
         this.areas.append(this.sheet, this.tabs, this.give(this.editBar), ...this.panels.values());
         this.replaceChildren(
@@ -105,24 +100,11 @@ export class AppShell extends HTMLElement {
             this.keys.element,
         );
         this.addEventListener('click', event => this.giveKeysBack(event));
-        const unlisten = this.keys.listen();
-        const between = (event: KeyboardEvent): void => this.goBetween(event, robot);
-        document.addEventListener('keydown', between);
-        const unwatch = this.session.state.watch(state => this.render(state));
-        this.unwatch = () => {
-            unlisten();
-            document.removeEventListener('keydown', between);
-            unwatch();
-        };
-    }
-
-    disconnectedCallback(): void {
-        this.unwatch();
-    }
-
-    private give<T extends HTMLElement & { session: Session }>(element: T): T {
-        element.session = this.session;
-        return element;
+        this.listenTo(document, 'keydown', event => {
+            this.keys.key(event);
+            this.goBetween(event, robot);
+        });
+        this.disposals.push(this.session.state.watch(state => this.render(state)));
     }
 
     private addPanel(name: Tab, content: HTMLElement): void {
@@ -142,7 +124,7 @@ export class AppShell extends HTMLElement {
             this.yours,
             this.servos,
         );
-        const more = Object.assign(new MoreMenu(), {
+        const more = this.give(new MoreMenu(), {
             content: [
                 sources,
                 this.give(this.files),

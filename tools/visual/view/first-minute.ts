@@ -2,22 +2,20 @@
 // Card over the picture for a first visit: what this is, and three things to do. The first click or key closes it for good.
 
 import type { RobotState } from '../robot/robot-state.ts';
-import type { Session } from './session/session.ts';
 import { define, handOver, make, pictureCanvas } from './element.ts';
 import { pushRobot } from './push.ts';
 import { isRemembered, remember } from './remembered.ts';
 import { startPageAddress } from './texts/languages.ts';
 import { TEXTS } from './texts/texts.ts';
+import { SessionElement } from './session-element.ts';
 import './first-minute.css';
 
 /** Keys that only reach or press a button; they do not close the card. */
 const ON_THE_WAY: readonly string[] = ['Tab', 'Shift', 'Enter', ' ', 'Control', 'Alt', 'Meta', 'F6'];
 
-export class FirstMinute extends HTMLElement {
-    session!: Session; // these are set before it is connected
+export class FirstMinute extends SessionElement {
     /** Called when the user wants to teach the robot. */
-    onTeach: () => void = () => undefined;
-    private readonly disposals: (() => void)[] = [];
+    onTeach: () => void = () => undefined; // set before it is connected
 
     connectedCallback(): void {
         this.hidden = isRemembered('begun');
@@ -37,29 +35,18 @@ export class FirstMinute extends HTMLElement {
             ),
             make('a', { href: startPageAddress() }, TEXTS.first.motions),
         );
-        const beside = (event: Event): void => {
-            if (event.target instanceof Node && !this.contains(event.target)) this.close();
+        const beside = ({ target }: Event): void => {
+            if (target instanceof Node && !this.contains(target)) this.close();
         };
-        const key = (event: KeyboardEvent): void => {
-            if (!ON_THE_WAY.includes(event.key)) this.close();
-        };
-        for (const type of ['pointerdown', 'click'] as const) document.addEventListener(type, beside, { capture: true });
-        document.addEventListener('keydown', key);
-        this.disposals.push(
-            () => document.removeEventListener('keydown', key),
-            ...(['pointerdown', 'click'] as const).map(type => () => document.removeEventListener(type, beside, { capture: true })),
-        );
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
+        for (const type of ['pointerdown', 'click'] as const) this.listenTo(document, type, beside, { capture: true });
+        this.listenTo(document, 'keydown', ({ key }) => !ON_THE_WAY.includes(key) && this.close());
     }
 
     /** hasBegun: false shows the card again at the next visit. */
     close(hasBegun = true): void {
         handOver(this, pictureCanvas(), () => (this.hidden = true));
         if (hasBegun) remember('begun');
-        for (const dispose of this.disposals.splice(0)) dispose();
+        this.disconnectedCallback(); // ends the listening
     }
 
     private choose(action: () => void): void {

@@ -4,15 +4,13 @@
 
 import { targetsFromRest, targetsFrom } from '../model/key-targets.ts';
 import type { KeyTarget } from '../model/key-targets.ts';
-import type { Session } from './session/session.ts';
 import { codeText } from './texts/editor.ts';
 import { define, make, once } from './element.ts';
 import { TEXTS } from './texts/texts.ts';
+import { SessionElement } from './session-element.ts';
 import './key-list.css';
 
-export class KeyList extends HTMLElement {
-    session!: Session; // set before it is connected
-    private readonly disposals: (() => void)[] = [];
+export class KeyList extends SessionElement {
     private readonly heading = make('h2');
     private readonly list = make('ul');
     private shown = '';
@@ -24,10 +22,6 @@ export class KeyList extends HTMLElement {
         this.replaceChildren(this.heading, this.list);
         const render = (): void => this.render();
         this.disposals.push(this.session.state.watch(render), this.session.editor.state.watch(render));
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     /** code: of the held keys; 0: none. */

@@ -27,14 +27,10 @@ export class KeysDialog {
         );
     }
 
-    /** Opens the dialog on "?", except while typing. The returned function removes the listener. */
-    listen(): () => void {
-        const key = (event: KeyboardEvent): void => {
-            const isInList = event.target instanceof HTMLSelectElement; // letters select in a list
-            if (event.key === '?' && !isTyping(event) && !isInList && !event.ctrlKey && !event.altKey) this.open();
-        };
-        document.addEventListener('keydown', key);
-        return () => document.removeEventListener('keydown', key);
+    /** Opens the dialog on "?", except while typing. */
+    key(event: KeyboardEvent): void {
+        const isInList = event.target instanceof HTMLSelectElement; // letters select in a list
+        if (event.key === '?' && !isTyping(event) && !isInList && !event.ctrlKey && !event.altKey) this.open();
     }
 
     open(): void {

@@ -3,13 +3,11 @@
 
 import { onChoice } from './choice.ts';
 import { define, make } from './element.ts';
-import type { Session } from './session/session.ts';
+import { SessionElement } from './session-element.ts';
 import { LANGUAGES, chooseLanguage } from './texts/languages.ts';
 import { TEXTS } from './texts/texts.ts';
 
-export class LanguageChoice extends HTMLElement {
-    session!: Session; // set before it is connected
-
+export class LanguageChoice extends SessionElement {
     connectedCallback(): void {
         const { lang } = document.documentElement;
         const choices = Object.entries(LANGUAGES).map(([value, name]) =>

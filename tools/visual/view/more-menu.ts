@@ -2,10 +2,11 @@
 // Tools of the header row. Where they do not fit, a button opens them as a menu.
 
 import { closesByItself, define, make } from './element.ts';
+import { SessionElement } from './session-element.ts';
 import { TEXTS } from './texts/texts.ts';
 import './more-menu.css';
 
-export class MoreMenu extends HTMLElement {
+export class MoreMenu extends SessionElement {
     /** Set before it is connected. Its dialogs are visible even while the menu is closed. */
     content: readonly HTMLElement[] = [];
     private readonly toggle = make(
@@ -13,7 +14,6 @@ export class MoreMenu extends HTMLElement {
         { class: 'toggle', 'aria-expanded': 'false', onclick: () => (this.open = !this.open) },
         TEXTS.menu.menu,
     );
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         const tools = make('div', { class: 'tools' }, ...this.content);
@@ -21,10 +21,6 @@ export class MoreMenu extends HTMLElement {
         const sizes = new ResizeObserver(() => this.fit());
         for (const element of [tools, this.parentElement]) if (element) sizes.observe(element);
         this.disposals.push(closesByItself(this), () => sizes.disconnect());
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     /** Unfolds first, because the width of the texts can only be measured while they are shown. */

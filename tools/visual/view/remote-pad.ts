@@ -5,7 +5,6 @@
 import { wordOf } from '../robot/remote.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import type { Shape } from '../model/motion.ts';
-import type { Session } from './session/session.ts';
 import { LayerBar } from './editor/layer-bar.ts';
 import { ShapeBar } from './editor/shape-bar.ts';
 import { define, make, withoutMenu } from './element.ts';
@@ -16,6 +15,7 @@ import { WaveButton } from './wave-button.ts';
 import { GamePad, padOf } from './game-pad.ts';
 import { KeyList } from './key-list.ts';
 import { buttonOf, isForFocus } from './remote-keys.ts';
+import { SessionElement } from './session-element.ts';
 import './remote-pad.css';
 
 const BUTTONS: readonly (readonly [RemoteButton, string])[] = [
@@ -31,36 +31,30 @@ const BUTTONS: readonly (readonly [RemoteButton, string])[] = [
     ['b6', '6'],
 ];
 
-export class RemotePad extends HTMLElement {
-    session!: Session; // these are set before it is connected
-    shape!: Store<Shape>;
+export class RemotePad extends SessionElement {
+    shape!: Store<Shape>; // set before it is connected
     private readonly pad = new GamePad();
     private readonly held = { screen: new Set<RemoteButton>(), keys: new Set<RemoteButton>(), pad: new Set<RemoteButton>() };
     private readonly buttons = new Map<RemoteButton, HTMLButtonElement>();
     private readonly keyList = new KeyList();
     private sent = '';
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         const pad = make('div', { class: 'pad', role: 'group', 'aria-label': TEXTS.remote.title });
         for (const [name, sign] of BUTTONS) pad.append(this.button(name, sign, TEXTS.remote[name]));
-        this.keyList.session = this.session;
-        const give = <T extends HTMLElement & { session: Session }>(element: T): T => Object.assign(element, { session: this.session });
-        const shape = Object.assign(give(new ShapeBar()), { shape: this.shape });
+        const shape = this.give(new ShapeBar(), { shape: this.shape });
         this.replaceChildren(
             make('h2', {}, TEXTS.remote.title),
-            make('div', { class: 'drive' }, pad, make('div', { class: 'goes' }, shape, give(new WaveButton()))),
+            make('div', { class: 'drive' }, pad, make('div', { class: 'goes' }, shape, this.give(new WaveButton()))),
             make('p', { class: 'hint' }, TEXTS.remote.keys),
-            this.keyList,
-            make('details', { class: 'overlay' }, make('summary', {}, TEXTS.remote.layers), give(new LayerBar())),
+            this.give(this.keyList),
+            make('details', { class: 'overlay' }, make('summary', {}, TEXTS.remote.layers), this.give(new LayerBar())),
             make('p', { class: 'hint' }, make('a', { href: startPageAddress() }, TEXTS.remote.motions)),
         );
-        this.listen();
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
-        this.letGo();
+        for (const type of ['keydown', 'keyup'] as const) this.listenTo(window, type, event => this.key(event));
+        this.listenTo(window, 'blur', () => this.letGo());
+        this.disposals.push(() => this.letGo());
+        this.watchPad();
     }
 
     private button(name: RemoteButton, sign: string, title: string): HTMLButtonElement {
@@ -80,20 +74,6 @@ export class RemotePad extends HTMLElement {
         return button;
     }
 
-    private listen(): void {
-        const key = (event: KeyboardEvent): void => this.key(event);
-        const blur = (): void => this.letGo();
-        window.addEventListener('keydown', key);
-        window.addEventListener('keyup', key);
-        window.addEventListener('blur', blur);
-        this.disposals.push(
-            () => window.removeEventListener('keydown', key),
-            () => window.removeEventListener('keyup', key),
-            () => window.removeEventListener('blur', blur),
-        );
-        this.watchPad();
-    }
-
     /** Polls the gamepad while there is one: its buttons cause no events. */
     private watchPad(): void {
         let frame = 0;
@@ -102,14 +82,8 @@ export class RemotePad extends HTMLElement {
             this.readPad(pad);
             frame = pad ? requestAnimationFrame(ask) : 0;
         };
-        const begin = (): void => {
-            if (frame === 0) ask();
-        };
-        window.addEventListener('gamepadconnected', begin);
-        this.disposals.push(
-            () => window.removeEventListener('gamepadconnected', begin),
-            () => cancelAnimationFrame(frame),
-        );
+        this.listenTo(window, 'gamepadconnected', () => frame === 0 && ask());
+        this.disposals.push(() => cancelAnimationFrame(frame));
     }
 
     private key(event: KeyboardEvent): void {

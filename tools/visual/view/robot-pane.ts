@@ -2,13 +2,14 @@
 // Controls of the simulated robot: time, power, battery, floor, firmware, player, servos and their faults.
 
 import { NOMINAL_VOLTS, TICKS_PER_SECOND } from '../model/motion.ts';
-import type { Session, SessionState, ImageName, PanelButton } from './session/session.ts';
+import type { SessionState, ImageName, PanelButton } from './session/session.ts';
 import type { RobotState } from '../robot/robot-state.ts';
 import { ask } from './editor/ask-dialog.ts';
 import { define, make, setText } from './element.ts';
 import { pushRobot } from './push.ts';
 import { ServoTable } from './servo-table.ts';
 import { TEXTS } from './texts/texts.ts';
+import { SessionElement } from './session-element.ts';
 import './robot-pane.css';
 
 /** Factors for the robot's time, with labels; without a label: real time. */
@@ -26,19 +27,15 @@ const LEDS = ['Power', 'TxD', 'RxD', 'Aux', 'Manage', 'Program', 'Play'];
 const SEEN_LATE_MS = 50;
 const RADIANS = Math.PI / 180;
 
-export class RobotPane extends HTMLElement {
-    session!: Session; // set before it is connected
+export class RobotPane extends SessionElement {
     /** Tilts the picture (radians). */
     onTilt: (front: number, left: number) => void = () => undefined;
     private readonly speeds = new Map<number, HTMLButtonElement>();
     private readonly leds = make('div', { class: 'leds', role: 'img', 'aria-label': TEXTS.robotPane.lamps });
     private readonly clock = make('p', { class: 'clock' });
     private readonly floor = { tiltFront: 0, tiltLeft: 0, friction: 0.8 };
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
-        const servos = new ServoTable();
-        servos.session = this.session;
         this.replaceChildren(
             make('p', { class: 'only-simulated' }, TEXTS.robotPane.onlyInPage),
             make(
@@ -49,7 +46,7 @@ export class RobotPane extends HTMLElement {
                 this.roomSection(),
                 this.imageSection(),
                 this.lawSection(),
-                servos,
+                this.give(new ServoTable()),
             ),
         );
         this.disposals.push(
@@ -59,10 +56,6 @@ export class RobotPane extends HTMLElement {
                 this.showLeds(state.leds);
             }),
         );
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     private render(state: SessionState): void {

@@ -7,7 +7,6 @@ import type { Joint } from '../model/body.ts';
 import { limbTo } from '../model/ik.ts';
 import type { Touch } from '../model/trial.ts';
 import type { RobotState } from '../robot/robot-state.ts';
-import type { Session } from './session/session.ts';
 import { EDITING_START } from './editor/editing.ts';
 import type { Editing } from './editor/editing.ts';
 import { PoseTool } from './editor/pose-tool.ts';
@@ -24,6 +23,7 @@ import { pushRobot } from './push.ts';
 import { jointTitle } from './texts/robot.ts';
 import { TEXTS } from './texts/texts.ts';
 import { watchRobot } from './watch-robot.ts';
+import { SessionElement } from './session-element.ts';
 import './robot-view.css';
 
 /** Mark in the browser's performance timeline: the robot is visible for the first time. */
@@ -34,8 +34,7 @@ const NEARER = 0.9;
 const FINGER_PX = 14;
 const AROUND = Array.from({ length: 8 }, (_, i) => (i * Math.PI) / 4);
 
-export class RobotView extends HTMLElement {
-    session!: Session; // set before it is connected
+export class RobotView extends SessionElement {
     editing = new Store<Editing>(EDITING_START);
     /** Element that covers part of the lower edge; the robot is shifted up for it. */
     cover: HTMLElement | null = null;
@@ -59,7 +58,6 @@ export class RobotView extends HTMLElement {
     private readonly spoken = make('p', { class: 'visually-hidden', role: 'status', 'aria-label': TEXTS.picture.chosenJoint });
     private readonly canvas = make('canvas', { tabindex: 0, role: 'img', 'aria-label': TEXTS.picture.robot });
     private readonly fingers = new Fingers(this.canvas, () => this.endDrag());
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.append(this.canvas, this.label, this.spoken);
@@ -77,13 +75,11 @@ export class RobotView extends HTMLElement {
         this.watchTheme(this.scene);
         this.listen();
         this.watchShown(this.scene);
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
-        this.pose?.dispose();
-        this.scene?.dispose();
-        this.scene = null;
+        this.disposals.push(() => {
+            this.pose?.dispose();
+            this.scene?.dispose();
+            this.scene = null;
+        });
     }
 
     /** Nothing in the picture changes, and the camera is at rest. */

@@ -2,12 +2,12 @@
 // All servos: goal, position, torque, alarms and a simulated fault for each. The chosen one is charted over time.
 
 import type { RobotState, ServoState } from '../robot/robot-state.ts';
-import type { Session } from './session/session.ts';
 import { onChoice } from './choice.ts';
 import { define, make, setText } from './element.ts';
 import { ServoChart } from './servo-chart.ts';
 import { jointTitle } from './texts/robot.ts';
 import { TEXTS } from './texts/texts.ts';
+import { SessionElement } from './session-element.ts';
 
 const FRAMES_A_SECOND = 60;
 const UPDATES_A_SECOND = 10;
@@ -19,12 +19,10 @@ interface Row {
     readonly fault: HTMLSelectElement;
 }
 
-export class ServoTable extends HTMLElement {
-    session!: Session; // set before it is connected
+export class ServoTable extends SessionElement {
     private readonly chart = new ServoChart();
     private readonly rows = new Map<number, Row>();
     private frame = 0;
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         const { servos: texts } = TEXTS;
@@ -50,10 +48,6 @@ export class ServoTable extends HTMLElement {
             this.session.onFrame(state => this.take(state)),
             this.session.state.watch(state => this.fillFaults(state.faultNames)),
         );
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     private row(servo: number, title: string): HTMLTableRowElement {

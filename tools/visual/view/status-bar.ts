@@ -2,14 +2,14 @@
 // The status bar at the bottom: what the robot does, and the last message.
 
 import { Announcer } from './announcer.ts';
-import type { Session, SessionState, Notice } from './session/session.ts';
+import type { SessionState, Notice } from './session/session.ts';
 import { define, make, setText } from './element.ts';
 import { postureText } from './texts/robot.ts';
 import { TEXTS } from './texts/texts.ts';
+import { SessionElement } from './session-element.ts';
 import './status-bar.css';
 
-export class StatusBar extends HTMLElement {
-    session!: Session; // set before it is connected
+export class StatusBar extends SessionElement {
     private readonly doing = make('p', { class: 'doing', role: 'status', 'aria-live': 'off', 'aria-label': TEXTS.status.activity });
     private readonly message = make('p', { class: 'message', role: 'log', 'aria-live': 'off', 'aria-label': TEXTS.status.message });
     /** The only part that screen readers read aloud. */
@@ -21,7 +21,6 @@ export class StatusBar extends HTMLElement {
     /** Stands as long as what the robot saves is not kept. */
     private readonly unkept = make('p', { class: 'unkept', role: 'status', 'aria-label': TEXTS.status.memory, 'data-tone': 'bad' });
     private readonly facts = make('p', { class: 'facts' });
-    private readonly disposals: (() => void)[] = [];
     /** As the robot in the page reported last. */
     private posture = { hasFallen: false, isHeld: false };
 
@@ -35,10 +34,6 @@ export class StatusBar extends HTMLElement {
                 this.render(this.session.state.get());
             }),
         );
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     private render(state: SessionState): void {

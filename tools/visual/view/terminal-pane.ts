@@ -5,8 +5,8 @@
 import { Terminal } from '@xterm/xterm';
 import { TEXTS } from './texts/texts.ts';
 import '@xterm/xterm/css/xterm.css';
-import type { Session } from './session/session.ts';
 import { define, make } from './element.ts';
+import { SessionElement } from './session-element.ts';
 import './terminal-pane.css';
 
 const COLUMNS = 80;
@@ -19,15 +19,13 @@ const FONT = { least: 12, most: 16 };
 const BELOW_PX = 8;
 const LINES_KEPT = 2000;
 
-export class TerminalPane extends HTMLElement {
-    session!: Session; // set before it is connected
+export class TerminalPane extends SessionElement {
     private terminal: Terminal | null = null;
     private readonly full = make(
         'button',
         { class: 'full-screen', 'aria-pressed': 'false', onclick: () => void this.fillScreen() },
         TEXTS.terminal.fullScreen,
     );
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         const screen = make('div', { class: 'screen' });
@@ -56,11 +54,6 @@ export class TerminalPane extends HTMLElement {
             () => observer.disconnect(),
             () => terminal.dispose(),
         );
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
-        this.terminal = null;
     }
 
     override focus(): void {

@@ -2,18 +2,17 @@
 // Waves while the robot walks: overlays a page of the library that uses only the right arm. A standing robot begins to walk first.
 
 import { wordOf } from '../robot/remote.ts';
-import type { Session, SessionState } from './session/session.ts';
+import type { SessionState } from './session/session.ts';
 import { define, make, setDisabled } from './element.ts';
 import { TEXTS } from './texts/texts.ts';
 import { WaveWish } from './wave-wish.ts';
+import { SessionElement } from './session-element.ts';
 
 const WAVE = 'wave_over';
 
-export class WaveButton extends HTMLElement {
-    session!: Session; // set before it is connected
+export class WaveButton extends SessionElement {
     private readonly button = make('button', { title: TEXTS.remote.waveHint, onclick: () => this.press() }, TEXTS.remote.wave);
     private readonly wish = new WaveWish();
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.replaceChildren(this.button);
@@ -21,10 +20,6 @@ export class WaveButton extends HTMLElement {
             this.session.state.watch(state => this.render(state)),
             this.session.onStop(() => this.wish.forget()), // Stop, and another robot
         );
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     private render(state: SessionState): void {

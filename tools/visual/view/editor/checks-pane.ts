@@ -9,7 +9,7 @@ import type { MotionDocument } from '../../model/document.ts';
 import type { Finding } from '../../model/file-formats.ts';
 import { MARK_BYTES, NOMINAL_VOLTS } from '../../model/motion.ts';
 import type { Curve, Law } from '../../model/motion.ts';
-import type { Session, Tab } from '../session/session.ts';
+import type { Tab } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import type { PageTrial } from '../session/trials.ts';
 import { PhysicsBar } from './physics-bar.ts';
@@ -17,6 +17,7 @@ import { findingText, isFaulty } from '../texts/editor.ts';
 import { jointTitle } from '../texts/robot.ts';
 import { TEXTS } from '../texts/texts.ts';
 import { touchText, verdictText } from '../texts/trials.ts';
+import { SessionElement } from '../session-element.ts';
 import './checks-pane.css';
 
 const WAIT_MS = 400;
@@ -38,8 +39,7 @@ interface Shown {
     readonly isQuoted?: boolean;
 }
 
-export class ChecksPane extends HTMLElement {
-    session!: Session; // set before it is connected
+export class ChecksPane extends SessionElement {
     private readonly summary = make('p', { class: 'summary', role: 'status', 'aria-label': TEXTS.checks.result });
     private readonly list = make('ul', { 'aria-label': TEXTS.checks.findings });
     /** The law of the findings. */
@@ -52,11 +52,9 @@ export class ChecksPane extends HTMLElement {
     /** Findings of the last check, without physics. */
     private known: { readonly document: MotionDocument; readonly all: readonly Shown[]; readonly note: string } | null = null;
     private timer: ReturnType<typeof setTimeout> | undefined;
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
-        const physics = Object.assign(new PhysicsBar(), { session: this.session });
-        this.replaceChildren(make('p', { class: 'purpose' }, TEXTS.checks.purpose), physics, this.summary, this.list);
+        this.replaceChildren(make('p', { class: 'purpose' }, TEXTS.checks.purpose), this.give(new PhysicsBar()), this.summary, this.list);
         const { editor, state, trials } = this.session;
         this.disposals.push(
             editor.state.watch(() => this.later()),
@@ -64,10 +62,6 @@ export class ChecksPane extends HTMLElement {
             trials.state.watch(() => this.render()),
             () => clearTimeout(this.timer),
         );
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     private later(): void {

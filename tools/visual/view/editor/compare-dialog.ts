@@ -6,20 +6,19 @@ import { documentFrom, imageOf, pageOf } from '../../model/document.ts';
 import type { MotionDocument } from '../../model/document.ts';
 import type { EditorState } from '../../model/editor-state.ts';
 import { readPage } from '../../model/page.ts';
-import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import type { TransferState } from '../session/transfer.ts';
 import { comparables, pagesOf } from './compared.ts';
 import { ghosts } from './ghosts.ts';
 import { transferText } from '../texts/editor.ts';
 import { TEXTS } from '../texts/texts.ts';
+import { SessionElement } from '../session-element.ts';
 import './compare-dialog.css';
 
 /** Lines of text that a page shows before it is expanded. */
 const LINES = 4;
 
-export class CompareDialog extends HTMLElement {
-    session!: Session; // set before it is connected
+export class CompareDialog extends SessionElement {
     private readonly which = make('select', { 'aria-label': TEXTS.compare.withLabel, onchange: () => void this.choose() });
     private readonly chooser = make('input', {
         type: 'file',
@@ -54,7 +53,6 @@ export class CompareDialog extends HTMLElement {
     private readonly ticks = new Map<number, HTMLInputElement>();
     private readonly marks = new Map<number, HTMLElement>();
     private looked = 0;
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.dialog.replaceChildren(
@@ -77,10 +75,6 @@ export class CompareDialog extends HTMLElement {
             transfer.state.watch(state => this.dialog.open && this.renderTransfer(state)),
             editor.state.watch(state => this.sidesChanged(state)),
         );
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     /** Opens the comparison with the robot and reads its pages. */

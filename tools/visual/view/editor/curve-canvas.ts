@@ -6,7 +6,6 @@ import { jointAngle } from '../../model/body.ts';
 import type { Body, Joint } from '../../model/body.ts';
 import { AS_STORED, NOMINAL_VOLTS } from '../../model/motion.ts';
 import type { Shape } from '../../model/motion.ts';
-import type { Session } from '../session/session.ts';
 import { define, make, setText, withoutMenu } from '../element.ts';
 import { jointTitle } from '../texts/robot.ts';
 import { TEXTS } from '../texts/texts.ts';
@@ -16,6 +15,7 @@ import { CurveFrame, drawCurves } from './curve-picture.ts';
 import type { CurveColours, CurveScene, WayPoint } from './curve-picture.ts';
 import { curveScene } from './curve-scene.ts';
 import { ServoFollow } from './servo-follow.ts';
+import { SessionElement } from '../session-element.ts';
 
 export const CHOSEN_COLOURS = ['--curve-1', '--curve-2', '--curve-3', '--curve-4', '--curve-5', '--curve-6'];
 
@@ -32,8 +32,7 @@ export interface Drawn {
     readonly isUnknown: boolean;
 }
 
-export class CurveCanvas extends HTMLElement {
-    session!: Session; // set before it is connected
+export class CurveCanvas extends SessionElement {
     /** Called after each drawing. */
     onDrawn: (drawn: Drawn) => void = () => undefined;
     private shape = AS_STORED;
@@ -43,7 +42,6 @@ export class CurveCanvas extends HTMLElement {
     private hand!: CurveHand; // this and `follow` need the session, so connectedCallback() makes them
     private follow!: ServoFollow;
     private request = 0;
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.replaceChildren(this.canvas, this.label);
@@ -66,17 +64,13 @@ export class CurveCanvas extends HTMLElement {
         const themes = new MutationObserver(() => this.later());
         themes.observe(document.documentElement, { attributeFilter: ['data-theme'] });
         this.disposals.push(
+            () => this.end(true),
             () => this.follow.dispose(),
             () => sizes.disconnect(),
             () => themes.disconnect(),
             () => cancelAnimationFrame(this.request),
             this.session.editor.state.watch(() => this.later()),
         );
-    }
-
-    disconnectedCallback(): void {
-        this.end(true);
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     setShape(shape: Shape): void {

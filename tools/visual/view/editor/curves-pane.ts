@@ -3,7 +3,7 @@
 
 import type { TickSpan } from '../../model/curve-speed.ts';
 import type { Shape } from '../../model/motion.ts';
-import type { Session, Tab } from '../session/session.ts';
+import type { Tab } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
 import { lagText } from '../texts/editor.ts';
@@ -15,22 +15,20 @@ import type { Drawn } from './curve-canvas.ts';
 import { PageHead } from './page-head.ts';
 import { PlayBar } from './play-bar.ts';
 import { limbGroups } from './teach-bar.ts';
+import { SessionElement } from '../session-element.ts';
 import './curves-pane.css';
 
-export class CurvesPane extends HTMLElement {
-    session!: Session; // these are set before it is connected
-    shape!: Store<Shape>;
+export class CurvesPane extends SessionElement {
+    shape!: Store<Shape>; // set before it is connected
     private readonly chips = new Map<number, HTMLButtonElement>();
     private readonly legend = make('ul', { class: 'legend', 'aria-label': TEXTS.curves.lines });
     private readonly fast = make('p', { class: 'fast', role: 'status', 'aria-label': TEXTS.curves.tooFast });
     private readonly follow = make('input', { type: 'checkbox' });
     private readonly lines = make('p', { class: 'lines', role: 'status', 'aria-label': TEXTS.curves.otherLines });
     private shownTab: Tab | null = null;
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
-        const give = <T extends HTMLElement & { session: Session }>(element: T): T => Object.assign(element, { session: this.session });
-        const canvas = give(new CurveCanvas());
+        const canvas = this.give(new CurveCanvas());
         canvas.onDrawn = drawn => {
             this.sayFast(drawn.fast);
             this.sayLines(drawn);
@@ -39,10 +37,10 @@ export class CurvesPane extends HTMLElement {
         this.follow.addEventListener('change', () => canvas.setFollow(this.follow.checked));
         this.replaceChildren(
             make('p', { class: 'purpose' }, TEXTS.curves.purpose),
-            give(new PageHead()),
+            this.give(new PageHead()),
             canvas,
             this.legend,
-            give(new PlayBar()),
+            this.give(new PlayBar()),
             this.fast,
             this.lines,
             make('label', { class: 'follow', title: TEXTS.curves.followHint }, this.follow, TEXTS.curves.follow),
@@ -58,10 +56,6 @@ export class CurvesPane extends HTMLElement {
             }),
             this.shape.watch(shape => canvas.setShape(shape)),
         );
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     /** Eighteen lines at once are unreadable, so at first the limb that moves most is chosen. */

@@ -5,7 +5,6 @@ import { copyName, freeName } from '../../model/document.ts';
 import { dirtyPages } from '../../model/editor-state.ts';
 import type { MotionDocument } from '../../model/document.ts';
 import type { EditorState } from '../../model/editor-state.ts';
-import type { Session } from '../session/session.ts';
 import type { DocumentsState } from '../session/documents.ts';
 import { onChoice } from '../choice.ts';
 import { keyOf } from '../key-of.ts';
@@ -13,6 +12,7 @@ import { define, isTyping, make, setDisabled, setText } from '../element.ts';
 import { ask, askText, awaited } from './ask-dialog.ts';
 import { editText, savingText, transferText } from '../texts/editor.ts';
 import { TEXTS } from '../texts/texts.ts';
+import { SessionElement } from '../session-element.ts';
 import './edit-bar.css';
 
 const NEW = 'new';
@@ -21,8 +21,7 @@ const FROM_ROBOT = 'robot';
 const RENAME = 'rename';
 const REMOVE = 'remove';
 
-export class EditBar extends HTMLElement {
-    session!: Session; // set before it is connected
+export class EditBar extends SessionElement {
     /** Opens the transfer to the robot. */
     onTransfer: () => void = () => undefined;
     private readonly documents = make('select', { 'aria-label': TEXTS.document.document });
@@ -30,25 +29,18 @@ export class EditBar extends HTMLElement {
     private readonly undo = make('button', { onclick: () => this.session.editor.undo() }, '↶');
     private readonly redo = make('button', { onclick: () => this.session.editor.redo() }, '↷');
     private readonly transfer = make('button', { onclick: () => this.onTransfer() }, TEXTS.document.toRobot);
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.setAttribute('role', 'toolbar');
         this.setAttribute('aria-label', TEXTS.document.document);
         this.replaceChildren(this.documents, this.saving, this.undo, this.redo, this.transfer);
         onChoice(this.documents, value => void this.chooseDocument(value));
-        const keys = (event: KeyboardEvent): void => this.key(event);
-        document.addEventListener('keydown', keys);
+        this.listenTo(document, 'keydown', event => this.key(event));
         this.disposals.push(
             this.session.documents.state.watch(state => this.renderDocuments(state)),
             this.session.editor.state.watch(state => this.renderEdits(state)),
             this.session.documents.state.watch(() => this.renderEdits(this.session.editor.state.get())),
-            () => document.removeEventListener('keydown', keys),
         );
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     private renderDocuments({ documents, openId, saving, unreadable }: DocumentsState): void {

@@ -4,19 +4,18 @@
 
 import { SUFFIXES } from '../../model/file-formats.ts';
 import type { Suffix } from '../../model/file-formats.ts';
-import type { Session } from '../session/session.ts';
 import { onChoice } from '../choice.ts';
 import { copyText } from '../clipboard.ts';
 import { define, make } from '../element.ts';
 import type { FilesState } from '../session/files.ts';
 import { TEXTS } from '../texts/texts.ts';
+import { SessionElement } from '../session-element.ts';
 import './files-menu.css';
 
 const ACCEPTED = '.m512,.bin,.img,.hex,.ihex,.mtn';
 const FORGET_MS = 60_000; // a download has started by then
 
-export class FilesMenu extends HTMLElement {
-    session!: Session; // set before it is connected
+export class FilesMenu extends SessionElement {
     private readonly chooser = make('input', {
         type: 'file',
         accept: ACCEPTED,
@@ -26,7 +25,6 @@ export class FilesMenu extends HTMLElement {
     });
     private readonly dialog = make('dialog', { 'aria-labelledby': 'files-title', oncancel: () => this.leave() });
     private shown: FilesState | null = null;
-    private readonly ends: (() => void)[] = [];
 
     connectedCallback(): void {
         const save = make(
@@ -46,18 +44,9 @@ export class FilesMenu extends HTMLElement {
             this.chooser,
             this.dialog,
         );
-        this.listen('dragover', event => this.isFile(event) && event.preventDefault());
-        this.listen('drop', event => void this.dropped(event));
-        this.ends.push(this.session.files.state.watch(state => this.render(state)));
-    }
-
-    disconnectedCallback(): void {
-        for (const end of this.ends.splice(0)) end();
-    }
-
-    private listen(type: 'dragover' | 'drop', listener: (event: DragEvent) => void): void {
-        window.addEventListener(type, listener);
-        this.ends.push(() => window.removeEventListener(type, listener));
+        this.listenTo(window, 'dragover', event => this.isFile(event) && event.preventDefault());
+        this.listenTo(window, 'drop', event => void this.dropped(event));
+        this.disposals.push(this.session.files.state.watch(state => this.render(state)));
     }
 
     private isFile(event: DragEvent): boolean {

@@ -2,18 +2,16 @@
 // Live follow: the robot moves slowly to the chosen step. Off by default, and switched off when the taught limbs change, the robot is stopped
 // or refuses, or the connection ends or the servo adapter is out: a robot that is plugged in again must not move by itself.
 
-import type { Session } from '../session/session.ts';
 import { define, make, setDisabled } from '../element.ts';
 import type { Store } from '../store.ts';
 import { isEditing } from './editing.ts';
 import type { Editing } from './editing.ts';
 import { TEXTS } from '../texts/texts.ts';
+import { SessionElement } from '../session-element.ts';
 
-export class FollowBar extends HTMLElement {
-    session!: Session; // these are set before it is connected
-    editing!: Store<Editing>;
+export class FollowBar extends SessionElement {
+    editing!: Store<Editing>; // set before it is connected
     private readonly box = make('input', { type: 'checkbox', onchange: () => this.editing.set({ follow: this.box.checked }) });
-    private readonly disposals: (() => void)[] = [];
     private isFollowing = false;
 
     connectedCallback(): void {
@@ -23,12 +21,8 @@ export class FollowBar extends HTMLElement {
             this.session.editor.state.watch(() => this.render()),
             this.session.state.watch(() => this.render()),
             this.session.onStop(() => this.end()),
+            () => this.isFollowing && this.session.follow(null),
         );
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
-        if (this.isFollowing) this.session.follow(null);
     }
 
     private render(): void {

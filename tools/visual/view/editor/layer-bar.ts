@@ -5,16 +5,15 @@ import { jointAngle, nearestPosition } from '../../model/body.ts';
 import type { Joint } from '../../model/body.ts';
 import { pageOf } from '../../model/document.ts';
 import { POSITION_MAX, POSITION_MIDDLE } from '../../model/motion.ts';
-import type { Session } from '../session/session.ts';
 import { define, make, setDisabled } from '../element.ts';
 import { jointTitle, layersText } from '../texts/robot.ts';
 import { TEXTS } from '../texts/texts.ts';
+import { SessionElement } from '../session-element.ts';
 import './layer-bar.css';
 
 const AIM_DEGREES_S = 90;
 
-export class LayerBar extends HTMLElement {
-    session!: Session; // set before it is connected
+export class LayerBar extends SessionElement {
     private readonly page = make('select', { 'aria-label': TEXTS.layers.motion });
     private readonly joints = make(
         'select',
@@ -64,7 +63,6 @@ export class LayerBar extends HTMLElement {
     ];
     private shown: readonly Uint8Array[] | null = null;
     private joint: Joint | null = null;
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         const [lay, off, aim, swing, free] = this.actions;
@@ -84,10 +82,6 @@ export class LayerBar extends HTMLElement {
             this.session.editor.state.watch(() => this.render()),
             this.session.state.watch(() => this.render()),
         );
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     private get chosen(): Joint[] {

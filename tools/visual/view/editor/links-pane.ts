@@ -5,7 +5,6 @@
 import { linkGraph } from '../../model/links.ts';
 import type { LinkGraph } from '../../model/links.ts';
 import type { MotionDocument } from '../../model/document.ts';
-import type { Session } from '../session/session.ts';
 import { define, keepFocus, make } from '../element.ts';
 import { LINK_FIELDS, PARTNER_FIELDS } from '../../model/page.ts';
 import type { LinkField } from '../../model/page.ts';
@@ -14,17 +13,16 @@ import { dispatchAsked } from './asked.ts';
 import { linkChart, markChart } from './link-chart.ts';
 import { linkList } from './link-list.ts';
 import { TEXTS } from '../texts/texts.ts';
+import { SessionElement } from '../session-element.ts';
 import './links-pane.css';
 
-export class LinksPane extends HTMLElement {
-    session!: Session; // set before it is connected
+export class LinksPane extends SessionElement {
     private readonly chart = make('div', { class: 'chart' });
     private readonly list = make('div', { class: 'list' });
     private graph: LinkGraph = { nodes: [], links: [] };
     private drawn: MotionDocument | null = null;
     private listed = '';
     private pulled = 0;
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.replaceChildren(
@@ -54,10 +52,6 @@ export class LinksPane extends HTMLElement {
             this.session.editor.state.watch(() => this.render()),
             this.session.state.watch(() => queueMicrotask(() => this.render())),
         ); // by then the area is visible and has a width
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     private render(): void {

@@ -3,16 +3,15 @@
 
 import { pageOf } from '../../model/document.ts';
 import { PAGE_COUNT } from '../../model/motion.ts';
-import type { Session } from '../session/session.ts';
 import { define, make, once, setDisabled } from '../element.ts';
 import { TypedFor } from './shown-for.ts';
 import { TEXTS } from '../texts/texts.ts';
+import { SessionElement } from '../session-element.ts';
 
 /** Library pages that the user wants to edit directly, not as copies: in every area, but not in another document. */
 const AGREED = new WeakSet<Uint8Array>();
 
-export class PageHead extends HTMLElement {
-    session!: Session; // set before it is connected
+export class PageHead extends SessionElement {
     private readonly choice = make('select', {
         'aria-label': TEXTS.steps.choose,
         onchange: () => this.session.editor.select({ page: Number(this.choice.value) }),
@@ -32,7 +31,6 @@ export class PageHead extends HTMLElement {
     private readonly library = make('div', { class: 'library', role: 'status' });
     private readonly typedName = new TypedFor();
     private shown: readonly Uint8Array[] | null = null;
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.name.addEventListener('input', () => this.typedName.type());
@@ -60,10 +58,6 @@ export class PageHead extends HTMLElement {
             this.session.editor.state.watch(() => this.render()),
             this.session.state.watch(() => this.render()),
         );
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     private render(): void {

@@ -5,18 +5,17 @@ import { pageOf } from '../../model/document.ts';
 import { dirtyPages } from '../../model/editor-state.ts';
 import type { EditorState } from '../../model/editor-state.ts';
 import { PAGE_COUNT } from '../../model/motion.ts';
-import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import { keyOf } from '../key-of.ts';
 import { PageCard } from './page-card.ts';
 import { PageActions } from './page-actions.ts';
 import { TEXTS } from '../texts/texts.ts';
+import { SessionElement } from '../session-element.ts';
 import './pages-pane.css';
 
 type Filter = 'all' | 'used' | 'changed';
 
-export class PagesPane extends HTMLElement {
-    session!: Session; // set before it is connected
+export class PagesPane extends SessionElement {
     /** Opens the comparison with a robot, a backup or another document. */
     onCompare: () => void = () => undefined;
     private readonly cards: PageCard[] = [];
@@ -38,7 +37,6 @@ export class PagesPane extends HTMLElement {
     private actions!: PageActions; // needs the session
     private dragged = 0;
     private playing = -1;
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.actions = new PageActions(this.session.editor);
@@ -55,10 +53,6 @@ export class PagesPane extends HTMLElement {
                 this.render(this.session.editor.state.get());
             }),
         );
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     private get current(): number {

@@ -2,14 +2,13 @@
 // Part of Checks: starts trials of motions in physics, shows progress and a summary of the results.
 
 import { pageOf } from '../../model/document.ts';
-import type { Session } from '../session/session.ts';
 import { define, handOver, make } from '../element.ts';
 import type { TrialsState } from '../session/trials.ts';
 import { TEXTS } from '../texts/texts.ts';
 import { countedText } from '../texts/trials.ts';
+import { SessionElement } from '../session-element.ts';
 
-export class PhysicsBar extends HTMLElement {
-    session!: Session; // set before it is connected
+export class PhysicsBar extends SessionElement {
     private readonly one = make('button', { onclick: () => void this.session.trials.run([this.session.editor.state.get().page]) });
     private readonly all = make(
         'button',
@@ -20,7 +19,6 @@ export class PhysicsBar extends HTMLElement {
     private readonly progress = make('progress', { 'aria-label': TEXTS.trials.tried });
     private readonly row = make('div', { class: 'row' }, this.one, this.all, this.stop, this.progress);
     private readonly status = make('p', { class: 'result', role: 'status', tabindex: '-1', 'aria-label': TEXTS.trials.state });
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.replaceChildren(make('p', { class: 'purpose' }, TEXTS.trials.purpose), this.row, this.status);
@@ -30,10 +28,6 @@ export class PhysicsBar extends HTMLElement {
             editor.state.watch(() => this.render()),
             state.watch(() => this.render()),
         );
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     private playable(): number[] {

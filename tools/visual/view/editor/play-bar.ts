@@ -2,12 +2,11 @@
 // Previews the motion in the picture only: play, pause, seek, loop. Nothing is sent to the robot.
 
 import { TICKS_PER_SECOND } from '../../model/motion.ts';
-import type { Session } from '../session/session.ts';
 import { define, make, setText, setDisabled } from '../element.ts';
 import { TEXTS } from '../texts/texts.ts';
+import { SessionElement } from '../session-element.ts';
 
-export class PlayBar extends HTMLElement {
-    session!: Session; // set before it is connected
+export class PlayBar extends SessionElement {
     private readonly show = make('button', { class: 'show', title: TEXTS.preview.hint, onclick: () => this.toggle() }, TEXTS.preview.show);
     private readonly fromStep = make(
         'button',
@@ -25,7 +24,6 @@ export class PlayBar extends HTMLElement {
     });
     private readonly clock = make('output', { 'aria-live': 'off' });
     private readonly loop = make('input', { type: 'checkbox', onchange: () => this.session.preview.setLooping(this.loop.checked) });
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.setAttribute('role', 'group');
@@ -41,10 +39,6 @@ export class PlayBar extends HTMLElement {
             this.session.preview.state.watch(() => this.render()),
             this.session.editor.state.watch(() => this.render()),
         );
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     private render(): void {

@@ -5,7 +5,6 @@ import { jointAngle, nearestPosition } from '../../model/body.ts';
 import type { Joint } from '../../model/body.ts';
 import type { Touch } from '../../model/trial.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
-import type { Session } from '../session/session.ts';
 import { closesByItself, define, make } from '../element.ts';
 import type { Store } from '../store.ts';
 import { isEditing, robotPositions } from './editing.ts';
@@ -15,14 +14,14 @@ import { ShownFor } from './shown-for.ts';
 import { jointTitle } from '../texts/robot.ts';
 import { TEXTS } from '../texts/texts.ts';
 import { touchesText } from '../texts/trials.ts';
+import { SessionElement } from '../session-element.ts';
 import './pose-bar.css';
 
 const OPTIONS = ['soleFlat', 'onionSkin', 'balance'] as const;
 const KEEPS = ['lower', 'right', 'left'] as const;
 
-export class PoseBar extends HTMLElement {
-    session!: Session; // these are set before it is connected
-    editing!: Store<Editing>;
+export class PoseBar extends SessionElement {
+    editing!: Store<Editing>; // set before it is connected
     /** Distance of the centre of mass inside the support polygon (metres); null: not computed. */
     margin: () => number | null = () => null;
     /** Limbs of the figure that intersect. */
@@ -36,7 +35,6 @@ export class PoseBar extends HTMLElement {
     private readonly touch = make('p', { class: 'touch', role: 'status', 'aria-label': TEXTS.picture.limbsMeet });
     private readonly hint = make('p', { class: 'hint' });
     private robot: RobotState | null = null;
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         const group = make('div', { class: 'modes', role: 'group', 'aria-label': TEXTS.picture.dragDoes });
@@ -61,10 +59,6 @@ export class PoseBar extends HTMLElement {
                 this.showTouches();
             }),
         );
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     private options(): HTMLElement {

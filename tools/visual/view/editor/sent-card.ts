@@ -2,21 +2,19 @@
 // A motion from the page's address is added to the document, and the robot in the page plays it. The card names it and offers what to do
 // next.
 
-import type { Session } from '../session/session.ts';
 import { define, handOver, make, pictureCanvas } from '../element.ts';
 import type { SentMotion } from '../session/files.ts';
 import { TEXTS } from '../texts/texts.ts';
+import { SessionElement } from '../session-element.ts';
 import './sent-card.css';
 
-export class SentCard extends HTMLElement {
-    session!: Session; // these are set before it is connected
+export class SentCard extends SessionElement {
     /** Called when a motion was received. */
-    onSent: () => void = () => undefined;
+    onSent: () => void = () => undefined; // set before it is connected
     /** Called when the user wants to teach a motion. */
     onTeach: () => void = () => undefined;
     /** The document that the motion was added to. */
     private openId = '';
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.hidden = true;
@@ -26,10 +24,6 @@ export class SentCard extends HTMLElement {
             this.session.files.state.watch(({ sent }) => sent && this.take(sent)),
             this.session.documents.state.watch(({ openId }) => !this.hidden && openId !== this.openId && this.leave()),
         );
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     private take({ name }: SentMotion): void {

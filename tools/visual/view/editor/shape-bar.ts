@@ -4,25 +4,24 @@
 
 import { AS_STORED, SHAPE_RANGES } from '../../model/motion.ts';
 import type { Shape } from '../../model/motion.ts';
-import type { Session, SessionState } from '../session/session.ts';
+import type { SessionState } from '../session/session.ts';
 import { define, make, setText } from '../element.ts';
 import type { Store } from '../store.ts';
 import { shapeText } from '../texts/robot.ts';
 import { TEXTS } from '../texts/texts.ts';
+import { SessionElement } from '../session-element.ts';
 import './shape-bar.css';
 
 const SLIDERS: readonly (keyof Shape)[] = ['rate', 'amplitude', 'blend'];
 const PERCENT_STEP = 5;
 
-export class ShapeBar extends HTMLElement {
-    session!: Session; // these are set before it is connected
-    shape!: Store<Shape>;
+export class ShapeBar extends SessionElement {
+    shape!: Store<Shape>; // set before it is connected
     private readonly hint = make('p', { class: 'hint' });
     /** Changes that the robot has not answered yet. */
     private sending = 0;
     /** The robot's report when they were answered: older than they are. */
     private stale: SessionState['where'] = null;
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.replaceChildren(
@@ -44,10 +43,6 @@ export class ShapeBar extends HTMLElement {
         const isHeld = this.querySelector('input:active') !== null;
         if (version?.image !== 'play' || !where?.shape || where === this.stale || this.sending > 0 || isHeld) return;
         this.shape.set(where.shape);
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     private slider(name: keyof Shape): HTMLElement {

@@ -4,12 +4,12 @@
 import { stepsFromText, stepsToText } from '../../model/step-text.ts';
 import { easyStep, robotPositions } from './editing.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
-import type { Session } from '../session/session.ts';
 import { copyText } from '../clipboard.ts';
 import { keyOf } from '../key-of.ts';
 import { define, make, setDisabled } from '../element.ts';
 import { TEXTS } from '../texts/texts.ts';
 import { watchRobot } from '../watch-robot.ts';
+import { SessionElement } from '../session-element.ts';
 
 interface Action {
     /** Key of its texts. */
@@ -20,12 +20,10 @@ interface Action {
     readonly needs: 'nothing' | 'step' | 'two';
 }
 
-export class StepActions extends HTMLElement {
-    session!: Session; // set before it is connected
+export class StepActions extends SessionElement {
     /** Last state of the robot in use; null: unknown. */
     private robot: RobotState | null = null;
     private readonly buttons = new Map<Action, HTMLButtonElement>();
-    private readonly disposals: (() => void)[] = [];
     readonly actions: readonly Action[] = [
         { name: 'insert', key: 'Insert', run: () => this.insert(), needs: 'step' },
         { name: 'duplicate', key: 'd', run: () => this.duplicate(), needs: 'step' },
@@ -54,10 +52,6 @@ export class StepActions extends HTMLElement {
             this.session.editor.state.watch(() => this.render()),
             watchRobot(this.session, robot => (this.robot = robot)),
         );
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     /** Handles a key of the row of steps. true: it was an action's key. */

@@ -4,7 +4,6 @@
 
 import { anglesOf } from '../../model/body.ts';
 import type { Step } from '../../model/page.ts';
-import type { Session } from '../session/session.ts';
 import { define, handOver, isTyping, make, withoutMenu } from '../element.ts';
 import { keyOf } from '../key-of.ts';
 import { showPose } from './pose-picture.ts';
@@ -14,6 +13,7 @@ import { chosenSteps } from './step-choice.ts';
 import { stepTimes } from './step-times.ts';
 import type { TimedField } from './step-times.ts';
 import { FIELD_STEP, setStepField } from './typed-numbers.ts';
+import { SessionElement } from '../session-element.ts';
 
 const PICTURE = { width: 64, height: 84 };
 const DRAG_PX = 6;
@@ -27,8 +27,7 @@ interface Card {
     pose: string;
 }
 
-export class StepRow extends HTMLElement {
-    session!: Session; // set before it is connected
+export class StepRow extends SessionElement {
     private readonly list = make('ol', { 'aria-label': TEXTS.steps.row });
     private readonly cards: Card[] = [];
     private readonly empty = make('p', { class: 'empty', tabindex: -1 }, TEXTS.steps.empty);
@@ -38,7 +37,6 @@ export class StepRow extends HTMLElement {
     private typing: HTMLInputElement | null = null;
     private readonly shownFor = new ShownFor();
     private drag: { readonly from: number; readonly startX: number; to: number | null } | null = null;
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         const titles = make(
@@ -58,21 +56,15 @@ export class StepRow extends HTMLElement {
         );
     }
 
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
-    }
-
     /** Ctrl+A chooses all steps anywhere in Steps, except while typing. */
     listenForAll(): void {
-        const all = (event: KeyboardEvent): void => {
+        this.listenTo(document, 'keydown', event => {
             if (keyOf(event) !== 'a' || !(event.ctrlKey || event.metaKey) || event.altKey || this.session.state.get().tab !== 'steps')
                 return;
             if (isTyping(event) || (event.target instanceof Element && event.target.closest('dialog'))) return;
             event.preventDefault();
             this.session.editor.select({ steps: new Set(this.cards.keys()) });
-        };
-        document.addEventListener('keydown', all);
-        this.disposals.push(() => document.removeEventListener('keydown', all));
+        });
     }
 
     /** Marks the step that the picture previews or the robot plays. */

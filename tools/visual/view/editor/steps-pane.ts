@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The area Steps: the page's steps as pictures, their times, and actions on them.
 
-import type { Session } from '../session/session.ts';
 import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
 import type { Editing } from './editing.ts';
@@ -13,27 +12,25 @@ import { StepRow } from './step-row.ts';
 import { TeachBar } from './teach-bar.ts';
 import { TEXTS } from '../texts/texts.ts';
 import { TimeLine } from './time-line.ts';
+import { SessionElement } from '../session-element.ts';
 import './steps-pane.css';
 
-export class StepsPane extends HTMLElement {
-    session!: Session; // these are set before it is connected
-    editing!: Store<Editing>;
+export class StepsPane extends SessionElement {
+    editing!: Store<Editing>; // set before it is connected
 
     connectedCallback(): void {
-        const give = <T extends HTMLElement & { session: Session }>(element: T): T => Object.assign(element, { session: this.session });
-        const actions = give(new StepActions());
-        const row = give(new StepRow());
-        const teach = Object.assign(give(new TeachBar()), { editing: this.editing, add: () => actions.addFromRobot() });
-        const follow = Object.assign(give(new FollowBar()), { editing: this.editing });
+        const { editing } = this;
+        const actions = this.give(new StepActions());
+        const row = this.give(new StepRow());
         this.replaceChildren(
             make('p', { class: 'purpose' }, TEXTS.steps.purpose),
-            give(new PageHead()),
+            this.give(new PageHead()),
             row,
-            give(new TimeLine()),
-            give(new PlayBar()),
+            this.give(new TimeLine()),
+            this.give(new PlayBar()),
             actions,
-            teach,
-            follow,
+            this.give(new TeachBar(), { editing, add: () => actions.addFromRobot() }),
+            this.give(new FollowBar(), { editing }),
         );
         row.addEventListener('keydown', event => {
             if (event.target instanceof HTMLInputElement || !actions.key(event)) return;

@@ -4,12 +4,13 @@
 
 import { handLimb, footLimb } from '../../model/ik.ts';
 import type { Body } from '../../model/body.ts';
-import type { Session, SessionState } from '../session/session.ts';
+import type { SessionState } from '../session/session.ts';
 import { define, make, setDisabled } from '../element.ts';
 import type { Store } from '../store.ts';
 import { isPoseKnown, stillTaught } from './editing.ts';
 import type { Editing } from './editing.ts';
 import { TEXTS } from '../texts/texts.ts';
+import { SessionElement } from '../session-element.ts';
 
 export interface LimbGroup {
     readonly title: string;
@@ -27,9 +28,8 @@ export function limbGroups(body: Body): LimbGroup[] {
     ];
 }
 
-export class TeachBar extends HTMLElement {
-    session!: Session; // these are set before it is connected
-    editing!: Store<Editing>;
+export class TeachBar extends SessionElement {
+    editing!: Store<Editing>; // set before it is connected
     /** Adds the robot's pose as a step. */
     add: () => void = () => undefined;
     private readonly limbs = new Map<LimbGroup, HTMLButtonElement>();
@@ -42,7 +42,6 @@ export class TeachBar extends HTMLElement {
     private isCarrying = false;
     /** Legs were released meanwhile. */
     private mustCarry = false;
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         const row = make('div', { class: 'row' });
@@ -62,10 +61,6 @@ export class TeachBar extends HTMLElement {
                 this.takeLimp(limp);
             }),
         );
-    }
-
-    disconnectedCallback(): void {
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     /** Takes the servos without torque. On the simulated robot a taught limb may have torque, so its button stays pressed. */

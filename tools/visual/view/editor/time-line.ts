@@ -3,7 +3,6 @@
 
 import { TICKS_PER_SECOND } from '../../model/motion.ts';
 import { BYTE_MAX } from '../../model/page.ts';
-import type { Session } from '../session/session.ts';
 import type { Gesture } from '../session/editor.ts';
 import { define, make, withoutMenu } from '../element.ts';
 import { TypedFor } from './shown-for.ts';
@@ -11,6 +10,7 @@ import { nearestSetting, stepTimes } from './step-times.ts';
 import type { TimedField } from './step-times.ts';
 import { setTimes } from './typed-numbers.ts';
 import { TEXTS } from '../texts/texts.ts';
+import { SessionElement } from '../session-element.ts';
 
 /** Distance at which a pointer grabs an end. */
 const NEAR_PX = { mouse: 7, finger: 24 };
@@ -26,8 +26,7 @@ interface Drag {
     readonly gesture: Gesture;
 }
 
-export class TimeLine extends HTMLElement {
-    session!: Session; // set before it is connected
+export class TimeLine extends SessionElement {
     private readonly bar = make('div', { class: 'bar', role: 'img' });
     private readonly head = make('i', { class: 'head', hidden: true });
     private readonly frame = make('div', { class: 'frame' });
@@ -46,10 +45,6 @@ export class TimeLine extends HTMLElement {
     private drag: Drag | null = null;
     private scale = 1;
     private isBehind = false;
-    private unwatch: () => void = () => undefined;
-    private readonly escape = (event: KeyboardEvent): void => {
-        if (event.key === 'Escape' && this.drag) this.end(false);
-    };
 
     connectedCallback(): void {
         this.frame.replaceChildren(this.bar, this.head);
@@ -59,20 +54,12 @@ export class TimeLine extends HTMLElement {
         this.bar.addEventListener('pointermove', event => this.move(event));
         this.bar.addEventListener('pointerup', () => this.end(true));
         this.bar.addEventListener('pointercancel', () => this.end(false));
-        window.addEventListener('keydown', this.escape);
-        const unwatchSession = this.session.state.watch(({ tab }) => tab === 'steps' && this.isBehind && this.render());
-        const unwatchEditor = this.session.editor.state.watch(() => this.render());
-        const unwatchPreview = this.session.preview.state.watch(() => this.renderHead());
-        this.unwatch = () => {
-            unwatchPreview();
-            unwatchSession();
-            unwatchEditor();
-        };
-    }
-
-    disconnectedCallback(): void {
-        this.unwatch();
-        window.removeEventListener('keydown', this.escape);
+        this.listenTo(window, 'keydown', event => event.key === 'Escape' && this.drag && this.end(false));
+        this.disposals.push(
+            this.session.state.watch(({ tab }) => tab === 'steps' && this.isBehind && this.render()),
+            this.session.editor.state.watch(() => this.render()),
+            this.session.preview.state.watch(() => this.renderHead()),
+        );
     }
 
     private render(): void {

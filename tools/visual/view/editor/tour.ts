@@ -3,7 +3,6 @@
 // its button. It never acts for the user.
 
 import type { RobotState } from '../../robot/robot-state.ts';
-import type { Session } from '../session/session.ts';
 import { define, handOver, make, pictureCanvas } from '../element.ts';
 import type { Store } from '../store.ts';
 import type { Editing } from './editing.ts';
@@ -11,15 +10,15 @@ import { TEXTS } from '../texts/texts.ts';
 import { TourPlace } from './tour-place.ts';
 import { tourStops } from './tour-stops.ts';
 import type { TourStop } from './tour-stops.ts';
+import { SessionElement } from '../session-element.ts';
 import './tour.css';
 
 /** Change in servo units from which the arm counts as dragged. */
 const MOVED_UNITS = 25;
 const RING_PX = 46;
 
-export class TourCard extends HTMLElement {
-    session!: Session; // these are set before it is connected
-    editing!: Store<Editing>;
+export class TourCard extends SessionElement {
+    editing!: Store<Editing>; // set before it is connected
     /** Screen position of a shape of the robot. */
     placeOf: (shape: string) => { readonly x: number; readonly y: number } | null = () => null;
     /** Called when a stop's target is in an area, not in the picture. */
@@ -35,7 +34,6 @@ export class TourCard extends HTMLElement {
     private readonly next = make('button', { onclick: () => this.go(this.place.at + 1) }, TEXTS.tour.next);
     private readonly send = make('button', { class: 'primary', onclick: () => this.onSend() }, TEXTS.tour.send);
     private readonly ring = make('div', { class: 'tour-ring', 'aria-hidden': true });
-    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.hidden = true;
@@ -64,12 +62,8 @@ export class TourCard extends HTMLElement {
             this.session.state.watch(() => this.look()),
             this.session.editor.state.watch(() => this.look()),
             this.editing.watch(() => this.look()),
+            () => this.ring.remove(),
         );
-    }
-
-    disconnectedCallback(): void {
-        this.ring.remove();
-        for (const dispose of this.disposals.splice(0)) dispose();
     }
 
     start(): void {
