@@ -32,7 +32,7 @@ b { font-size: 17px }
 span { color: var(--soft) }`;
 
 /** others: the page's other languages, code -> name. */
-export function startPage(cards: readonly Card[], language: string, { start }: Texts, others: ReadonlyMap<string, string>): string {
+export function startPage(cards: readonly Card[], language: string, { first, start }: Texts, others: ReadonlyMap<string, string>): string {
     const query = language === 'en' ? '' : `?lang=${language}`;
     const items = cards.map(({ name, address }) => {
         const [title = '', text = ''] = start.cards[name] ?? [];
@@ -43,7 +43,7 @@ export function startPage(cards: readonly Card[], language: string, { start }: T
 <html lang="${language}">
 <head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><link rel="icon" href="./icon.svg"><title>${start.title}</title>
 <style>${STYLE}</style></head>
-<body><header><h1>${start.heading}</h1><a href="./${query}">${start.toRobot}</a></header>
+<body><header><h1>${first.what}</h1><a href="./${query}">${start.toRobot}</a></header>
 <p>${start.choose}</p>
 <ul>
 ${items.join('\n')}

@@ -8,11 +8,12 @@ export class KeysDialog {
     readonly element = make('dialog', { class: 'keys-dialog', 'aria-labelledby': 'keys-title' });
 
     constructor() {
-        const groups = TEXTS.keys.groups.map(([title, keys]) =>
+        const titles: Readonly<Record<string, string>> = { ...TEXTS.areas.titles, ...TEXTS.keys.titles };
+        const groups = Object.entries(TEXTS.keys.groups).map(([name, keys]) =>
             make(
                 'section',
                 {},
-                make('h3', {}, title),
+                make('h3', {}, titles[name] ?? ''),
                 make('dl', {}, ...keys.flatMap(([key, what]) => [make('dt', {}, key), make('dd', {}, what)])),
             ),
         );

@@ -68,7 +68,7 @@ test('German by the menu, after a new motion; Japanese by the address; each load
     await doing(JA.status.waits).waitFor();
     expect(languages()).toEqual(['ja']);
     await page.getByRole('link', { name: JA.remote.motions }).click();
-    await page.getByRole('heading', { name: JA.start.heading }).waitFor();
+    await page.getByRole('heading', { name: JA.first.what }).waitFor();
     await page.getByRole('link', { name: JA.start.toRobot }).click();
     await doing(JA.status.waits).waitFor();
     await page.goto(suite.address); // the choice is kept

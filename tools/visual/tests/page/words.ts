@@ -152,7 +152,7 @@ export class Walk {
         for (const action of ['new', 'copy', 'rename', 'remove'])
             await this.dialog(`document ${action}`, () => documents.selectOption(action));
         await this.open('pages');
-        await this.dialog('rename', () => button(texts.motions.rename));
+        await this.dialog('rename', () => button(texts.document.rename));
         await this.dialog('clear', () => button(texts.motions.clear));
         await this.dialog('move', async () => {
             await button(texts.motions.transfer);

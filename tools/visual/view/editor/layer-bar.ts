@@ -26,7 +26,7 @@ export class LayerBar extends SessionElement {
         min: 0,
         max: POSITION_MAX,
         value: POSITION_MIDDLE,
-        'aria-label': TEXTS.layers.position,
+        'aria-label': TEXTS.servos.position,
     });
     private readonly amplitude = make('input', {
         type: 'number',

@@ -25,7 +25,7 @@ export class PageActions {
 
     async rename(page: number): Promise<void> {
         const { document } = this.editor.state.get();
-        const name = await askText(TEXTS.motions.renameTitle(this.title(page)), TEXTS.motions.name, this.editor.page(page).name, {
+        const name = await askText(TEXTS.motions.renameTitle(this.title(page)), TEXTS.document.name, this.editor.page(page).name, {
             maxLength: 13,
             pattern: MOTION_NAME,
             hint: TEXTS.motions.nameHint,

@@ -32,7 +32,7 @@ export class PagesPane extends SessionElement {
         make('option', { value: 'used' }, TEXTS.motions.used),
         make('option', { value: 'changed' }, TEXTS.motions.changed),
     );
-    private readonly list = make('div', { class: 'cards', role: 'listbox', 'aria-label': TEXTS.motions.list });
+    private readonly list = make('div', { class: 'cards', role: 'listbox', 'aria-label': TEXTS.areas.titles.pages });
     private readonly nothing = make('p', { class: 'nothing', hidden: true }, TEXTS.motions.nothingFound);
     private actions!: PageActions; // needs the session
     private dragged = 0;
@@ -66,7 +66,7 @@ export class PagesPane extends SessionElement {
             { class: 'tools', role: 'toolbar', 'aria-label': TEXTS.motions.chosen },
             this.search,
             this.which,
-            button(TEXTS.motions.rename, () => this.actions.rename(this.current)),
+            button(TEXTS.document.rename, () => this.actions.rename(this.current)),
             button(TEXTS.motions.transfer, () => this.actions.transferByNumber(this.current)),
             button(TEXTS.motions.clear, () => this.actions.clear(this.current)),
             button(TEXTS.motions.compare, () => this.onCompare()),

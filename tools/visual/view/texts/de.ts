@@ -49,94 +49,68 @@ const DE: Texts = {
     keys: {
         title: 'Tasten',
         hint: 'Tasten (?)',
-        groups: [
-            [
-                'Überall',
-                [
-                    ['?', 'diese Tasten'],
-                    ['Tab, Umschalt+Tab', 'weiter, zurück'],
-                    ['← → auf einem Reiter', 'ein anderer Bereich'],
-                    ['Strg+Z, Strg+Y', 'rückgängig, wiederholen, solange das Dokument zu sehen ist'],
-                    ['↑ ↓ Enter in einer Liste', 'auswählen, ausführen'],
-                    ['F6', 'Bild oder Bereich'],
-                    ['Esc', 'zurücknehmen, schließen'],
-                ],
+        titles: { everywhere: 'Überall', picture: 'Bild', pose: 'Bild, Pose' },
+        groups: {
+            everywhere: [
+                ['?', 'diese Tasten'],
+                ['Tab, Umschalt+Tab', 'weiter, zurück'],
+                ['← → auf einem Reiter', 'ein anderer Bereich'],
+                ['Strg+Z, Strg+Y', 'rückgängig, wiederholen, solange das Dokument zu sehen ist'],
+                ['↑ ↓ Enter in einer Liste', 'auswählen, ausführen'],
+                ['F6', 'Bild oder Bereich'],
+                ['Esc', 'zurücknehmen, schließen'],
             ],
-            [
-                'Steuern',
-                [
-                    ['↑ ↓ ← →, W A S D', 'gehen und drehen'],
-                    ['1 … 4', 'andere Bewegungen'],
-                    ['5', 'Pause'],
-                    ['6, Leertaste', 'Stopp'],
-                ],
+            remote: [
+                ['↑ ↓ ← →, W A S D', 'gehen und drehen'],
+                ['1 … 4', 'andere Bewegungen'],
+                ['5', 'Pause'],
+                ['6, Leertaste', 'Stopp'],
             ],
-            [
-                'Bild',
-                [
-                    ['Umschalt+← →', 'die Ansicht drehen'],
-                    ['Bild auf, Bild ab', 'von oben, von unten'],
-                    ['+ −', 'näher, weiter weg'],
-                    ['P, Umschalt+P', 'den Roboter nach vorn, nach hinten schubsen (nicht in „Pose“)'],
-                    ['Esc', 'ein Ziehen zurücknehmen'],
-                ],
+            picture: [
+                ['Umschalt+← →', 'die Ansicht drehen'],
+                ['Bild auf, Bild ab', 'von oben, von unten'],
+                ['+ −', 'näher, weiter weg'],
+                ['P, Umschalt+P', 'den Roboter nach vorn, nach hinten schubsen (nicht in „Pose“)'],
+                ['Esc', 'ein Ziehen zurücknehmen'],
             ],
-            [
-                'Bild, Pose',
-                [
-                    ['← →', 'ein Gelenk auswählen'],
-                    ['↑ ↓', 'das Gelenk drehen (Umschalt: um zehn)'],
-                    ['Umschalt+Klick', 'noch eines auswählen'],
-                ],
+            pose: [
+                ['← →', 'ein Gelenk auswählen'],
+                ['↑ ↓', 'das Gelenk drehen (Umschalt: um zehn)'],
+                ['Umschalt+Klick', 'noch eines auswählen'],
             ],
-            [
-                'Schritte',
-                [
-                    ['← →', 'einen Schritt auswählen (Umschalt: mehrere)'],
-                    ['Alt+← →', 'die ausgewählten verschieben'],
-                    ['Strg+A', 'alle auswählen'],
-                    ['Strg+C, X, V', 'als Text kopieren, ausschneiden, einfügen'],
-                    ['D', 'verdoppeln'],
-                    ['B', 'ein Schritt zwischen diesem und dem nächsten'],
-                    ['M, Umschalt+M', 'rechts nach links spiegeln, links nach rechts'],
-                    ['X', 'links und rechts tauschen'],
-                    ['Einfg, Entf', 'einfügen, löschen'],
-                ],
+            steps: [
+                ['← →', 'einen Schritt auswählen (Umschalt: mehrere)'],
+                ['Alt+← →', 'die ausgewählten verschieben'],
+                ['Strg+A', 'alle auswählen'],
+                ['Strg+C, X, V', 'als Text kopieren, ausschneiden, einfügen'],
+                ['D', 'verdoppeln'],
+                ['B', 'ein Schritt zwischen diesem und dem nächsten'],
+                ['M, Umschalt+M', 'rechts nach links spiegeln, links nach rechts'],
+                ['X', 'links und rechts tauschen'],
+                ['Einfg, Entf', 'einfügen, löschen'],
             ],
-            [
-                'Kurven',
-                [
-                    ['← →', 'einen Schritt auswählen'],
-                    ['↑ ↓', 'die ausgewählten Gelenke drehen (Umschalt: um zehn)'],
-                    ['Alt+← →', 'weniger oder mehr Zeit'],
-                ],
+            curves: [
+                ['← →', 'einen Schritt auswählen'],
+                ['↑ ↓', 'die ausgewählten Gelenke drehen (Umschalt: um zehn)'],
+                ['Alt+← →', 'weniger oder mehr Zeit'],
             ],
-            [
-                'Bewegungen',
-                [
-                    ['← → ↑ ↓', 'eine Bewegung auswählen'],
-                    ['Enter', 'ihre Schritte'],
-                    ['F2', 'umbenennen'],
-                    ['Strg+C, Strg+V', 'nehmen, hier ablegen: kopiert oder verschoben'],
-                    ['Entf', 'leeren'],
-                ],
+            pages: [
+                ['← → ↑ ↓', 'eine Bewegung auswählen'],
+                ['Enter', 'ihre Schritte'],
+                ['F2', 'umbenennen'],
+                ['Strg+C, Strg+V', 'nehmen, hier ablegen: kopiert oder verschoben'],
+                ['Entf', 'leeren'],
             ],
-            [
-                'Verknüpfen',
-                [
-                    ['← → ↑ ↓', 'die nächste Bewegung in dieser Richtung'],
-                    ['Enter', 'ihre Schritte'],
-                ],
+            links: [
+                ['← → ↑ ↓', 'die nächste Bewegung in dieser Richtung'],
+                ['Enter', 'ihre Schritte'],
             ],
-            ['Terminal', [['Tab, Umschalt+Tab', 'verlassen; alle anderen Tasten gehen an den Roboter']]],
-            [
-                'Roboter',
-                [
-                    ['Enter, gehalten', 'ein Knopf des Bedienfelds, gehalten'],
-                    ['← →', 'ein Schieberegler'],
-                ],
+            terminal: [['Tab, Umschalt+Tab', 'verlassen; alle anderen Tasten gehen an den Roboter']],
+            robot: [
+                ['Enter, gehalten', 'ein Knopf des Bedienfelds, gehalten'],
+                ['← →', 'ein Schieberegler'],
             ],
-        ],
+        },
     },
 
     areas: {
@@ -471,7 +445,6 @@ const DE: Texts = {
         chosenJoints: 'auf den ausgewählten Gelenken',
         lay: 'Darüberlegen',
         off: 'Ebene aus',
-        position: 'Stellung',
         to: 'auf',
         swingBy: 'Hin und her um',
         swingSeconds: 'Sekunden hin und her',
@@ -734,7 +707,6 @@ const DE: Texts = {
     motions: {
         purpose:
             'Bewegungen: die 128 dieses Dokuments. Ziehe eine, um sie zu kopieren oder zu verschieben; ein Doppelklick öffnet ihre Schritte.',
-        list: 'Bewegungen',
         chosen: 'Die ausgewählte Bewegung',
         search: 'Suchen',
         searchLabel: 'Bewegungen suchen',
@@ -743,9 +715,7 @@ const DE: Texts = {
         used: 'Belegte',
         changed: 'Nicht im Roboter',
         nothingFound: 'Keine Bewegung heißt so. Leere die Suche, um alle zu sehen.',
-        rename: 'Umbenennen …',
         renameTitle: motion => `${motion} umbenennen`,
-        name: 'Name',
         nameHint: 'Höchstens 13 Zeichen: Buchstaben ohne Umlaute und ß, Ziffern, Satzzeichen.',
         transfer: 'Kopieren oder verschieben …',
         transferTitle: 'Kopieren oder verschieben',
@@ -1020,7 +990,6 @@ const DE: Texts = {
 
     start: {
         title: 'Motion512: zehn Bewegungen',
-        heading: 'Ein Humanoid mit echter Firmware, in deinem Browser',
         toRobot: 'Zum Roboter',
         choose: 'Zehn seiner Bewegungen. Wähle eine, und der Roboter macht sie.',
         cards: {

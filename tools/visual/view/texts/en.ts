@@ -29,7 +29,7 @@ export interface Meeting {
     readonly mm: number | null;
 }
 
-export type KeyGroup = readonly [title: string, keys: readonly (readonly [key: string, what: string])[]];
+type KeyText = readonly [key: string, what: string];
 
 function plural(count: number, one: string, many: string): string {
     return count === 1 ? one : many;
@@ -265,94 +265,68 @@ const behind: Record<VerdictKind, (other: string) => string> = {
     'no-start': other => `Does not stand in its first pose. Played after ${other}, it is not reached.`,
 };
 
-const keys: readonly KeyGroup[] = [
-    [
-        'Everywhere',
-        [
-            ['?', 'these keys'],
-            ['Tab, Shift+Tab', 'to the next thing, back'],
-            ['← → on a tab', 'another area'],
-            ['Ctrl+Z, Ctrl+Y', 'undo, redo, while the document is shown'],
-            ['↑ ↓ Enter in a list', 'choose, do it'],
-            ['F6', 'picture or area'],
-            ['Esc', 'take it back, close'],
-        ],
+/** By area, or by name in `titles`. */
+const keys: Record<Exclude<Tab, 'checks'> | 'everywhere' | 'picture' | 'pose', readonly KeyText[]> = {
+    everywhere: [
+        ['?', 'these keys'],
+        ['Tab, Shift+Tab', 'to the next thing, back'],
+        ['← → on a tab', 'another area'],
+        ['Ctrl+Z, Ctrl+Y', 'undo, redo, while the document is shown'],
+        ['↑ ↓ Enter in a list', 'choose, do it'],
+        ['F6', 'picture or area'],
+        ['Esc', 'take it back, close'],
     ],
-    [
-        'Remote',
-        [
-            ['↑ ↓ ← →, W A S D', 'start walking and turning'],
-            ['1 … 4', 'other motions'],
-            ['5', 'pause'],
-            ['6, space bar', 'stop'],
-        ],
+    remote: [
+        ['↑ ↓ ← →, W A S D', 'start walking and turning'],
+        ['1 … 4', 'other motions'],
+        ['5', 'pause'],
+        ['6, space bar', 'stop'],
     ],
-    [
-        'Picture',
-        [
-            ['Shift+← →', 'turn the view'],
-            ['Page Up, Page Down', 'from above, from below'],
-            ['+ −', 'nearer, farther'],
-            ['P, Shift+P', 'push the robot ahead, back (not in Pose)'],
-            ['Esc', 'take a drag back'],
-        ],
+    picture: [
+        ['Shift+← →', 'turn the view'],
+        ['Page Up, Page Down', 'from above, from below'],
+        ['+ −', 'nearer, farther'],
+        ['P, Shift+P', 'push the robot ahead, back (not in Pose)'],
+        ['Esc', 'take a drag back'],
     ],
-    [
-        'Picture, Pose',
-        [
-            ['← →', 'choose a joint'],
-            ['↑ ↓', 'turn it (Shift: by ten)'],
-            ['Shift+click', 'choose one more'],
-        ],
+    pose: [
+        ['← →', 'choose a joint'],
+        ['↑ ↓', 'turn it (Shift: by ten)'],
+        ['Shift+click', 'choose one more'],
     ],
-    [
-        'Steps',
-        [
-            ['← →', 'choose a step (Shift: several)'],
-            ['Alt+← →', 'move the chosen ones'],
-            ['Ctrl+A', 'choose all'],
-            ['Ctrl+C, X, V', 'copy, cut, paste as text'],
-            ['D', 'duplicate'],
-            ['B', 'one between this and the next'],
-            ['M, Shift+M', 'mirror right to left, left to right'],
-            ['X', 'exchange left and right'],
-            ['Insert, Delete', 'insert, delete'],
-        ],
+    steps: [
+        ['← →', 'choose a step (Shift: several)'],
+        ['Alt+← →', 'move the chosen ones'],
+        ['Ctrl+A', 'choose all'],
+        ['Ctrl+C, X, V', 'copy, cut, paste as text'],
+        ['D', 'duplicate'],
+        ['B', 'one between this and the next'],
+        ['M, Shift+M', 'mirror right to left, left to right'],
+        ['X', 'exchange left and right'],
+        ['Insert, Delete', 'insert, delete'],
     ],
-    [
-        'Curves',
-        [
-            ['← →', 'choose a step'],
-            ['↑ ↓', 'turn the chosen joints (Shift: by ten)'],
-            ['Alt+← →', 'less or more time'],
-        ],
+    curves: [
+        ['← →', 'choose a step'],
+        ['↑ ↓', 'turn the chosen joints (Shift: by ten)'],
+        ['Alt+← →', 'less or more time'],
     ],
-    [
-        'Motions',
-        [
-            ['← → ↑ ↓', 'choose a motion'],
-            ['Enter', 'its steps'],
-            ['F2', 'rename'],
-            ['Ctrl+C, Ctrl+V', 'take it, put it here: copied or moved'],
-            ['Delete', 'clear'],
-        ],
+    pages: [
+        ['← → ↑ ↓', 'choose a motion'],
+        ['Enter', 'its steps'],
+        ['F2', 'rename'],
+        ['Ctrl+C, Ctrl+V', 'take it, put it here: copied or moved'],
+        ['Delete', 'clear'],
     ],
-    [
-        'Links',
-        [
-            ['← → ↑ ↓', 'the nearest motion that way'],
-            ['Enter', 'its steps'],
-        ],
+    links: [
+        ['← → ↑ ↓', 'the nearest motion that way'],
+        ['Enter', 'its steps'],
     ],
-    ['Terminal', [['Tab, Shift+Tab', 'leave it; all other keys go to the robot']]],
-    [
-        'Robot',
-        [
-            ['Enter, held', 'a button of the panel, held'],
-            ['← →', 'a slider'],
-        ],
+    terminal: [['Tab, Shift+Tab', 'leave it; all other keys go to the robot']],
+    robot: [
+        ['Enter, held', 'a button of the panel, held'],
+        ['← →', 'a slider'],
     ],
-];
+};
 
 export const EN = {
     page: {
@@ -389,7 +363,12 @@ export const EN = {
         translation: '',
     },
 
-    keys: { title: 'Keys', hint: 'Keys (?)', groups: keys },
+    keys: {
+        title: 'Keys',
+        hint: 'Keys (?)',
+        titles: { everywhere: 'Everywhere', picture: 'Picture', pose: 'Picture, Pose' },
+        groups: keys,
+    },
 
     areas: {
         areas: 'Areas',
@@ -594,7 +573,6 @@ export const EN = {
         chosenJoints: 'on the chosen joints',
         lay: 'Lay over',
         off: 'Layer off',
-        position: 'Position',
         to: 'to',
         swingBy: 'To and fro by',
         swingSeconds: 'Seconds to and fro',
@@ -817,7 +795,6 @@ export const EN = {
 
     motions: {
         purpose: 'Motions: the 128 of this document. Drag one to copy or move it; double-click to edit its steps.',
-        list: 'Motions',
         chosen: 'The chosen motion',
         search: 'Search',
         searchLabel: 'Search motions',
@@ -826,9 +803,7 @@ export const EN = {
         used: 'In use',
         changed: 'Not in the robot',
         nothingFound: 'No motion has this name. Empty the search to see all of them.',
-        rename: 'Rename …',
         renameTitle: (motion: string) => `Rename ${motion}`,
-        name: 'Name',
         nameHint: 'At most 13 characters: letters without accents, digits and signs.',
         transfer: 'Copy or move …',
         transferTitle: 'Copy or move',
@@ -1071,7 +1046,6 @@ export const EN = {
     /** The start page, motions.html. */
     start: {
         title: 'Motion512: ten motions',
-        heading: 'A humanoid with real firmware, in your browser',
         toRobot: 'To the robot',
         choose: 'Ten of its motions. Choose one, and the robot does it.',
         /** By name of the motion in the library: title of the card, and text below it. */

@@ -48,94 +48,68 @@ const ES: Texts = {
     keys: {
         title: 'Teclas',
         hint: 'Teclas (?)',
-        groups: [
-            [
-                'En todas partes',
-                [
-                    ['?', 'estas teclas'],
-                    ['Tab, Mayús+Tab', 'al siguiente, atrás'],
-                    ['← → en una pestaña', 'otra área'],
-                    ['Ctrl+Z, Ctrl+Y', 'deshacer, rehacer, mientras se ve el documento'],
-                    ['↑ ↓ Intro en una lista', 'elegir, ejecutar'],
-                    ['F6', 'imagen o área'],
-                    ['Esc', 'cancelar, cerrar'],
-                ],
+        titles: { everywhere: 'En todas partes', picture: 'Imagen', pose: 'Imagen, Pose' },
+        groups: {
+            everywhere: [
+                ['?', 'estas teclas'],
+                ['Tab, Mayús+Tab', 'al siguiente, atrás'],
+                ['← → en una pestaña', 'otra área'],
+                ['Ctrl+Z, Ctrl+Y', 'deshacer, rehacer, mientras se ve el documento'],
+                ['↑ ↓ Intro en una lista', 'elegir, ejecutar'],
+                ['F6', 'imagen o área'],
+                ['Esc', 'cancelar, cerrar'],
             ],
-            [
-                'Mando',
-                [
-                    ['↑ ↓ ← →, W A S D', 'andar y girar'],
-                    ['1 … 4', 'otros movimientos'],
-                    ['5', 'pausa'],
-                    ['6, barra espaciadora', 'parar'],
-                ],
+            remote: [
+                ['↑ ↓ ← →, W A S D', 'andar y girar'],
+                ['1 … 4', 'otros movimientos'],
+                ['5', 'pausa'],
+                ['6, barra espaciadora', 'parar'],
             ],
-            [
-                'Imagen',
-                [
-                    ['Mayús+← →', 'girar la vista'],
-                    ['Re Pág, Av Pág', 'desde arriba, desde abajo'],
-                    ['+ −', 'más cerca, más lejos'],
-                    ['P, Mayús+P', 'empujar el robot hacia delante, hacia atrás (no en «Pose»)'],
-                    ['Esc', 'cancelar un arrastre'],
-                ],
+            picture: [
+                ['Mayús+← →', 'girar la vista'],
+                ['Re Pág, Av Pág', 'desde arriba, desde abajo'],
+                ['+ −', 'más cerca, más lejos'],
+                ['P, Mayús+P', 'empujar el robot hacia delante, hacia atrás (no en «Pose»)'],
+                ['Esc', 'cancelar un arrastre'],
             ],
-            [
-                'Imagen, Pose',
-                [
-                    ['← →', 'elegir una articulación'],
-                    ['↑ ↓', 'girarla (Mayús: de diez en diez)'],
-                    ['Mayús+clic', 'elegir una más'],
-                ],
+            pose: [
+                ['← →', 'elegir una articulación'],
+                ['↑ ↓', 'girarla (Mayús: de diez en diez)'],
+                ['Mayús+clic', 'elegir una más'],
             ],
-            [
-                'Pasos',
-                [
-                    ['← →', 'elegir un paso (Mayús: varios)'],
-                    ['Alt+← →', 'mover los elegidos'],
-                    ['Ctrl+A', 'elegir todos'],
-                    ['Ctrl+C, X, V', 'copiar, cortar, pegar como texto'],
-                    ['D', 'duplicar'],
-                    ['B', 'uno entre este y el siguiente'],
-                    ['M, Mayús+M', 'reflejar de derecha a izquierda, de izquierda a derecha'],
-                    ['X', 'intercambiar izquierda y derecha'],
-                    ['Ins, Supr', 'insertar, eliminar'],
-                ],
+            steps: [
+                ['← →', 'elegir un paso (Mayús: varios)'],
+                ['Alt+← →', 'mover los elegidos'],
+                ['Ctrl+A', 'elegir todos'],
+                ['Ctrl+C, X, V', 'copiar, cortar, pegar como texto'],
+                ['D', 'duplicar'],
+                ['B', 'uno entre este y el siguiente'],
+                ['M, Mayús+M', 'reflejar de derecha a izquierda, de izquierda a derecha'],
+                ['X', 'intercambiar izquierda y derecha'],
+                ['Ins, Supr', 'insertar, eliminar'],
             ],
-            [
-                'Curvas',
-                [
-                    ['← →', 'elegir un paso'],
-                    ['↑ ↓', 'girar las articulaciones elegidas (Mayús: de diez en diez)'],
-                    ['Alt+← →', 'menos o más tiempo'],
-                ],
+            curves: [
+                ['← →', 'elegir un paso'],
+                ['↑ ↓', 'girar las articulaciones elegidas (Mayús: de diez en diez)'],
+                ['Alt+← →', 'menos o más tiempo'],
             ],
-            [
-                'Movimientos',
-                [
-                    ['← → ↑ ↓', 'elegir un movimiento'],
-                    ['Intro', 'sus pasos'],
-                    ['F2', 'cambiar el nombre'],
-                    ['Ctrl+C, Ctrl+V', 'tomarlo, ponerlo aquí: copia o traslado'],
-                    ['Supr', 'vaciar'],
-                ],
+            pages: [
+                ['← → ↑ ↓', 'elegir un movimiento'],
+                ['Intro', 'sus pasos'],
+                ['F2', 'cambiar el nombre'],
+                ['Ctrl+C, Ctrl+V', 'tomarlo, ponerlo aquí: copia o traslado'],
+                ['Supr', 'vaciar'],
             ],
-            [
-                'Enlaces',
-                [
-                    ['← → ↑ ↓', 'el movimiento más cercano en esa dirección'],
-                    ['Intro', 'sus pasos'],
-                ],
+            links: [
+                ['← → ↑ ↓', 'el movimiento más cercano en esa dirección'],
+                ['Intro', 'sus pasos'],
             ],
-            ['Terminal', [['Tab, Mayús+Tab', 'salir; todas las demás teclas van al robot']]],
-            [
-                'Robot',
-                [
-                    ['Intro, sin soltar', 'mantener pulsado un botón del panel'],
-                    ['← →', 'un control deslizante'],
-                ],
+            terminal: [['Tab, Mayús+Tab', 'salir; todas las demás teclas van al robot']],
+            robot: [
+                ['Intro, sin soltar', 'mantener pulsado un botón del panel'],
+                ['← →', 'un control deslizante'],
             ],
-        ],
+        },
     },
 
     areas: {
@@ -460,7 +434,6 @@ const ES: Texts = {
         chosenJoints: 'en las articulaciones elegidas',
         lay: 'Superponer',
         off: 'Quitar capa',
-        position: 'Posición',
         to: 'a',
         swingBy: 'Ida y vuelta de',
         swingSeconds: 'Segundos de ida y vuelta',
@@ -719,7 +692,6 @@ const ES: Texts = {
 
     motions: {
         purpose: 'Movimientos: los 128 de este documento. Arrastra uno para copiarlo o moverlo; un doble clic abre sus pasos.',
-        list: 'Movimientos',
         chosen: 'El movimiento elegido',
         search: 'Buscar',
         searchLabel: 'Buscar movimientos',
@@ -728,9 +700,7 @@ const ES: Texts = {
         used: 'En uso',
         changed: 'No en el robot',
         nothingFound: 'Ningún movimiento se llama así. Vacía la búsqueda para verlos todos.',
-        rename: 'Cambiar nombre …',
         renameTitle: motion => `Cambiar el nombre del ${motion}`,
-        name: 'Nombre',
         nameHint: 'Como mucho 13 caracteres: letras sin tilde ni ñ, cifras y signos.',
         transfer: 'Copiar o mover …',
         transferTitle: 'Copiar o mover',
@@ -1001,7 +971,6 @@ const ES: Texts = {
 
     start: {
         title: 'Motion512: diez movimientos',
-        heading: 'Un humanoide con firmware de verdad, en tu navegador',
         toRobot: 'Al robot',
         choose: 'Diez de sus movimientos. Elige uno, y el robot lo hace.',
         cards: {
