@@ -17,8 +17,7 @@ beforeEach(() => {
     kept.clear();
     const localStorage = { getItem: (key: string) => kept.get(key) ?? null, setItem: (key: string, value: string) => kept.set(key, value) };
     vi.stubGlobal('localStorage', localStorage);
-    const ground = (): string => (root.dataset.theme === 'light' ? '#ffffff' : '#14181c'); // a system that is dark
-    vi.stubGlobal('getComputedStyle', () => ({ getPropertyValue: ground }));
+    vi.stubGlobal('matchMedia', () => ({ matches: true })); // a system that is dark
 });
 afterEach(() => {
     vi.unstubAllGlobals();

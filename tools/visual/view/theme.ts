@@ -3,8 +3,6 @@
 
 import { recall, store } from './remembered.ts';
 
-const DARK_GROUND = '#14181c'; // theme.css
-
 export function showTheme(): void {
     const theme = recall('theme');
     if (theme === 'light' || theme === 'dark') document.documentElement.dataset.theme = theme;
@@ -12,7 +10,7 @@ export function showTheme(): void {
 
 export function changeTheme(): void {
     const root = document.documentElement;
-    const isDark = getComputedStyle(root).getPropertyValue('--ground').trim() === DARK_GROUND;
-    root.dataset.theme = isDark ? 'light' : 'dark';
+    const theme = root.dataset.theme ?? (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light');
+    root.dataset.theme = theme === 'dark' ? 'light' : 'dark';
     store('theme', root.dataset.theme);
 }
