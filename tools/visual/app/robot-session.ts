@@ -20,7 +20,7 @@ import { DocumentEditor } from './editor.ts';
 import type { EditorParts } from './editor.ts';
 import { TEXTS } from '../view/texts/texts.ts';
 import { Arrival } from './arrival.ts';
-import { watchCauses } from './causes.ts';
+import { onChange, watchCauses } from './causes.ts';
 import { makeDocuments, makeTransfer } from './document-parts.ts';
 import type { ChosenStorage } from './document-parts.ts';
 import type { KeptDocuments } from './documents.ts';
@@ -34,7 +34,6 @@ import type { Stick } from './stick.ts';
 import type { RobotTransfer } from './transfer.ts';
 import { trialClient } from './assets.ts';
 import { MotionTrials } from './trials.ts';
-import { watchPageList } from './page-list.ts';
 import { PageVersion } from './page-version.ts';
 import { MotionPreview } from './preview.ts';
 import type { MemoryEvents } from './robot-memory.ts';
@@ -49,7 +48,6 @@ const SHOWN_MS = 160;
 /** Eleven seconds of a line of 57,600 baud. What is longer was not meant for the terminal, and nothing else would be heard meanwhile. */
 const MOST_TYPED = 65_536;
 
-/** The state when the page opens. */
 const startState = (): SessionState => ({
     source: 'simulated',
     connection: 'closed',
@@ -182,13 +180,18 @@ export class RobotSession implements Session {
         });
         // A hidden page hears of no key and no gamepad, not even that they were let go.
         document.addEventListener('visibilitychange', () => document.hidden && this.driving.letGo());
-        watchPageList({
-            editor: this.editor.state,
-            transfer: this.transfer.state,
-            isSimulated: () => this.isSimulated,
-            mayAsk: () => this.status.mayAsk(),
-            ask: () => this.arrival.askPages(),
-        });
+        // The robot's pages were written: by the page, or by Edit in the robot in the page.
+        const askPages = (): unknown => this.status.mayAsk() && this.arrival.askPages();
+        onChange(
+            this.transfer.state,
+            ({ phase }) => phase,
+            phase => (phase === 'written' || phase === 'stopped') && askPages(),
+        );
+        onChange(
+            this.editor.state,
+            ({ robot }) => robot,
+            () => this.isSimulated && askPages(),
+        );
         watchCauses({ messages: this.messages, robot: this.state, editor: this.editor.state, documents: this.documents.state });
     }
 
@@ -220,7 +223,6 @@ export class RobotSession implements Session {
         this.status.tell({ isPowered, ...known });
     }
 
-    /** Starts the robot in the page. */
     start(): Promise<void> {
         return this.sources.simulated.start(this.state.get().image);
     }

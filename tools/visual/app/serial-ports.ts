@@ -3,8 +3,7 @@
 // The adapter's kind is remembered, so that it is not taken for a board.
 
 import { RobotError } from '../robot/robot-error.ts';
-
-const ADAPTER = 'motion512.adapter';
+import { recall, store } from '../view/remembered.ts';
 
 function kindOf(port: SerialPort): string {
     const { usbVendorId = 0, usbProductId = 0 } = port.getInfo();
@@ -13,19 +12,11 @@ function kindOf(port: SerialPort): string {
 
 /** A browser without storage asks the person again. */
 export function isAdapter(port: SerialPort): boolean {
-    try {
-        return localStorage.getItem(ADAPTER) === kindOf(port);
-    } catch {
-        return false;
-    }
+    return recall('adapter') === kindOf(port);
 }
 
 export function rememberAdapter(port: SerialPort): void {
-    try {
-        localStorage.setItem(ADAPTER, kindOf(port));
-    } catch {
-        return;
-    }
+    store('adapter', kindOf(port));
 }
 
 /** Runs `work`, which needs Web Serial and a port chosen by the person. false: the chooser was closed. Rejects with RobotError. */

@@ -10,7 +10,8 @@ import { readPages } from '../robot/page-read.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { Requests } from '../robot/requests.ts';
 import { BytePort } from '../sim/byte-port.ts';
-import { connectionText, errorText } from '../view/texts/robot.ts';
+import { errorText } from '../view/texts/robot.ts';
+import { TEXTS } from '../view/texts/texts.ts';
 import { makeFormat } from './motion-bench.ts';
 import { SimulatedClock, randomNumbers, settle } from './robot-bench.ts';
 
@@ -89,7 +90,7 @@ test.each(['CM510', 'CM-700', 'XY9'])(
         const { connection, sent, pass } = await loaderIsMet(`\xff\r\n\n SYSTEM O.K. (${name} Boot loader V1.00)\r\n - `);
         expect(connection.state).toBe('other-board');
         expect(errorText(connection.error as RobotError)).toContain(name);
-        expect(connectionText('other-board')).not.toContain('m512 flash');
+        expect(TEXTS.robot.connections['other-board']).not.toContain('m512 flash');
         const count = sent.length;
         await expect(askPose(connection.requests)).rejects.toMatchObject({ code: 'not-connected' });
         await pass(5000);
@@ -163,7 +164,7 @@ test("m512's strange boards: a state with a sentence, and every question ends", 
         }
         const { state, error } = connection;
         states.set(state, (states.get(state) ?? 0) + 1);
-        expect(connectionText(state), where).toMatch(/^[^\n]{10,}([.!…]|m512 flash edit-cm5\.hex \(CM-2: edit-cm2\.hex\))$/);
+        expect(TEXTS.robot.connections[state], where).toMatch(/^[^\n]{10,}([.!…]|m512 flash edit-cm5\.hex \(CM-2: edit-cm2\.hex\))$/);
         if (state === 'silent' || state === 'foreign') expect(error, where).toBeInstanceOf(RobotError);
         await connection.close();
     }

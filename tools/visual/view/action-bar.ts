@@ -57,16 +57,9 @@ export class ActionBar extends SessionElement {
         const byName = new Map(state.pages.map(page => [page.name, page]));
         const plays = (name: string, title: string, kind = ''): HTMLButtonElement[] => {
             const page = byName.get(name);
-            return page
-                ? [
-                      this.button(
-                          title,
-                          isReady,
-                          once(() => this.session.play(page.page)),
-                          kind,
-                      ),
-                  ]
-                : [];
+            if (!page) return [];
+            const play = once(() => this.session.play(page.page));
+            return [this.button(title, isReady, play, kind)];
         };
         keepFocus(this, () =>
             this.replaceChildren(

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What the page remembers of the user between visits, apart from documents: things done once, language and theme, and pages
-// on their way to a robot (app/sent-pages.ts).
+// What the page remembers of the user between visits, apart from documents: things done once, language and theme, pages on their way to a
+// robot (app/sent-pages.ts), and the kind of the servo adapter (app/serial-ports.ts).
 
-export type Remembered = 'begun' | 'all-areas' | 'language' | 'theme' | 'half-sent';
+export type Remembered = 'begun' | 'all-areas' | 'language' | 'theme' | 'half-sent' | 'adapter';
 
 const keyOf = (what: Remembered): string => `motion512.${what}`;
 

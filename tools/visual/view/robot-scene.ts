@@ -191,10 +191,8 @@ export class RobotScene {
     dragInPlane(x: number, y: number, world: Vector, normal: Vector): Vector {
         this.raycaster.setFromCamera(new Vector2(x, y), this.camera);
         const towards = new Vector3(...normal).transformDirection(this.room.matrixWorld);
-        if (Math.abs(towards.dot(this.raycaster.ray.direction)) < EDGE_ON) return this.drag(x, y, world);
-        const plane = new Plane().setFromNormalAndCoplanarPoint(towards, this.room.localToWorld(new Vector3(...world)));
-        const hit = this.raycaster.ray.intersectPlane(plane, new Vector3());
-        return hit ? this.room.worldToLocal(hit).toArray() : this.drag(x, y, world);
+        const isEdgeOn = Math.abs(towards.dot(this.raycaster.ray.direction)) < EDGE_ON;
+        return (isEdgeOn ? null : this.hitOf(world, towards)) ?? this.drag(x, y, world);
     }
 
     /** Position of a shape of the figure in the picture (-1..1, y up); null: no shape has that name. */
@@ -208,10 +206,14 @@ export class RobotScene {
     /** Intersects the line of sight at (x, y) with the plane through `world` that faces the camera. */
     drag(x: number, y: number, world: Vector): Vector {
         this.raycaster.setFromCamera(new Vector2(x, y), this.camera);
-        const towards = this.camera.getWorldDirection(new Vector3());
-        const plane = new Plane().setFromNormalAndCoplanarPoint(towards, this.room.localToWorld(new Vector3(...world)));
+        return this.hitOf(world, this.camera.getWorldDirection(new Vector3())) ?? world;
+    }
+
+    /** Where the ray meets the plane through `world`; null: nowhere. */
+    private hitOf(world: Vector, normal: Vector3): Vector | null {
+        const plane = new Plane().setFromNormalAndCoplanarPoint(normal, this.room.localToWorld(new Vector3(...world)));
         const hit = this.raycaster.ray.intersectPlane(plane, new Vector3());
-        return hit ? this.room.worldToLocal(hit).toArray() : world;
+        return hit && this.room.worldToLocal(hit).toArray();
     }
 
     /** Shows the string between hand and limb; null: hides it. */

@@ -10,10 +10,10 @@ import type { Finding } from '../../model/file-formats.ts';
 import { MARK_BYTES, NOMINAL_VOLTS } from '../../model/motion.ts';
 import type { Curve, Law } from '../../model/motion.ts';
 import type { Tab } from '../session/session.ts';
-import { define, make } from '../element.ts';
+import { define, make, setText } from '../element.ts';
 import type { PageTrial } from '../session/trials.ts';
 import { PhysicsBar } from './physics-bar.ts';
-import { findingText, isFaulty } from '../texts/editor.ts';
+import { findingText, isFaulty, titleOf } from '../texts/editor.ts';
 import { jointTitle } from '../texts/robot.ts';
 import { TEXTS } from '../texts/texts.ts';
 import { touchText, verdictText } from '../texts/trials.ts';
@@ -127,7 +127,7 @@ export class ChecksPane extends SessionElement {
             text: findingText(
                 one,
                 joint ? jointTitle(joint) : TEXTS.joint(one.joint ?? 0),
-                one.after === null ? null : this.titleOf(one.after),
+                one.after === null ? null : titleOf(this.session.editor, one.after),
             ),
             isFault: isFaulty(one),
             tab,
@@ -177,7 +177,12 @@ export class ChecksPane extends SessionElement {
 
     private verdictShown(page: number, { verdict }: PageTrial, trials: ReadonlyMap<number, PageTrial>): Shown {
         const [behind] = [...trials].filter(([one, trial]) => one !== page && trial.pages.includes(page));
-        const text = verdictText(verdict, page, one => this.titleOf(one), behind ? [behind[0], behind[1].verdict.kind] : null);
+        const text = verdictText(
+            verdict,
+            page,
+            one => titleOf(this.session.editor, one),
+            behind ? [behind[0], behind[1].verdict.kind] : null,
+        );
         return {
             page: verdict.at?.page ?? page,
             step: verdict.at?.step ?? 0,
@@ -186,10 +191,6 @@ export class ChecksPane extends SessionElement {
             isFault: verdict.kind === 'falls',
             tab: 'steps',
         };
-    }
-
-    private titleOf(page: number): string {
-        return TEXTS.motion.title(page, this.session.editor.page(page).name);
     }
 
     private render(): void {
@@ -203,7 +204,7 @@ export class ChecksPane extends SessionElement {
         const faults = all.filter(one => one.isFault).length;
         const counted = all.length === 0 ? TEXTS.checks.allGood(used) : TEXTS.checks.counted(faults, all.length - faults);
         const text = [counted, note].filter(Boolean).join(' ');
-        if (this.summary.textContent !== text) this.summary.textContent = text;
+        setText(this.summary, text);
         const sorted = [...all].sort((a, b) => Number(b.isFault) - Number(a.isFault) || a.page - b.page || (a.step ?? -1) - (b.step ?? -1));
         const drawn = JSON.stringify(sorted);
         if (drawn === this.drawn) return; // keeps the focus
@@ -212,7 +213,7 @@ export class ChecksPane extends SessionElement {
     }
 
     private row(one: Shown): HTMLElement {
-        const title = this.titleOf(one.page);
+        const title = titleOf(this.session.editor, one.page);
         return make(
             'li',
             { class: one.isFault ? 'fault' : 'note' },

@@ -4,7 +4,7 @@
 import type { TickSpan } from '../../model/curve-speed.ts';
 import type { Shape } from '../../model/motion.ts';
 import type { Tab } from '../session/session.ts';
-import { define, make } from '../element.ts';
+import { define, make, setText } from '../element.ts';
 import type { Store } from '../store.ts';
 import { lagText } from '../texts/editor.ts';
 import { jointTitle } from '../texts/robot.ts';
@@ -92,7 +92,7 @@ export class CurvesPane extends SessionElement {
         ]
             .filter(Boolean)
             .join(' ');
-        if (this.lines.textContent !== text) this.lines.textContent = text;
+        setText(this.lines, text);
     }
 
     private jointRow(): HTMLElement {
@@ -124,7 +124,7 @@ export class CurvesPane extends SessionElement {
 
     private sayFast(fast: ReadonlyMap<number, readonly TickSpan[]>): void {
         const text = fast.size === 0 ? TEXTS.curves.notFast : TEXTS.curves.fast([...fast.keys()]);
-        if (this.fast.textContent !== text) this.fast.textContent = text;
+        setText(this.fast, text);
         this.fast.dataset.tone = fast.size === 0 ? 'calm' : 'bad';
     }
 }

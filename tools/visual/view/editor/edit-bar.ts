@@ -10,7 +10,7 @@ import { onChoice } from '../choice.ts';
 import { keyOf } from '../key-of.ts';
 import { define, isTyping, make, setDisabled, setText } from '../element.ts';
 import { ask, askText, awaited } from './ask-dialog.ts';
-import { editText, savingText, transferText } from '../texts/editor.ts';
+import { editText, transferText } from '../texts/editor.ts';
 import { TEXTS } from '../texts/texts.ts';
 import { SessionElement } from '../session-element.ts';
 import './edit-bar.css';
@@ -56,7 +56,7 @@ export class EditBar extends SessionElement {
         ].map(([value = '', title = '']) => make('option', { value }, title));
         this.documents.replaceChildren(...options, ...damaged, make('hr'), ...actions);
         this.documents.value = openId;
-        this.saving.textContent = savingText(saving);
+        this.saving.textContent = { saved: texts.saved, saving: texts.saving, off: texts.savesNot }[saving];
         this.saving.dataset.state = saving;
     }
 

@@ -5,7 +5,7 @@ import { anglesOf } from '../../model/body.ts';
 import type { Body } from '../../model/body.ts';
 import type { PageView, Step } from '../../model/page.ts';
 import { make } from '../element.ts';
-import { drawPose } from './pose-picture.ts';
+import { drawPose, sized } from './pose-picture.ts';
 
 const SIZE = { width: 46, height: 54 };
 const GHOST = 0.28;
@@ -15,16 +15,9 @@ function isSamePose(a: Step, b: Step): boolean {
 }
 
 function picture(body: Body, before: Step | undefined, after: Step | undefined): HTMLCanvasElement {
-    const sharpness = Math.min(window.devicePixelRatio, 2);
-    const canvas = make('canvas', {
-        width: SIZE.width * sharpness,
-        height: SIZE.height * sharpness,
-        'aria-hidden': 'true',
-        class: after ? '' : 'gone',
-    });
-    const context = canvas.getContext('2d');
+    const canvas = make('canvas', { 'aria-hidden': 'true', class: after ? '' : 'gone' });
+    const context = sized(canvas, SIZE.width, SIZE.height);
     if (!context) return canvas;
-    context.scale(sharpness, sharpness);
     const draw = (step: Step, alpha: number): void => {
         context.globalAlpha = alpha;
         drawPose(context, body, anglesOf(body, step.positions, new Map()), SIZE.width, SIZE.height);

@@ -5,7 +5,7 @@ import { jointAngle, nearestPosition } from '../../model/body.ts';
 import type { Joint } from '../../model/body.ts';
 import { pageOf } from '../../model/document.ts';
 import { POSITION_MAX, POSITION_MIDDLE } from '../../model/motion.ts';
-import { define, make, setDisabled } from '../element.ts';
+import { define, make, setDisabled, setText } from '../element.ts';
 import { jointTitle, layersText } from '../texts/robot.ts';
 import { TEXTS } from '../texts/texts.ts';
 import { SessionElement } from '../session-element.ts';
@@ -105,7 +105,7 @@ export class LayerBar extends SessionElement {
                 : source !== 'yours'
                   ? TEXTS.layers.needsPlay
                   : TEXTS.layers.needsPlayYours(version.board);
-        if (this.status.textContent !== text) this.status.textContent = text;
+        setText(this.status, text);
     }
 
     private list(pages: readonly Uint8Array[]): void {

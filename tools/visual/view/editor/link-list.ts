@@ -10,7 +10,7 @@ import type { RemoteButton } from '../../robot/remote.ts';
 import type { Editor } from '../session/editor.ts';
 import { onChoice } from '../choice.ts';
 import { make } from '../element.ts';
-import { codeText } from '../texts/editor.ts';
+import { codeText, titleOf } from '../texts/editor.ts';
 import { TEXTS } from '../texts/texts.ts';
 
 const CODE_OF: Partial<Record<LinkField, 'linked1Code' | 'linked2Code'>> = { linked1: 'linked1Code', linked2: 'linked2Code' };
@@ -28,10 +28,9 @@ const CHORDS: readonly (readonly RemoteButton[])[] = [
 ];
 
 export function linkList(editor: Editor, graph: LinkGraph, page: number): HTMLElement[] {
-    const title = TEXTS.motion.title(page, editor.page(page).name);
     const incoming = graph.links.filter(link => link.to === page && link.from !== page);
     return [
-        make('h2', {}, TEXTS.links.of(title)),
+        make('h2', {}, TEXTS.links.of(titleOf(editor, page))),
         make('div', { class: 'fields' }, ...[...LINK_FIELDS, ...PARTNER_FIELDS].flatMap(link => field(editor, page, link))),
         make('h2', {}, TEXTS.links.leadsHere),
         incoming.length === 0
@@ -46,11 +45,7 @@ export function linkList(editor: Editor, graph: LinkGraph, page: number): HTMLEl
                           make(
                               'button',
                               { onclick: () => editor.select({ page: link.from }) },
-                              TEXTS.links.leads(
-                                  TEXTS.motion.title(link.from, editor.page(link.from).name),
-                                  TEXTS.links.names[link.kind],
-                                  codeText(link.code),
-                              ),
+                              TEXTS.links.leads(titleOf(editor, link.from), TEXTS.links.names[link.kind], codeText(link.code)),
                           ),
                       ),
                   ),

@@ -12,6 +12,7 @@ import { ask } from './ask-dialog.ts';
 import { dispatchAsked } from './asked.ts';
 import { linkChart, markChart } from './link-chart.ts';
 import { linkList } from './link-list.ts';
+import { titleOf } from '../texts/editor.ts';
 import { TEXTS } from '../texts/texts.ts';
 import { SessionElement } from '../session-element.ts';
 import './links-pane.css';
@@ -21,7 +22,8 @@ export class LinksPane extends SessionElement {
     private readonly list = make('div', { class: 'list' });
     private graph: LinkGraph = { nodes: [], links: [] };
     private drawn: MotionDocument | null = null;
-    private listed = '';
+    /** The page whose links are listed; null: none. */
+    private listed: number | null = null;
     private pulled = 0;
 
     connectedCallback(): void {
@@ -62,9 +64,8 @@ export class LinksPane extends SessionElement {
         if (document !== this.drawn && !gesture) this.draw(document);
         const playing = where?.state === 'playing' ? where.page : 0;
         markChart(this.chart, { selected: page, playing });
-        const key = `${page}`;
-        if (key === this.listed) return;
-        this.listed = key;
+        if (page === this.listed) return;
+        this.listed = page;
         keepFocus(this.list, () =>
             this.list.replaceChildren(...(page === 0 ? [make('p', {}, TEXTS.links.trimStays)] : linkList(editor, this.graph, page))),
         );
@@ -80,7 +81,7 @@ export class LinksPane extends SessionElement {
 
     private draw(document: MotionDocument): void {
         this.drawn = document;
-        this.listed = '';
+        this.listed = null;
         const hadFocus = this.chart.contains(window.document.activeElement);
         this.graph = linkGraph(this.session.editor.format, document);
         this.chart.replaceChildren(
@@ -117,12 +118,11 @@ export class LinksPane extends SessionElement {
         if (from === 0 || to === 0) return;
         if (from === to) return this.choose(from);
         const { editor } = this.session;
-        const title = (page: number): string => TEXTS.motion.title(page, editor.page(page).name);
         const { document } = editor.state.get();
         const kinds: readonly LinkField[] = [...LINK_FIELDS, ...PARTNER_FIELDS];
         const answer = await ask(
             TEXTS.links.ask,
-            TEXTS.links.which(title(from), title(to)),
+            TEXTS.links.which(titleOf(editor, from), titleOf(editor, to)),
             kinds.map(kind => [TEXTS.links.names[kind], kind]),
         );
         const kind = answer as LinkField; // one of `kinds`

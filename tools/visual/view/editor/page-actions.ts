@@ -8,6 +8,7 @@ import type { Editor } from '../session/editor.ts';
 import { make } from '../element.ts';
 import { ask, askText } from './ask-dialog.ts';
 import { dispatchAsked } from './asked.ts';
+import { titleOf } from '../texts/editor.ts';
 import { TEXTS } from '../texts/texts.ts';
 
 /** What a dialog takes, as the pattern of its field. A name has more than blanks. */
@@ -25,11 +26,16 @@ export class PageActions {
 
     async rename(page: number): Promise<void> {
         const { document } = this.editor.state.get();
-        const name = await askText(TEXTS.motions.renameTitle(this.title(page)), TEXTS.document.name, this.editor.page(page).name, {
-            maxLength: 13,
-            pattern: MOTION_NAME,
-            hint: TEXTS.motions.nameHint,
-        });
+        const name = await askText(
+            TEXTS.motions.renameTitle(titleOf(this.editor, page)),
+            TEXTS.document.name,
+            this.editor.page(page).name,
+            {
+                maxLength: 13,
+                pattern: MOTION_NAME,
+                hint: TEXTS.motions.nameHint,
+            },
+        );
         if (name !== null) dispatchAsked(this.editor, document, [page], now => this.editor.edits.rename(now, page, name));
     }
 
@@ -37,7 +43,8 @@ export class PageActions {
         if (this.isEmpty(page)) return;
         const { motions } = TEXTS;
         const { document } = this.editor.state.get();
-        const answer = await ask(motions.clearTitle(this.title(page)), motions.clearMeans(this.title(page)), [[motions.clears, 'clear']]);
+        const title = titleOf(this.editor, page);
+        const answer = await ask(motions.clearTitle(title), motions.clearMeans(title), [[motions.clears, 'clear']]);
         if (answer) dispatchAsked(this.editor, document, [page], now => this.editor.edits.clearPages(now, [page]));
     }
 
@@ -53,7 +60,7 @@ export class PageActions {
     async transferByNumber(page: number): Promise<void> {
         const { document } = this.editor.state.get();
         const free = freePage(this.editor.format, document, page);
-        const answer = await askText(TEXTS.motions.transferTo(this.title(page)), TEXTS.motions.toNumber, String(free || page), {
+        const answer = await askText(TEXTS.motions.transferTo(titleOf(this.editor, page)), TEXTS.motions.toNumber, String(free || page), {
             maxLength: 3,
             pattern: MOTION_NUMBER,
             hint: TEXTS.motions.numberHint,
@@ -72,7 +79,7 @@ export class PageActions {
         const question = isFree ? motions.transferAsk : motions.transferReplaces;
         const answer = await ask(
             motions.transferTitle,
-            question(this.title(from), this.title(to)),
+            question(titleOf(editor, from), titleOf(editor, to)),
             [[motions.copy, 'copy'], [motions.move, 'move'], ...(isFree ? [] : [[motions.swap, 'swap'] as const])],
             make('label', {}, follow, motions.linksFollow),
         );
@@ -87,9 +94,5 @@ export class PageActions {
 
     private isEmpty(page: number): boolean {
         return this.editor.format.isEmpty(pageOf(this.editor.state.get().document, page));
-    }
-
-    private title(page: number): string {
-        return TEXTS.motion.title(page, this.editor.page(page).name);
     }
 }

@@ -2,8 +2,9 @@
 // Part of Checks: starts trials of motions in physics, shows progress and a summary of the results.
 
 import { pageOf } from '../../model/document.ts';
-import { define, handOver, make } from '../element.ts';
+import { define, handOver, make, setText } from '../element.ts';
 import type { TrialsState } from '../session/trials.ts';
+import { titleOf } from '../texts/editor.ts';
 import { TEXTS } from '../texts/texts.ts';
 import { countedText } from '../texts/trials.ts';
 import { SessionElement } from '../session-element.ts';
@@ -43,13 +44,13 @@ export class PhysicsBar extends SessionElement {
         const trial = trials.state.get();
         const isBusy = trial.phase === 'loading' || trial.phase === 'trying';
         const playable = this.playable();
-        this.one.textContent = TEXTS.trials.tryOne(this.titleOf(page));
+        this.one.textContent = TEXTS.trials.tryOne(titleOf(editor, page));
         this.one.disabled = !playable.includes(page) || trials.isFresh(page);
         this.all.disabled = playable.every(one => trials.isFresh(one));
         if (this.stop.hidden === isBusy) this.turn(isBusy);
         this.progress.max = Math.max(1, trial.total);
         this.progress.value = trial.done;
-        this.say(this.textOf(trial, playable));
+        setText(this.status, this.textOf(trial, playable));
     }
 
     private turn(isBusy: boolean): void {
@@ -64,7 +65,7 @@ export class PhysicsBar extends SessionElement {
         if (trial.phase === 'loading') return TEXTS.trials.loading;
         if (trial.phase === 'failed') return TEXTS.trials.failed(trial.trouble ?? '');
         if (trial.phase === 'trying' && trial.page !== null)
-            return TEXTS.trials.trying(this.titleOf(trial.page), trial.done + 1, trial.total);
+            return TEXTS.trials.trying(titleOf(this.session.editor, trial.page), trial.done + 1, trial.total);
         const known = playable.flatMap(page => trial.trials.get(page) ?? []);
         const changed = playable.filter(page => trial.trials.has(page) && !this.session.trials.isFresh(page)).length;
         return countedText(
@@ -72,14 +73,6 @@ export class PhysicsBar extends SessionElement {
             playable.length - known.length,
             changed,
         );
-    }
-
-    private titleOf(page: number): string {
-        return TEXTS.motion.title(page, this.session.editor.page(page).name);
-    }
-
-    private say(text: string): void {
-        if (this.status.textContent !== text) this.status.textContent = text;
     }
 }
 

@@ -5,7 +5,7 @@ import { jointAngle, nearestPosition } from '../../model/body.ts';
 import type { Joint } from '../../model/body.ts';
 import type { Touch } from '../../model/trial.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
-import { closesByItself, define, make } from '../element.ts';
+import { closesByItself, define, make, setText } from '../element.ts';
 import type { Store } from '../store.ts';
 import { isEditing, robotPositions } from './editing.ts';
 import type { Editing, PictureMode } from './editing.ts';
@@ -146,13 +146,12 @@ export class PoseBar extends SessionElement {
                   : margin < 0
                     ? TEXTS.picture.tips
                     : TEXTS.picture.margin(Math.round(margin * 1000));
-        if (this.balance.textContent !== text) this.balance.textContent = text;
+        setText(this.balance, text);
         this.balance.dataset.tone = margin !== null && margin < 0 && !isInHand ? 'bad' : 'calm';
     }
 
     private showTouches(): void {
-        const text = this.hidden ? '' : touchesText(this.touches());
-        if (this.touch.textContent !== text) this.touch.textContent = text;
+        setText(this.touch, this.hidden ? '' : touchesText(this.touches()));
     }
 }
 

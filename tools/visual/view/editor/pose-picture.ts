@@ -132,13 +132,18 @@ function shadow(context: CanvasRenderingContext2D, [x, y]: readonly [number, num
     context.fill();
 }
 
-/** Sizes the canvas for the screen's pixel ratio (at most 2) and draws the picture. */
-export function showPose(canvas: HTMLCanvasElement, body: Body, angles: Angles, width: number, height: number): void {
+/** Sizes the canvas for the screen's pixel ratio (at most 2), which empties it. Returns what draws on it in CSS pixels. */
+export function sized(canvas: HTMLCanvasElement, width: number, height: number): CanvasRenderingContext2D | null {
     const sharpness = Math.min(window.devicePixelRatio, 2);
     canvas.width = Math.round(width * sharpness);
     canvas.height = Math.round(height * sharpness);
     const context = canvas.getContext('2d');
-    if (!context) return;
-    context.scale(sharpness, sharpness);
-    drawPose(context, body, angles, width, height);
+    context?.scale(sharpness, sharpness);
+    return context;
+}
+
+/** Draws the picture anew. */
+export function showPose(canvas: HTMLCanvasElement, body: Body, angles: Angles, width: number, height: number): void {
+    const context = sized(canvas, width, height);
+    if (context) drawPose(context, body, angles, width, height);
 }

@@ -123,8 +123,7 @@ export class StepActions extends SessionElement {
     private duplicate(): void {
         const { editor } = this.session;
         const { page, steps, document } = editor.state.get();
-        const last = Math.max(...steps);
-        if (editor.dispatch(editor.edits.duplicateSteps(document, page, steps))) this.choose(last + 1, steps.size);
+        if (editor.dispatch(editor.edits.duplicateSteps(document, page, steps))) this.choose(Math.max(...steps) + 1, steps.size);
     }
 
     private between(): void {

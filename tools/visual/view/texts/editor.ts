@@ -9,6 +9,7 @@ import type { Refusal } from '../../model/result.ts';
 import type { Transaction } from '../../model/transaction.ts';
 import { buttonsOf } from '../../robot/remote.ts';
 import type { Drawn } from '../editor/curve-canvas.ts';
+import type { Editor } from '../session/editor.ts';
 import type { SessionState } from '../session/session.ts';
 import type { TransferState } from '../session/transfer.ts';
 import { TEXTS } from './texts.ts';
@@ -26,10 +27,9 @@ export function refusalText({ code, words }: Refusal): string {
     return TEXTS.document.refusals[code](words);
 }
 
-/** State of the autosave. */
-export function savingText(saving: 'saved' | 'saving' | 'off'): string {
-    const { document } = TEXTS;
-    return { saved: document.saved, saving: document.saving, off: document.savesNot }[saving];
+/** "motion 12 (walk)", with its name in the document. */
+export function titleOf(editor: Pick<Editor, 'page'>, page: number): string {
+    return TEXTS.motion.title(page, editor.page(page).name);
 }
 
 const ARROWS: Readonly<Record<string, string>> = { up: '▲', down: '▼', left: '◀', right: '▶' };

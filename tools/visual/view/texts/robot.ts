@@ -3,7 +3,6 @@
 
 import type { Joint } from '../../model/body.ts';
 import { JOINTS } from '../../model/motion.ts';
-import type { ConnectionState } from '../../robot/connection-table.ts';
 import type { Where } from '../../robot/protocol.ts';
 import type { RobotError } from '../../robot/robot-error.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
@@ -29,10 +28,6 @@ export function ranges(numbers: readonly number[]): string[] {
         else rows.push([number]);
     }
     return rows.flatMap(row => (row.length > 2 ? [`${row[0]}-${row.at(-1)}`] : row.map(String)));
-}
-
-export function connectionText(state: ConnectionState): string {
-    return TEXTS.robot.connections[state];
 }
 
 /** For example "right hip pitch". */
