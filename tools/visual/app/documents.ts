@@ -15,10 +15,8 @@ import { TEXTS } from '../view/texts/texts.ts';
 import type { Release } from './hold-document.ts';
 import { Turns } from './turns.ts';
 
-/** The view of the open document. */
 export interface Shown {
     open(document: MotionDocument, history: History): void;
-    /** Changes only the name. */
     rename(name: string): void;
     edited(): Edited;
 }
@@ -39,7 +37,6 @@ export interface DocumentsParts {
     readonly copied: (name: string) => void;
     /** The document of that name is not stored any more. */
     readonly gone: (name: string) => void;
-    /** The document could not be stored. */
     readonly failed: (error: unknown) => void;
 }
 
@@ -133,7 +130,6 @@ export class KeptDocuments implements Documents {
         await this.parts.storage.removeDocument(id).catch((error: unknown) => this.parts.failed(error));
     }
 
-    /** Opens the newest document but this one. */
     private async openOther(than: string): Promise<void> {
         const mine = ++this.chosen;
         const { documents } = await this.load(); // another tab may have removed some as well

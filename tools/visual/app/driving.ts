@@ -49,7 +49,6 @@ export class Driving {
         this.keys.hold(held);
     }
 
-    /** A key press waits for the robot. */
     get isWaiting(): boolean {
         return this.wish !== null;
     }

@@ -24,7 +24,6 @@ import { Store } from '../view/store.ts';
 
 const CURVE_TICKS = 4096;
 
-/** Inputs of a new editor. */
 export interface EditorParts {
     readonly format: PageFormat;
     /** Used by this editor only. */
@@ -38,7 +37,6 @@ export interface EditorEvents {
     /** A finished edit, undo or redo has changed the document. */
     changed(document: MotionDocument): void;
     refused(refusal: Refusal): void;
-    /** Another document has been opened. */
     opened(): void;
 }
 
@@ -110,7 +108,6 @@ export class DocumentEditor implements Editor {
         this.show(change.page === undefined || change.step !== undefined ? state : { ...state, step: 0, steps: new Set([0]) });
     }
 
-    /** Opens another document with its stored history. */
     open(document: MotionDocument, history: History): void {
         const { robot, law } = this.state.get();
         this.show({

@@ -31,7 +31,6 @@ function bytesOf(file: ChosenFile): Promise<Uint8Array | string> {
 export interface FilesParts {
     /** Cancels the file operation that runs. */
     cancel(): void;
-    /** Opens a new document. */
     create(name: string, document: MotionDocument): Promise<void>;
 }
 

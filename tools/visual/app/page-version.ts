@@ -27,7 +27,6 @@ export class PageVersion {
         });
     }
 
-    /** Replaces this page with the newer version. */
     take(): void {
         const waiting = this.registration?.waiting;
         if (!waiting) return window.location.reload(); // it has taken over already: another tab asked for it

@@ -54,7 +54,6 @@ export class ServosSource {
         this.robot = new FollowedRobot(body, { ...events, text }, mayAsk);
     }
 
-    /** null if there is none. */
     get connection(): Connection | null {
         return this.robot.connection;
     }
@@ -86,7 +85,6 @@ export class ServosSource {
         });
     }
 
-    /** Connects to the program. */
     connect(): void {
         if (this.client) this.robot.connect(this.client.port);
     }

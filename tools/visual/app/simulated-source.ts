@@ -63,7 +63,6 @@ export class SimulatedSource {
     private physicsCame: () => void = () => undefined;
     /** Why it does not run any more; null: it runs. */
     private stopped: string | null = null;
-    /** Counts Stop. */
     private stops = 0;
     /** Floor, battery and faults as the person has set them. The next robot gets them, too. */
     private readonly room = new Map<string, ToSim>();
@@ -80,7 +79,6 @@ export class SimulatedSource {
         this.memory = new RobotMemory(events);
     }
 
-    /** Starts the first robot. */
     start(image: ImageName): Promise<void> {
         return this.turns.run(async () => {
             const [parts, kept] = await Promise.all([this.parts(image), this.memory.load()]);

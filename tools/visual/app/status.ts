@@ -90,7 +90,6 @@ export class Status {
         this.tell();
     }
 
-    /** The size of the terminal in characters. */
     terminalSize(size: TerminalSize): void {
         this.terminal = size;
         this.look();
@@ -101,7 +100,6 @@ export class Status {
         this.isDrawingDue = true;
     }
 
-    /** The robot's text. */
     hear(bytes: Uint8Array): void {
         const text = this.heardLast + new TextDecoder('latin1').decode(bytes);
         this.isDrawn ||= text.includes(CLEAR);

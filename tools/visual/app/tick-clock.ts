@@ -25,12 +25,10 @@ export class TickClock implements Clock {
         return () => this.timers.delete(id);
     }
 
-    /** Resolves after this much robot time. */
     pass(delayMs: number): Promise<void> {
         return new Promise(resolve => this.after(delayMs, resolve));
     }
 
-    /** The robot has reached this tick. */
     reach(ticks: number): void {
         const robotMs = (1000 * ticks) / TICKS_PER_SECOND;
         this.ms += Math.min(robotMs - this.reachedMs, MOST_STEP_MS);

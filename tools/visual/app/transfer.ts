@@ -39,7 +39,6 @@ export interface TransferParts {
     readonly sent?: KeptPages;
 }
 
-/** A write that has begun. */
 interface Begun {
     readonly write: PageWrite;
     /** Of each page the CRCs that it may have: as in the backup, and as written. */

@@ -18,7 +18,6 @@ export class YourSource {
         if ('serial' in navigator) navigator.serial.addEventListener('connect', () => this.connection?.retryNow());
     }
 
-    /** null if there is none. */
     get connection(): Connection | null {
         return this.robot.connection;
     }

@@ -14,7 +14,6 @@ import './first-minute.css';
 const ON_THE_WAY: readonly string[] = ['Tab', 'Shift', 'Enter', ' ', 'Control', 'Alt', 'Meta', 'F6'];
 
 export class FirstMinute extends SessionElement {
-    /** Called when the user wants to teach the robot. */
     onTeach: () => void = () => undefined; // set before it is connected
 
     connectedCallback(): void {

@@ -63,9 +63,10 @@ export class RobotFigure {
     private readonly materials = new Map<string, MeshStandardMaterial[]>();
     private readonly lamps = new Map<string, Mesh<BufferGeometry, MeshStandardMaterial>>();
     private readonly ghost: GhostLook | null;
-    private marked: string | null = null;
-    private chosen: ReadonlySet<string> = new Set();
-    private touching: ReadonlySet<string> = new Set();
+    /** Links that show() highlights: under the mouse, being edited, intersecting. */
+    marked: string | null = null;
+    chosen: ReadonlySet<string> = new Set();
+    touching: ReadonlySet<string> = new Set();
 
     constructor(body: Body, ghost: GhostLook | null = null) {
         this.ghost = ghost;
@@ -74,7 +75,7 @@ export class RobotFigure {
         for (const shape of body.shapes) this.addShape(shape, body);
     }
 
-    /** Sets trunk and joint angles, and colours the links: after mark(), choose() and touch(). alarms: servos that report a fault. */
+    /** Sets trunk and joint angles, and colours the links. alarms: servos that report a fault. */
     show(trunk: Place, angles: Angles, alarms: ReadonlySet<number> = NO_ALARMS): void {
         put(this.root, trunk);
         for (const { joint, group, axis } of this.joints.values()) group.quaternion.setFromAxisAngle(axis, angles.get(joint.servo) ?? 0);
@@ -98,21 +99,6 @@ export class RobotFigure {
     /** An LED is in the picture, or would be. */
     get hasLamps(): boolean {
         return [...this.lamps.values()].some(lamp => lamp.visible);
-    }
-
-    /** Highlights one link; null: none. */
-    mark(link: string | null): void {
-        this.marked = link;
-    }
-
-    /** Highlights the links that are being edited. */
-    choose(links: ReadonlySet<string>): void {
-        this.chosen = links;
-    }
-
-    /** Highlights the links that intersect. */
-    touch(links: ReadonlySet<string>): void {
-        this.touching = links;
     }
 
     /** Hides the parts of these links, and shows all others. A ghost needs no parts that coincide with the figure's. */

@@ -332,13 +332,13 @@ export class RobotView extends SessionElement {
 
     private hover(event: PointerEvent): void {
         const link = this.pick(event)?.link ?? null;
-        this.scene?.figure.mark(link);
+        if (this.scene) this.scene.figure.marked = link;
         this.canvas.classList.toggle('over-robot', link !== null);
         this.showJoint(link);
     }
 
     private leave(): void {
-        this.scene?.figure.mark(null);
+        if (this.scene) this.scene.figure.marked = null;
         this.canvas.classList.remove('over-robot');
         this.label.hidden = true;
     }

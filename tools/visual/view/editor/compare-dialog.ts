@@ -77,7 +77,6 @@ export class CompareDialog extends SessionElement {
         );
     }
 
-    /** Opens the comparison with the robot and reads its pages. */
     async open(): Promise<void> {
         this.trouble = null;
         this.fillWhich('robot');

@@ -33,7 +33,6 @@ export interface Drawn {
 }
 
 export class CurveCanvas extends SessionElement {
-    /** Called after each drawing. */
     onDrawn: (drawn: Drawn) => void = () => undefined;
     private shape = AS_STORED;
     private readonly canvas = make('canvas', { tabindex: 0, role: 'img', 'aria-label': TEXTS.curves.curves });
@@ -78,7 +77,6 @@ export class CurveCanvas extends SessionElement {
         this.later();
     }
 
-    /** Shows the servo positions from physics. */
     setFollow(on: boolean): void {
         this.follow.setOn(on);
     }

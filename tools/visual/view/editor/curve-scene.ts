@@ -13,7 +13,6 @@ const SPAN = { margin: 24, least: 120 };
 
 export interface SceneOptions {
     readonly shape: Shape;
-    /** Battery voltage. */
     readonly volts: number;
     /** Edges to keep during a drag, so that the picture does not move under the mouse. */
     readonly edges: Pick<CurveScene, 'low' | 'high'> | null;

@@ -67,7 +67,6 @@ export class CurvesPane extends SessionElement {
         if (servos.length > 0) editor.select({ joints: new Set(servos) });
     }
 
-    /** Lists the chosen lines by name and colour. */
     private sayLegend({ chosen }: Drawn): void {
         const key = chosen.join();
         if (key === this.legend.dataset.joints) return;
@@ -75,11 +74,9 @@ export class CurvesPane extends SessionElement {
         const { joints } = this.session.body;
         const items = chosen.map((servo, i) => {
             const joint = joints.find(one => one.servo === servo);
-            return make(
-                'li',
-                { class: `line-${(i % CHOSEN_COLOURS.length) + 1}` },
-                TEXTS.curves.line(servo, joint ? jointTitle(joint) : ''),
-            );
+            const item = make('li', {}, TEXTS.curves.line(servo, joint ? jointTitle(joint) : ''));
+            item.style.setProperty('--line-colour', `var(${CHOSEN_COLOURS[i % CHOSEN_COLOURS.length]})`);
+            return item;
         });
         this.legend.replaceChildren(...(items.length > 0 ? items : [make('li', { class: 'none' }, TEXTS.curves.noLine)]));
     }

@@ -22,7 +22,6 @@ const RENAME = 'rename';
 const REMOVE = 'remove';
 
 export class EditBar extends SessionElement {
-    /** Opens the transfer to the robot. */
     onTransfer: () => void = () => undefined;
     private readonly documents = make('select', { 'aria-label': TEXTS.document.document });
     private readonly saving = make('span', { class: 'saving', role: 'status', 'aria-label': TEXTS.document.autosave });

@@ -10,7 +10,7 @@ import type { Place } from '../../model/space.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
 import type { Editor } from '../session/editor.ts';
 import type { Store } from '../store.ts';
-import { robotAngles, robotPositions, stanceOf, stepAngles } from './editing.ts';
+import { robotAngles, robotPositions, stepAngles } from './editing.ts';
 import type { Editing } from './editing.ts';
 import type { Posed } from './pose-layer.ts';
 
@@ -20,7 +20,6 @@ export class EditedPose {
     private readonly editor: Editor;
     private readonly body: Body;
     private readonly editing: Store<Editing>;
-    /** Last known state. */
     robot: RobotState | null = null;
 
     constructor(editor: Editor, body: Body, editing: Store<Editing>) {
@@ -43,8 +42,11 @@ export class EditedPose {
         return robotPositions(this.robot).map((position, id) => position ?? pose[id] ?? 0);
     }
 
+    /** The foot on which the figure stands, at the place of the robot's foot. */
     stance(angles: Angles): Stance {
-        return stanceOf(this.body, this.editing.get(), angles, this.feet());
+        const { keep } = this.editing.get();
+        const foot = keep === 'lower' ? lowerFoot(this.body, angles) : keep;
+        return { keep: foot, at: this.feet()[foot] };
     }
 
     /** The figure with these angles, standing on the foot of the stance. */
@@ -57,9 +59,7 @@ export class EditedPose {
         const { page } = this.editor.state.get();
         if (at < 0 || at >= this.editor.page(page).steps.length) return null;
         const angles = stepAngles(this.editor, this.body, page, at);
-        const { keep } = this.editing.get();
-        const foot = keep === 'lower' ? lowerFoot(this.body, angles) : keep;
-        return this.posed(angles, { keep: foot, at: this.feet()[foot] });
+        return this.posed(angles, this.stance(angles));
     }
 
     private get isEmpty(): boolean {

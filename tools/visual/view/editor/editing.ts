@@ -2,13 +2,11 @@
 // State shared by the editor's areas apart from the document: how the picture is used, and poses of the robot and the chosen step. Not part
 // of the history.
 
-import { lowerFoot } from '../../model/balance.ts';
 import { anglesOf, jointAngle, nearestPosition } from '../../model/body.ts';
 import type { Angles, Body, Side } from '../../model/body.ts';
 import { JOINTS } from '../../model/motion.ts';
 import { BYTE_MAX } from '../../model/page.ts';
 import type { Step } from '../../model/page.ts';
-import type { Stance } from '../../model/pose-drag.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
 import type { SessionState, Tab } from '../session/session.ts';
 import type { Editor } from '../session/editor.ts';
@@ -82,12 +80,6 @@ export function changedPositions(body: Body, before: Angles, after: Angles): Map
             return was === is ? [] : [[joint.servo, is] as const];
         }),
     );
-}
-
-/** The foot on which the edited figure stands, at the place of the robot's foot. */
-export function stanceOf(body: Body, editing: Editing, angles: Angles, feet: Readonly<Record<Side, Stance['at']>>): Stance {
-    const keep = editing.keep === 'lower' ? lowerFoot(body, angles) : editing.keep;
-    return { keep, at: feet[keep] };
 }
 
 const SAFE_UNITS_PER_TICK = 2.5;

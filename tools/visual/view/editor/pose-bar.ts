@@ -24,7 +24,6 @@ export class PoseBar extends SessionElement {
     editing!: Store<Editing>; // set before it is connected
     /** Distance of the centre of mass inside the support polygon (metres); null: not computed. */
     margin: () => number | null = () => null;
-    /** Limbs of the figure that intersect. */
     touches: () => readonly Touch[] = () => [];
     private readonly modes = new Map<PictureMode, HTMLButtonElement>();
     private readonly joints = make('div', { class: 'joints', role: 'group', 'aria-label': TEXTS.picture.chosenJoints });

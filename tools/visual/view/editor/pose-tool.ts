@@ -103,8 +103,8 @@ export class PoseTool {
               : real;
         this.figureTrunk = figure?.trunk ?? null;
         this.touchWatch.look(edited ? (isPosing ? this.shownPose : robot && robotPose(robot)) : null);
-        this.scene.figure.touch(new Set(this.touches.flatMap(({ links }) => links)));
-        this.scene.figure.choose(isPosing ? this.chosenLinks() : new Set());
+        this.scene.figure.touching = new Set(this.touches.flatMap(({ links }) => links));
+        this.scene.figure.chosen = isPosing ? this.chosenLinks() : new Set();
         if (figure) this.scene.figure.show(figure.trunk, figure.angles, isPosing || shown ? new Set() : alarms);
         this.scene.figure.light(robot?.leds ?? 0);
         const other = isInHand ? null : isPosing ? real : edited;

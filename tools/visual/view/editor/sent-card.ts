@@ -9,9 +9,7 @@ import { SessionElement } from '../session-element.ts';
 import './sent-card.css';
 
 export class SentCard extends SessionElement {
-    /** Called when a motion was received. */
     onSent: () => void = () => undefined; // set before it is connected
-    /** Called when the user wants to teach a motion. */
     onTeach: () => void = () => undefined;
     /** The document that the motion was added to. */
     private openId = '';

@@ -83,7 +83,6 @@ export class StepActions extends SessionElement {
         event.preventDefault();
     }
 
-    /** Inserts the robot's pose as a step after the chosen one. */
     addFromRobot(): void {
         if (!this.robot) return;
         const { editor } = this.session;

@@ -23,7 +23,6 @@ export class TourCard extends SessionElement {
     placeOf: (shape: string) => { readonly x: number; readonly y: number } | null = () => null;
     /** Called when a stop's target is in an area, not in the picture. */
     onArea: () => void = () => undefined;
-    /** Called when the user wants to send the motion. */
     onSend: () => void = () => undefined;
     private readonly stops = tourStops();
     private readonly place = new TourPlace(this.stops.length);
