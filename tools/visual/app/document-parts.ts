@@ -2,10 +2,7 @@
 // Connects the editor to the documents of this browser and to the robot.
 
 import { emptyDocument } from '../model/document.ts';
-import type { MotionDocument } from '../model/document.ts';
-import type { History } from '../model/history.ts';
 import { hexOf } from '../robot/hex.ts';
-import type { Requests } from '../robot/requests.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { DocumentStorage } from '../view/document-storage.ts';
 import { KeptDocuments } from './documents.ts';
@@ -14,6 +11,7 @@ import type { DocumentEditor } from './editor.ts';
 import { holdDocument } from './hold-document.ts';
 import { SENT_PAGES } from './sent-pages.ts';
 import { RobotTransfer } from './transfer.ts';
+import type { TransferParts } from './transfer.ts';
 
 /** Where documents are kept. isKept is false if they are lost when the page closes. */
 export interface ChosenStorage {
@@ -21,15 +19,8 @@ export interface ChosenStorage {
     readonly isKept: boolean;
 }
 
-/** What a transfer of pages needs from the robot in use. */
-export interface RobotForPages {
-    /** Identifies the robot's backups. */
-    name(): string;
-    /** Throws RobotError if no line is open. */
-    requests(): Requests;
-    /** Rejects with RobotError if Edit cannot be started. */
-    becomeEdit(): Promise<void>;
-}
+/** What a transfer of pages needs from the robot in use. name: identifies its backups. */
+type RobotForPages = Pick<TransferParts, 'requests' | 'becomeEdit'> & { readonly name: () => string };
 
 /** Not crypto.randomUUID(), which is missing over plain http from another machine. */
 function newId(): string {
@@ -41,12 +32,7 @@ export function makeDocuments(
     { storage, isKept }: ChosenStorage,
     events: Pick<DocumentsParts, 'failed' | 'copied' | 'gone'>,
 ): KeptDocuments {
-    const shown = {
-        open: (document: MotionDocument, history: History) => editor.open(document, history),
-        rename: (name: string) => editor.rename(name),
-        edited: () => editor.state.get(),
-    };
-    return new KeptDocuments(shown, {
+    return new KeptDocuments(editor, {
         storage,
         isKept,
         ...events,
@@ -63,8 +49,8 @@ export function makeTransfer(editor: DocumentEditor, documents: KeptDocuments, r
         document: () => editor.state.get().document,
         robot: () => editor.state.get().robot,
         setRobot: pages => editor.setRobot(pages),
-        requests: () => robot.requests(),
-        becomeEdit: () => robot.becomeEdit(),
+        requests: robot.requests,
+        becomeEdit: robot.becomeEdit,
         backUp: pages =>
             documents.backUp(robot.name(), pages).catch((cause: unknown) => {
                 throw new RobotError('no-backup', '', { cause });

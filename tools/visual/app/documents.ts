@@ -6,20 +6,15 @@ import { copyName, documentFrom, freeName, imageOf } from '../model/document.ts'
 import type { MotionDocument } from '../model/document.ts';
 import { DROP_ALL, EMPTY_LOG, advance, positionOf, restored } from '../model/history-log.ts';
 import type { HistoryLog, StepsChange } from '../model/history-log.ts';
-import type { Edited, History } from '../model/history.ts';
+import type { Edited } from '../model/history.ts';
 import { NO_HISTORY } from '../model/history.ts';
 import type { Backup, DocumentStorage, KeptDocument } from '../view/document-storage.ts';
 import type { DocumentEntry, Documents, DocumentsState } from '../view/session/documents.ts';
 import { Store } from '../view/store.ts';
 import { TEXTS } from '../view/texts/texts.ts';
+import type { DocumentEditor } from './editor.ts';
 import type { Release } from './hold-document.ts';
 import { Turns } from './turns.ts';
-
-export interface Shown {
-    open(document: MotionDocument, history: History): void;
-    rename(name: string): void;
-    edited(): Edited;
-}
 
 /** Locks a document for this tab until the returned function is called. null: it is locked already. */
 export type Hold = (id: string) => Promise<Release | null>;
@@ -45,7 +40,8 @@ const NEWEST_FIRST = (a: { savedMs: number }, b: { savedMs: number }): number =>
 export class KeptDocuments implements Documents {
     readonly state = new Store<DocumentsState>({ documents: [], openId: '', backups: [], unreadable: [], forgotten: 0, saving: 'saved' });
     private readonly parts: DocumentsParts;
-    private readonly shown: Shown;
+    /** Shows the open document. */
+    private readonly editor: Pick<DocumentEditor, 'open' | 'rename' | 'state'>;
     private log: HistoryLog = EMPTY_LOG;
     /** The last version of each document that is not stored yet, by id. */
     private readonly unstored = new Map<string, KeptDocument>();
@@ -60,8 +56,8 @@ export class KeptDocuments implements Documents {
     /** What is opened takes its lock one after the other. Nobody gets a lock twice, not even this tab. */
     private readonly turns = new Turns();
 
-    constructor(shown: Shown, parts: DocumentsParts) {
-        this.shown = shown;
+    constructor(editor: Pick<DocumentEditor, 'open' | 'rename' | 'state'>, parts: DocumentsParts) {
+        this.editor = editor;
         this.parts = parts;
         if (!parts.isKept) this.state.set({ saving: 'off' });
     }
@@ -107,7 +103,7 @@ export class KeptDocuments implements Documents {
     }
 
     rename(name: string): void {
-        this.shown.rename(this.free(name, this.state.get().openId));
+        this.editor.rename(this.free(name, this.state.get().openId));
         this.keep();
     }
 
@@ -145,7 +141,7 @@ export class KeptDocuments implements Documents {
 
     /** Stores a finished edit. The storage has it when this returns. */
     keep(): void {
-        const { document, history } = this.shown.edited();
+        const { document, history } = this.editor.state.get();
         const { openId, documents } = this.state.get();
         const entry = { id: openId, name: document.name, savedMs: this.parts.nowMs() };
         this.state.set({ documents: documents.map(one => (one.id === openId ? entry : one)) });
@@ -232,7 +228,7 @@ export class KeptDocuments implements Documents {
         this.log = log;
         this.state.set({ openId: id, forgotten: log.base });
         this.letGo(before);
-        this.shown.open(document, history);
+        this.editor.open(document, history);
     }
 
     /** false: another tab has it. */

@@ -35,24 +35,17 @@ async function openTab(storage: DocumentStorage, options: { taken?: string; hold
             opened: () => undefined,
         },
     );
-    const documents: KeptDocuments = new KeptDocuments(
-        {
-            open: (document, history) => editor.open(document, history),
-            rename: name => editor.rename(name),
-            edited: () => editor.state.get(),
-        },
-        {
-            storage,
-            isKept: true,
-            empty: emptyDocument(format, ''),
-            nowMs: () => ++ids,
-            newId: () => `id${++ids}`,
-            hold: options.hold ?? (id => Promise.resolve(id === options.taken ? null : () => undefined)),
-            failed: error => failures.push(error),
-            copied: name => copies.push(name),
-            gone: name => gone.push(name),
-        },
-    );
+    const documents: KeptDocuments = new KeptDocuments(editor, {
+        storage,
+        isKept: true,
+        empty: emptyDocument(format, ''),
+        nowMs: () => ++ids,
+        newId: () => `id${++ids}`,
+        hold: options.hold ?? (id => Promise.resolve(id === options.taken ? null : () => undefined)),
+        failed: error => failures.push(error),
+        copied: name => copies.push(name),
+        gone: name => gone.push(name),
+    });
     await documents.start(library);
     return { editor, documents, failures, copies, gone };
 }

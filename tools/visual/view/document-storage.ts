@@ -77,13 +77,6 @@ function isImage(value: unknown): value is Uint8Array {
     return value instanceof Uint8Array && value.length === PAGE_BYTES * PAGE_COUNT;
 }
 
-function done<T>(asked: IDBRequest<T>): Promise<T> {
-    return new Promise((resolve, reject) => {
-        asked.onsuccess = () => resolve(asked.result);
-        asked.onerror = () => reject(asked.error);
-    });
-}
-
 /** Steps of a document with from <= number < below. */
 function stepsIn(id: string, from: number, below: number): IDBKeyRange {
     return IDBKeyRange.bound([id, from], [id, below], false, true);
@@ -121,18 +114,13 @@ export class BrowserStorage implements DocumentStorage {
 
     async load(): Promise<Kept> {
         await this.recover();
-        const [documents, backups] = await this.database.use(database => {
-            const transaction = database.transaction([DOCUMENTS, BACKUPS]);
-            return Promise.all([DOCUMENTS, BACKUPS].map(store => done(transaction.objectStore(store).getAll() as IDBRequest<unknown[]>)));
-        });
-        return sortKept(documents ?? [], backups ?? []);
+        const all = (from: IDBObjectStore): IDBRequest<unknown[]> => from.getAll();
+        return sortKept(...(await Promise.all([this.database.read(DOCUMENTS, all), this.database.read(BACKUPS, all)])));
     }
 
     async readDocument(id: string): Promise<KeptDocument | undefined> {
         await this.recover(); // another tab may have been closed meanwhile
-        const found = await this.database.use(database =>
-            done(database.transaction(DOCUMENTS).objectStore(DOCUMENTS).get(id) as IDBRequest<unknown>),
-        );
+        const found = await this.database.read(DOCUMENTS, from => from.get(id) as IDBRequest<unknown>);
         return sortKept([found], []).documents[0];
     }
 
@@ -172,14 +160,7 @@ export class BrowserStorage implements DocumentStorage {
     }
 
     readSteps(id: string): Promise<readonly unknown[]> {
-        return this.database.use(database =>
-            done(
-                database
-                    .transaction(STEPS)
-                    .objectStore(STEPS)
-                    .getAll(stepsIn(id, 0, Infinity)) as IDBRequest<unknown[]>,
-            ),
-        );
+        return this.database.read(STEPS, from => from.getAll(stepsIn(id, 0, Infinity)) as IDBRequest<unknown[]>);
     }
 
     putBackup(backup: Backup): Promise<void> {

@@ -55,13 +55,7 @@ export class LastPuts<Put> {
 
     /** Of all pages, open ones too. */
     all(): Promise<readonly Left<Put>[]> {
-        const read = (database: IDBDatabase): Promise<readonly Left<Put>[]> =>
-            new Promise((resolve, reject) => {
-                const asked = database.transaction(STORE).objectStore(STORE).getAll() as IDBRequest<Left<Put>[]>;
-                asked.onsuccess = () => resolve(asked.result);
-                asked.onerror = () => reject(asked.error);
-            });
-        return this.database.use(read);
+        return this.database.read(STORE, from => from.getAll() as IDBRequest<Left<Put>[]>);
     }
 
     private write(action: (store: IDBObjectStore) => unknown): void {

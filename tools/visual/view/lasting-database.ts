@@ -26,6 +26,17 @@ export class LastingDatabase {
         return action(this.database ?? (await this.reopen()));
     }
 
+    /** What a store answers to one request. */
+    read<T>(store: string, ask: (from: IDBObjectStore) => IDBRequest<T>): Promise<T> {
+        const answered = (database: IDBDatabase): Promise<T> =>
+            new Promise((resolve, reject) => {
+                const asked = ask(database.transaction(store).objectStore(store));
+                asked.onsuccess = () => resolve(asked.result);
+                asked.onerror = () => reject(asked.error);
+            });
+        return this.use(answered);
+    }
+
     private reopen(): Promise<IDBDatabase> {
         this.opening ??= this.opened().finally(() => (this.opening = null));
         return this.opening;

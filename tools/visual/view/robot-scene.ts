@@ -29,6 +29,7 @@ import type { Quality } from './picture-quality.ts';
 import { RobotFigure } from './robot-figure.ts';
 import { Room } from './room.ts';
 import type { RoomColours } from './room.ts';
+import type { Hand } from './session/session.ts';
 
 /** Share of the remaining distance per 1/60 s (glide.ts). */
 const FOLLOW = 0.08;
@@ -217,15 +218,13 @@ export class RobotScene {
     }
 
     /** Shows the string between hand and limb; null: hides it. */
-    pull(link: string, point: Vector, target: Vector): void;
-    pull(link: null): void;
-    pull(link: string | null, point?: Vector, target?: Vector): void {
-        const frame = link === null ? undefined : this.figure.link(link);
-        this.string.visible = frame !== undefined;
+    pull(hand: Hand | null): void {
+        const frame = hand && this.figure.link(hand.link);
+        this.string.visible = !!frame;
         this.changed();
-        if (!frame || !point || !target) return;
-        const from = this.room.worldToLocal(frame.localToWorld(new Vector3(...point)));
-        this.string.geometry.setFromPoints([from, new Vector3(...target)]);
+        if (!frame) return;
+        const from = this.room.worldToLocal(frame.localToWorld(new Vector3(...hand.point)));
+        this.string.geometry.setFromPoints([from, new Vector3(...hand.target)]);
         this.touch();
     }
 

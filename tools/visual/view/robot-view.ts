@@ -23,6 +23,7 @@ import { pushRobot } from './push.ts';
 import { jointTitle } from './texts/robot.ts';
 import { TEXTS } from './texts/texts.ts';
 import { watchRobot } from './watch-robot.ts';
+import type { Hand } from './session/session.ts';
 import { SessionElement } from './session-element.ts';
 import './robot-view.css';
 
@@ -32,6 +33,8 @@ const TURN_RAD = 0.12;
 const NEARER = 0.9;
 /** A finger, which is wider than an arm of the robot, grabs it from up to this distance. CSS pixels. */
 const FINGER_PX = 14;
+/** Events after which the picture may look different. */
+const TOUCHES = ['pointerdown', 'pointermove', 'pointerup', 'pointercancel', 'pointerleave', 'wheel', 'keydown', 'keyup', 'blur'];
 const AROUND = Array.from({ length: 8 }, (_, i) => (i * Math.PI) / 4);
 
 export class RobotView extends SessionElement {
@@ -46,7 +49,7 @@ export class RobotView extends SessionElement {
     /** The state that the picture shows. */
     private placed: RobotState | null = null;
     private frames: PictureFrames | null = null;
-    private grabbed: (Picked & { target: Picked['world'] }) | null = null;
+    private grabbed: (Picked & Hand) | null = null;
     private taught: readonly number[] = [];
     /** Pointer that holds the robot. */
     private holder: number | null = null;
@@ -153,23 +156,12 @@ export class RobotView extends SessionElement {
             session.preview.state.watch(ask),
             this.editing.watch(ask),
         );
-        for (const touch of [
-            'pointerdown',
-            'pointermove',
-            'pointerup',
-            'pointercancel',
-            'pointerleave',
-            'wheel',
-            'keydown',
-            'keyup',
-            'blur',
-        ])
-            this.canvas.addEventListener(touch, ask, { capture: true });
+        for (const touch of TOUCHES) this.canvas.addEventListener(touch, ask, { capture: true });
     }
 
     private draw(scene: RobotScene, elapsedMs: number): { readonly isNew: boolean; readonly isMoving: boolean } {
         this.place(scene, elapsedMs);
-        if (this.grabbed) scene.pull(this.grabbed.link, this.grabbed.point, this.grabbed.target);
+        if (this.grabbed) scene.pull(this.grabbed);
         return scene.draw(elapsedMs);
     }
 

@@ -3,7 +3,7 @@
 
 import { pageOf } from '../../model/document.ts';
 import { PAGE_COUNT } from '../../model/motion.ts';
-import { define, make, once, setDisabled } from '../element.ts';
+import { define, make, once, setDisabled, setText } from '../element.ts';
 import { TypedFor } from './shown-for.ts';
 import { TEXTS } from '../texts/texts.ts';
 import { SessionElement } from '../session-element.ts';
@@ -75,19 +75,11 @@ export class PageHead extends SessionElement {
     }
 
     private list(pages: readonly Uint8Array[]): void {
-        const options = pages.map((_, page) => {
-            const { name, steps } = this.session.editor.page(page);
-            return page === 0
-                ? null
-                : make('option', { value: page }, `${page} ${name || (steps.length > 0 ? TEXTS.motion.nameless : '–')}`);
-        });
-        const same = this.shown !== null && this.choice.length === options.length - 1;
-        if (!same) this.choice.replaceChildren(...options.filter(option => option !== null));
-        else
-            options.forEach((option, i) => {
-                const old = this.choice.options[i - 1];
-                if (option && old && old.text !== option.text) old.text = option.text;
-            });
+        if (!this.shown) this.choice.replaceChildren(...pages.slice(1).map((_, i) => make('option', { value: i + 1 })));
+        for (const [i, option] of [...this.choice.options].entries()) {
+            const { name, steps } = this.session.editor.page(i + 1);
+            setText(option, `${i + 1} ${name || (steps.length > 0 ? TEXTS.motion.nameless : '–')}`);
+        }
         this.shown = pages;
     }
 
