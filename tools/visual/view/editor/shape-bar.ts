@@ -42,7 +42,9 @@ export class ShapeBar extends SessionElement {
         setText(this.hint, shapeText(state));
         const isHeld = this.querySelector('input:active') !== null;
         if (version?.image !== 'play' || !where?.shape || where === this.stale || this.sending > 0 || isHeld) return;
-        this.shape.set(where.shape);
+        const [shown, reported] = [this.shape.get(), where.shape];
+        // What is set is drawn, and physics begins anew: not at every answer of the robot.
+        if (SLIDERS.some(name => shown[name] !== reported[name])) this.shape.set(reported);
     }
 
     private slider(name: keyof Shape): HTMLElement {
