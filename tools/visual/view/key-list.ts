@@ -20,8 +20,7 @@ export class KeyList extends SessionElement {
 
     connectedCallback(): void {
         this.replaceChildren(this.heading, this.list);
-        const render = (): void => this.render();
-        this.disposals.push(this.session.state.watch(render), this.session.editor.state.watch(render));
+        this.watch(() => this.render(), this.session.state, this.session.editor.state);
     }
 
     /** code: of the held keys; 0: none. */

@@ -17,6 +17,11 @@ export class SessionElement extends HTMLElement {
         return Object.assign(element, { session: this.session }, more);
     }
 
+    /** Calls `render` now and after every change of a store, until the element is removed. */
+    protected watch(render: () => void, ...stores: readonly { watch(listener: () => void): () => void }[]): void {
+        this.disposals.push(...stores.map(store => store.watch(render)));
+    }
+
     /** Listens until the element is removed. */
     protected listenTo<K extends keyof WindowEventMap>(
         target: Document | Window,

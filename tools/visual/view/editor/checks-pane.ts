@@ -56,12 +56,9 @@ export class ChecksPane extends SessionElement {
     connectedCallback(): void {
         this.replaceChildren(make('p', { class: 'purpose' }, TEXTS.checks.purpose), this.give(new PhysicsBar()), this.summary, this.list);
         const { editor, state, trials } = this.session;
-        this.disposals.push(
-            editor.state.watch(() => this.later()),
-            state.watch(() => this.later()),
-            trials.state.watch(() => this.render()),
-            () => clearTimeout(this.timer),
-        );
+        this.watch(() => this.later(), editor.state, state);
+        this.watch(() => this.render(), trials.state);
+        this.disposals.push(() => clearTimeout(this.timer));
     }
 
     private later(): void {

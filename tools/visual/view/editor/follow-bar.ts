@@ -16,10 +16,8 @@ export class FollowBar extends SessionElement {
 
     connectedCallback(): void {
         this.replaceChildren(make('label', {}, this.box, TEXTS.steps.follow));
+        this.watch(() => this.render(), this.editing, this.session.editor.state, this.session.state);
         this.disposals.push(
-            this.editing.watch(() => this.render()),
-            this.session.editor.state.watch(() => this.render()),
-            this.session.state.watch(() => this.render()),
             this.session.onStop(() => this.end()),
             () => this.isFollowing && this.session.follow(null),
         );

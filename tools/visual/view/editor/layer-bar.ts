@@ -78,10 +78,7 @@ export class LayerBar extends SessionElement {
             this.byCode,
             make('div', { class: 'row' }, this.startPlay, this.status),
         );
-        this.disposals.push(
-            this.session.editor.state.watch(() => this.render()),
-            this.session.state.watch(() => this.render()),
-        );
+        this.watch(() => this.render(), this.session.editor.state, this.session.state);
     }
 
     private get chosen(): Joint[] {

@@ -54,10 +54,7 @@ export class PageHead extends SessionElement {
             make('button', { onclick: () => this.editCopy() }, TEXTS.steps.editsCopy),
             make('button', { onclick: () => this.agree() }, TEXTS.steps.editsItself),
         );
-        this.disposals.push(
-            this.session.editor.state.watch(() => this.render()),
-            this.session.state.watch(() => this.render()),
-        );
+        this.watch(() => this.render(), this.session.editor.state, this.session.state);
     }
 
     private render(): void {

@@ -24,11 +24,7 @@ export class PhysicsBar extends SessionElement {
     connectedCallback(): void {
         this.replaceChildren(make('p', { class: 'purpose' }, TEXTS.trials.purpose), this.row, this.status);
         const { trials, editor, state } = this.session;
-        this.disposals.push(
-            trials.state.watch(() => this.render()),
-            editor.state.watch(() => this.render()),
-            state.watch(() => this.render()),
-        );
+        this.watch(() => this.render(), trials.state, editor.state, state);
     }
 
     private playable(): number[] {

@@ -35,10 +35,7 @@ export class PlayBar extends SessionElement {
             this.clock,
             make('label', { title: TEXTS.preview.loopHint }, this.loop, TEXTS.preview.loop),
         );
-        this.disposals.push(
-            this.session.preview.state.watch(() => this.render()),
-            this.session.editor.state.watch(() => this.render()),
-        );
+        this.watch(() => this.render(), this.session.preview.state, this.session.editor.state);
     }
 
     private render(): void {

@@ -48,10 +48,8 @@ export class PoseBar extends SessionElement {
             group.append(button);
         }
         this.replaceChildren(make('div', { class: 'row' }, group, this.options()), this.hint, this.joints, this.balance, this.touch);
+        this.watch(() => this.render(), this.editing, this.session.state, this.session.editor.state);
         this.disposals.push(
-            this.editing.watch(() => this.render()),
-            this.session.state.watch(() => this.render()),
-            this.session.editor.state.watch(() => this.render()),
             this.session.onFrame(robot => {
                 this.robot = robot;
                 this.showBalance();

@@ -112,16 +112,15 @@ export class TimeLine extends SessionElement {
         const { editor, preview } = this.session;
         const { page } = editor.state.get();
         const boxes = [...this.bar.children].map(part => part.getBoundingClientRect());
-        const part = Math.max(
-            0,
-            boxes.findIndex(box => clientX < box.right),
-        );
-        const box = boxes[clientX >= (boxes.at(-1)?.right ?? 0) ? boxes.length - 1 : part];
-        const index = Math.floor(Math.max(0, boxes.indexOf(box ?? new DOMRect())) / 2);
+        const under = boxes.findIndex(({ right }) => clientX < right);
+        const part = under < 0 ? boxes.length - 1 : under; // behind the end: the last one
+        const box = boxes[part];
+        if (!box) return;
+        const index = Math.floor(part / 2); // each step has a way and a rest
         const { move = 0, pause = 0 } = stepTimes(editor, page)[index] ?? {};
-        const share = box ? Math.max(0, Math.min((clientX - box.left) / box.width, 1)) : 0;
-        const isPause = box !== undefined && boxes.indexOf(box) % 2 === 1;
-        preview.seek(page, preview.tickOf(page, index) + Math.round((isPause ? move + share * pause : share * move) * TICKS_PER_SECOND));
+        const share = Math.max(0, Math.min((clientX - box.left) / box.width, 1));
+        const seconds = part % 2 === 0 ? share * move : move + share * pause;
+        preview.seek(page, preview.tickOf(page, index) + Math.round(seconds * TICKS_PER_SECOND));
     }
 
     /** Marks the moment that the picture shows, if it belongs to this page. */

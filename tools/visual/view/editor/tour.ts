@@ -58,11 +58,9 @@ export class TourCard extends SessionElement {
                 this.robot = robot;
                 this.look();
             }),
-            this.session.state.watch(() => this.look()),
-            this.session.editor.state.watch(() => this.look()),
-            this.editing.watch(() => this.look()),
             () => this.ring.remove(),
         );
+        this.watch(() => this.look(), this.session.state, this.session.editor.state, this.editing);
     }
 
     start(): void {
