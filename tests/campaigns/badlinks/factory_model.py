@@ -44,12 +44,15 @@ MODES = {"play": 0x12, "toss": 0x13, "mon": 0x14, "edit": 0x15, "dump": 0x16}
 
 
 class Loader:
-    """The chip with this loader. `written` lists (time, flash page, "load" or "mailbox"); `crashes` lists (time, reason)."""
+    """The chip with this loader. `written` lists (time, flash page, "load" or "mailbox"); `downloads` (address, bytes); `crashes` (time,
+    reason). dead_pages: flash that does not take the data."""
 
-    def __init__(self, flash: bytes, eeprom: bytes | None = None):
-        self.flash = bytearray(flash)
+    def __init__(self, flash: bytes, eeprom: bytes | None = None, banner: bytes = BANNER):
+        self.flash, self.banner = bytearray(flash), banner
         self.eeprom = bytearray(eeprom or b"\xff" * (EEPROM_BYTES - 1) + b"\x11")
         self.written: list[tuple[float, int, str]] = []
+        self.downloads: list[tuple[int, int]] = []
+        self.dead_pages: set[int] = set()
         self.crashes: list[tuple[float, str]] = []
         self.commands: list[bytes] = []
         self.board: Board | None = None
@@ -75,7 +78,7 @@ class Loader:
         if last != 0x23 and self.eeprom[BOOT_MODE] != 0xFF:
             yield from self.application()
         yield "busy", LEDS
-        yield from self.say(BANNER)
+        yield from self.say(self.banner)
         while True:
             self.where = "prompt"
             yield from self.say(PROMPT)
@@ -114,7 +117,8 @@ class Loader:
         self.hears = page < BOOT // PAGE  # the CPU halts while its own section is written
         yield "busy", PAGE_WRITE
         self.hears = True
-        self.flash[page * PAGE : (page + 1) * PAGE] = data
+        if page not in self.dead_pages:
+            self.flash[page * PAGE : (page + 1) * PAGE] = data
 
     def mailbox(self):
         yield from self.say(b" Writing ")
@@ -263,7 +267,7 @@ class Loader:
         address = arguments[0] if len(arguments) == 1 else 0
         yield from self.say(b"\r\n Write Address : %08X\r\n Ready.." % address)
         self.where = "ready"
-        size = total = last = 0
+        self.size = size = total = last = 0
         while True:
             byte = yield "byte", (None if size == 0 else SILENCE)
             if byte is None:
@@ -271,9 +275,11 @@ class Loader:
             self.where = "loading"
             if size:
                 total += last
-            self.buffer[size % PAGE], last, size = byte, byte, size + 1
+            self.buffer[size % PAGE], last = byte, byte
+            self.size = size = size + 1
             if size % PAGE == 0:
                 yield from self.write_page(address + size - 1, bytes(self.buffer), "load")
+        self.downloads.append((address, size))
         if size % PAGE:
             yield from self.write_page(address + size - 1, bytes(self.buffer), "load")
         yield "busy", 9 * EEPROM_WRITE
@@ -344,8 +350,7 @@ class Board:
             arrival = self.to_board.next_arrival()
             errand = self.errands[0][0] if self.errands else FOREVER
             when = min(self.wake, arrival, errand)
-            pc = self.to_pc.next_arrival()
-            if stops and pc <= min(when, until):
+            if stops and (pc := self.to_pc.next_arrival()) <= min(when, until):
                 self.now = max(self.now, pc)
                 return
             if when > until:

@@ -225,7 +225,7 @@ class Busy(FactoryPtyPeer):
 
 def test_an_echo_is_no_boot_loader(term, monkeypatch):
     """Edit echoes what is typed. An echo once ended the calling before MODE was pressed."""
-    monkeypatch.setattr("factory_peer.WINDOW", 0.2)
+    monkeypatch.setattr("tests.campaigns.badlinks.factory_model.WINDOW", 0.2)
     with Busy(state=APP) as board:
         child = term("-p", board.path)
         child.expect("to quit")
@@ -236,7 +236,8 @@ def test_an_echo_is_no_boot_loader(term, monkeypatch):
 
 
 def test_term_calls_the_boot_loader(term, monkeypatch):
-    monkeypatch.setattr("factory_peer.WINDOW", 0.2)  # a busy PC may pause for longer than the board's 60 ms; the line ends 0.35 s later
+    # A busy PC may pause for longer than the board's 60 ms. The line ends 0.35 s later.
+    monkeypatch.setattr("tests.campaigns.badlinks.factory_model.WINDOW", 0.2)
     with FactoryPtyPeer(state=APP) as board:
         child = term("-p", board.path)
         child.expect("to quit")
