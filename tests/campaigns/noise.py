@@ -25,9 +25,6 @@ class NoisyLink(links.Link):
         pass
 
     def _receive(self, limit, seconds):
-        if self.held:
-            out, self.held = self.held[:limit], self.held[limit:]
-            return out
         size = min(limit, 7)
         out, self.data = self.data[:size], self.data[size:]
         self.silent_s += 0 if out else 0.001

@@ -82,8 +82,5 @@ class Line(Link):
 
     def _receive(self, limit, seconds):
         self._check()
-        if self.held:
-            out, self.held = self.held[:limit], self.held[limit:]
-            return out
         self._run(self.board.now + max(seconds, 0))
         return self.to_pc.arrived(self.board.now, limit)

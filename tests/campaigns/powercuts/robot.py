@@ -42,29 +42,10 @@ class SimLink(Link):
 
     def _receive(self, limit, seconds):
         end = self.board.now_ms + 1000 * max(seconds, 0)
-        while not self.held:
-            self.held = self.board.take()
-            if self.held or self.board.now_ms >= end:
-                break
+        while not (came := self.board.take()) and self.board.now_ms < end:
             self.board.run(ms=0.5)
-        out, self.held = self.held[:limit], self.held[limit:]
-        return out
-
-    def look_for(self, end, seconds, limit=1 << 20):
-        out, until = b"", self.board.now_ms + 1000 * seconds
-        while end not in out and self.board.now_ms < until:
-            out += self._receive(limit, 0.01)
-        at = out.find(end)
-        if at < 0:
-            return out, False
-        self.held = out[at + len(end) :] + self.held
-        return out[: at + len(end)], True
-
-    def drain(self, quiet=0.05, at_most=2.0):
-        out = b""
-        while some := self._receive(4096, quiet):
-            out += some
-        return out
+        self.held = came[limit:]
+        return came[:limit]
 
 
 @functools.cache

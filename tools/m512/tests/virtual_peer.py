@@ -191,9 +191,6 @@ class VirtualLink(real.Link):
             raise self._lost(error) from None
 
     def _receive(self, limit, seconds):
-        if self.held:
-            out, self.held = self.held[:limit], self.held[limit:]
-            return out
         try:
             return self.end.get(limit, max(seconds, 0))
         except OSError as error:

@@ -107,10 +107,7 @@ class Link:
             raise self._lost(error) from None
 
     def _receive(self, limit: int, seconds: float) -> bytes:
-        """Returns the bytes that have arrived. If there are none, waits up to `seconds` for the first."""
-        if self.held:
-            out, self.held = self.held[:limit], self.held[limit:]
-            return out
+        """Returns the bytes that the port has. If there are none, waits up to `seconds` for the first."""
         try:
             self.port.timeout = max(seconds, 0)
             first: bytes = self.port.read(1)
@@ -126,6 +123,9 @@ class Link:
 
     def read_some(self, seconds: float, limit: int = 4096) -> bytes:
         """Returns bytes as they arrive; empty if none arrives in time."""
+        if self.held:
+            out, self.held = self.held[:limit], self.held[limit:]
+            return out
         return self._receive(limit, seconds)
 
     def read_until(self, end: bytes, seconds: float, what: str, limit: int = 1 << 20) -> bytes:
@@ -146,7 +146,7 @@ class Link:
                 return bytes(out[: at + len(end)]), True
             searched = max(0, len(out) + 1 - len(end))
             left = deadline - self.now()
-            some = self._receive(4096, min(left, 0.25)) if left > 0 else b""
+            some = self.read_some(min(left, 0.25)) if left > 0 else b""
             if not some and left <= 0:
                 break
             out += some
@@ -156,7 +156,7 @@ class Link:
         """Reads until the line is silent for `quiet` seconds, for about `at_most` seconds."""
         out, deadline = bytearray(), self.now() + at_most
         while self.now() < deadline:
-            some = self._receive(4096, quiet)
+            some = self.read_some(quiet)
             if not some:
                 break
             out += some
