@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""tools/combine: one image of loader, application and motions; and tools/dev/app_record on its contents."""
+"""tools/combine: one image of loader, application and motions; and what tools/dev/app_record refuses."""
 
 import pathlib
 import subprocess
@@ -57,16 +57,6 @@ def test_motions_of_another_size_are_refused(tmp_path, length):
     assert combine(tmp_path / "out.hex", boot, "--motions", motions).returncode == 2
 
 
-def record(crc=None, length=0x200):
-    image = bytearray(range(256)) * 2
-    image[0x8C:0x9C] = b"M512" + length.to_bytes(4, "little") + b"\xff\xff" + bytes([1, 1, 1, 2, 3, 1])
-    import binascii
-
-    crc = binascii.crc_hqx(bytes(image), 0xFFFF) if crc is None else crc
-    image[0x94:0x96] = crc.to_bytes(2, "little")
-    return bytes(image)
-
-
 @pytest.mark.parametrize(
     "arguments, missing",
     [(["app", "--board", "cm5", "--kind", "play", "--version", "1.2.3"], "no record at 0x8C"), (["boot"], "no table for applications at 0x1FFE0")],
@@ -79,17 +69,3 @@ def test_an_image_that_has_nothing_to_fill_in_is_refused(tmp_path, arguments, mi
     done = subprocess.run([sys.executable, TOOLS / "dev" / "app_record", *arguments, elf], capture_output=True, text=True)
     assert done.returncode == 1 and missing in done.stderr and "Traceback" not in done.stderr
     assert elf.read_bytes() == before
-
-
-def test_show_knows_a_record_that_fits(tmp_path):
-    path = tmp_path / "app.bin"
-    path.write_bytes(record())
-    result = subprocess.run([sys.executable, TOOLS / "dev" / "app_record", "show", path], capture_output=True, text=True)
-    assert result.returncode == 0 and "play for cm5, version 1.2.3, 512 bytes" in result.stdout and "fits" in result.stdout
-
-
-def test_show_tells_a_record_that_does_not(tmp_path):
-    path = tmp_path / "app.bin"
-    path.write_bytes(record(0x1234))
-    result = subprocess.run([sys.executable, TOOLS / "dev" / "app_record", "show", path], capture_output=True, text=True)
-    assert result.returncode == 1 and "DOES NOT FIT" in result.stdout
