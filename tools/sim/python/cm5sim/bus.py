@@ -14,7 +14,7 @@ from .files import keep_servos, plug_in_servos
 from .library import CYCLES_PER_MS
 from .options import Options
 from .serial_port import SerialPort
-from .servo import BYTE_HEARD, Servos
+from .servo import Servos
 from .trace import Trace
 
 # A USB adapter sends a packet in one piece, but the kernel may deliver it in several. An incomplete packet gets this long to become
@@ -52,7 +52,7 @@ class Bus:
         plug_in_servos(self.servos, options)
         self._trace = Trace(self.servos, options.trace, options.plot) if options.trace or options.plot else None
         self.port = SerialPort(options.bus_pty or "", FACTORY_BPS)
-        self._heard = BYTE_HEARD(self._hear)  # keeps the callback alive
+        self._heard = library.BYTE_HEARD(self._hear)  # keeps the callback alive
         self._lib.servo_api_listen(self._bus, self._heard)
         self._answer = bytearray()
         self._gathered, self._gathered_at = b"", 0

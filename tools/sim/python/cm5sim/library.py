@@ -7,8 +7,6 @@ import os
 import pathlib
 from typing import Any
 
-from . import servo
-
 CYCLES_PER_MS = 16000
 HERE = pathlib.Path(__file__).resolve().parent
 ROBOT = HERE / "robot"  # in a wheel: the files from the build tree in the same folders (setup.py), and lib/
@@ -59,8 +57,9 @@ class SweepResult(ctypes.Structure):
 
 
 P, I, B, S, D = ctypes.c_void_p, ctypes.c_int, ctypes.c_bool, ctypes.c_char_p, ctypes.c_double
-U8, U32, U64, Z = ctypes.c_uint8, ctypes.c_uint32, ctypes.c_uint64, ctypes.c_size_t
+U8, U16, U32, U64, Z = ctypes.c_uint8, ctypes.c_uint16, ctypes.c_uint32, ctypes.c_uint64, ctypes.c_size_t
 SIZE = ctypes.POINTER(Z)
+BYTE_HEARD = ctypes.CFUNCTYPE(None, P, U64, U8, U32, B)
 OPERATION_DONE = ctypes.CFUNCTYPE(None, P, U64, I, U32)
 _FUNCTIONS: dict[str, tuple[Any, ...]] = {  # name: result, arguments...
     # board.h
@@ -99,7 +98,6 @@ _FUNCTIONS: dict[str, tuple[Any, ...]] = {  # name: result, arguments...
     "board_trace_start": (B, P),
     "board_trace": (ctypes.POINTER(TracePacket), P, SIZE),
     "board_body": (None, P, ctypes.POINTER(ServoBody)),
-    "servo_mujoco_body": (ServoBody, P),
     "board_bus_turn": (U64, P, B),
     "board_bus_pause": (U64, P, B),
     "board_uart_counts": (None, P, I, ctypes.POINTER(UartCounts)),
@@ -147,6 +145,32 @@ _FUNCTIONS: dict[str, tuple[Any, ...]] = {  # name: result, arguments...
     "board_skip_waits": (None, P, B),
     "board_step": (U32, P),
     "board_gdb": (B, P, I, B),
+    # the servos
+    "servo_api_count": (I, P),
+    "servo_api_at": (P, P, I),
+    "servo_api_id": (U8, P),
+    "servo_api_get": (U16, P, U64, U8, U8),
+    "servo_api_write": (U8, P, U64, U8, S, U8),
+    "servo_api_alarms": (U8, P, U64),
+    "servo_api_state": (D, P, U64, I),
+    "servo_api_set_state": (None, P, U64, I, D),
+    "servo_api_counter": (U32, P, I),
+    "servo_api_fault": (B, P, U64, P, S, U32),
+    "servo_api_clear": (None, P, U64, P),
+    "servo_api_model": (I, S),
+    "servo_api_restore": (None, P, S),
+    "servo_api_row": (None, P, U64, I, ctypes.POINTER(D)),
+    "servo_api_listen": (None, P, BYTE_HEARD),
+    "servo_api_next_cycles": (U64, P),
+    "servo_bus_new": (P,),
+    "servo_bus_free": (None, P),
+    "servo_bus_advance": (None, P, U64),
+    "servo_bus_host_byte": (None, P, U64, U8, U32),
+    "servo_bus_add": (P, P, U8, I, U32),
+    "servo_bus_find": (P, P, U8),
+    "servo_bus_noise": (None, P, U64, S, U8, U32),
+    "servo_push_to": (None, P, U64, D),
+    "servo_mujoco_body": (ServoBody, P),
 }
 
 
@@ -162,5 +186,4 @@ def load() -> ctypes.CDLL:
     for name, (result, *arguments) in _FUNCTIONS.items():
         function = getattr(lib, name)
         function.restype, function.argtypes = result, arguments
-    servo.declare(lib)
     return lib

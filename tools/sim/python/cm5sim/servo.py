@@ -58,43 +58,6 @@ _REGISTERS = {  # name: (address, bytes)
 }
 
 
-BYTE_HEARD = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_uint64, ctypes.c_uint8, ctypes.c_uint32, ctypes.c_bool)
-
-
-def declare(lib: ctypes.CDLL) -> None:
-    """Declares the functions for ctypes. May be called repeatedly."""
-    p, u8, u16, u32, u64 = ctypes.c_void_p, ctypes.c_uint8, ctypes.c_uint16, ctypes.c_uint32, ctypes.c_uint64
-    functions: list[tuple[str, Any, list[Any]]] = [
-        ("servo_api_count", ctypes.c_int, [p]),
-        ("servo_api_at", p, [p, ctypes.c_int]),
-        ("servo_api_id", u8, [p]),
-        ("servo_api_get", u16, [p, u64, u8, u8]),
-        ("servo_api_write", u8, [p, u64, u8, ctypes.c_char_p, u8]),
-        ("servo_api_alarms", u8, [p, u64]),
-        ("servo_api_state", ctypes.c_double, [p, u64, ctypes.c_int]),
-        ("servo_api_set_state", None, [p, u64, ctypes.c_int, ctypes.c_double]),
-        ("servo_api_counter", u32, [p, ctypes.c_int]),
-        ("servo_api_fault", ctypes.c_bool, [p, u64, p, ctypes.c_char_p, u32]),
-        ("servo_api_clear", None, [p, u64, p]),
-        ("servo_api_model", ctypes.c_int, [ctypes.c_char_p]),
-        ("servo_api_restore", None, [p, ctypes.c_char_p]),
-        ("servo_api_row", None, [p, u64, ctypes.c_int, ctypes.POINTER(ctypes.c_double)]),
-        ("servo_api_listen", None, [p, BYTE_HEARD]),
-        ("servo_api_next_cycles", u64, [p]),
-        ("servo_bus_new", p, []),
-        ("servo_bus_free", None, [p]),
-        ("servo_bus_advance", None, [p, u64]),
-        ("servo_bus_host_byte", None, [p, u64, u8, u32]),
-        ("servo_bus_add", p, [p, u8, ctypes.c_int, u32]),
-        ("servo_bus_find", p, [p, u8]),
-        ("servo_bus_noise", None, [p, u64, ctypes.c_char_p, u8, u32]),
-        ("servo_push_to", None, [p, u64, ctypes.c_double]),
-    ]
-    for name, result, arguments in functions:
-        function = getattr(lib, name)
-        function.restype, function.argtypes = result, arguments
-
-
 class Servo:
     """One servo on the bus; see the module docstring."""
 
@@ -196,7 +159,6 @@ class Servos:
 
     def __init__(self, lib: ctypes.CDLL, bus: int, now: Callable[[], int]) -> None:
         """bus: servo_bus_t pointer; now: returns the board's cycle."""
-        declare(lib)
         self.lib, self.bus, self.now = lib, bus, now
 
     def add(self, servo_id: int, model: str = "ax12", rate: int | None = None) -> Servo:
