@@ -19,7 +19,6 @@ size_t board_ram_write(board_t *board, uint32_t address, const uint8_t *from, si
 
 /* Lock bits (0xFF: none programmed), and the fuses that LPM can read: low, high, extended. */
 void board_set_lock(board_t *board, uint8_t lock);
-uint8_t board_lock(const board_t *board);
 void board_set_fuses(board_t *board, uint8_t low, uint8_t high, uint8_t extended);
 
 /* Wear by the firmware: erases of a flash page (0..511), writes of an EEPROM byte. */

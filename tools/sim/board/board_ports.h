@@ -52,7 +52,7 @@ typedef struct {
     uint64_t cycle;
     uint8_t count, bytes[143];
 } trace_packet_t;
-bool board_trace_start(board_t *board);
+void board_trace_start(board_t *board);
 const trace_packet_t *board_trace(const board_t *board, size_t *count);
 
 /* Counters of a UART (0 bus, 1 console) since board_new(). They never decrease. */
@@ -82,6 +82,5 @@ int board_pin(const board_t *board, char port, int bit);
  * ADC2 measures the thermistor voltage. */
 #define BOARD_BATTERY_DIVIDER 0.25
 void board_battery(board_t *board, double volts);
-void board_thermistor(board_t *board, double volts);
 
 #endif

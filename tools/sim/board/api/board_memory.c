@@ -56,7 +56,6 @@ size_t board_ram_write(board_t *board, uint32_t address, const uint8_t *from, si
 }
 
 void board_set_lock(board_t *board, uint8_t lock) { board->flash.lock = lock | 0xC0; }
-uint8_t board_lock(const board_t *board) { return board->flash.lock; }
 
 void board_set_fuses(board_t *board, uint8_t low, uint8_t high, uint8_t extended)
 {

@@ -53,10 +53,9 @@ uint64_t board_bus_pause(board_t *board, bool forget)
     return longest;
 }
 
-bool board_trace_start(board_t *board)
+void board_trace_start(board_t *board)
 {
     trace_start(&board->trace, board->wire.bus);
-    return true;
 }
 
 const trace_packet_t *board_trace(const board_t *board, size_t *count)
@@ -92,4 +91,3 @@ int board_pin(const board_t *board, char port, int bit)
 }
 
 void board_battery(board_t *board, double volts) { panel_battery(&board->panel, volts); }
-void board_thermistor(board_t *board, double volts) { panel_thermistor(&board->panel, volts); }

@@ -13,7 +13,7 @@
 #define M128_SFIOR 0x40u
 #define SFIOR_PUD 0x04u
 #define DEFAULT_BATTERY_V 9.6
-#define DEFAULT_THERMISTOR_V 2.5
+#define THERMISTOR_V 2.5
 
 static const uint16_t watched[] = { M128_DDRB, M128_PORTB, M128_DDRC, M128_PORTC,
                                     M128_DDRD, M128_PORTD, M128_DDRE, M128_PORTE };
@@ -148,13 +148,7 @@ static void follow_voltages(panel_t *panel)
 {
     set_adc(panel, 0, panel->battery_v * BOARD_BATTERY_DIVIDER);
     set_adc(panel, 1, 0);
-    set_adc(panel, 2, panel->thermistor_v);
-}
-
-void panel_thermistor(panel_t *panel, double volts)
-{
-    panel->thermistor_v = volts;
-    follow_voltages(panel);
+    set_adc(panel, 2, THERMISTOR_V);
 }
 
 void panel_battery(panel_t *panel, double volts)
@@ -181,7 +175,6 @@ void panel_init(panel_t *panel, machine_t *machine, bus_wire_t *wire, board_kind
     events_handle(&machine->events, EVENT_CHARGER, grace_is_over, panel);
     panel->bounce = BOUNCE_CYCLES;
     panel->battery_v = DEFAULT_BATTERY_V;
-    panel->thermistor_v = DEFAULT_THERMISTOR_V;
     for (unsigned i = 0; i < sizeof watched / sizeof watched[0]; i++) {
         uint16_t address = watched[i];
         panel->inner[address].write = avr->io[AVR_DATA_TO_IO(address)].w.c;

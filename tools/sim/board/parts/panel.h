@@ -15,13 +15,12 @@ typedef struct {
     uint8_t leds;
     /* simavr's own handlers of the port registers, called first to keep its pin signals right */
     struct { avr_io_write_t write; void *param; } inner[M128_PORTB + 1];
-    double battery_v, thermistor_v;
+    double battery_v;
 } panel_t;
 
 void panel_init(panel_t *panel, machine_t *machine, bus_wire_t *wire, board_kind_t kind);
 void panel_reset(panel_t *panel);
 void panel_press(panel_t *panel, button_t button, bool down); /* any button except MODE, which is the reset pin */
 void panel_battery(panel_t *panel, double volts);
-void panel_thermistor(panel_t *panel, double volts);
 
 #endif
