@@ -6,7 +6,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from typing import Callable
 
 import click
@@ -15,6 +15,7 @@ from m512.errors import FileError, RefusedError
 from m512.streams import drop, is_terminal, reader_has_gone
 
 Progress = Callable[[int, int], None]
+PhaseMaker = Callable[[str], AbstractContextManager[Progress]]
 _unread = False  # the reader of remarks has gone, and they are dropped since
 
 
@@ -60,6 +61,10 @@ def phase(title: str) -> Iterator[Progress]:
             say(f"{title}: {100 * done // total} %")
 
     yield line
+
+
+def unseen(_done: int, _total: int) -> None:
+    """The Progress of work that shows none."""
 
 
 def confirm(question: str, yes: bool) -> None:

@@ -5,13 +5,11 @@ from __future__ import annotations
 
 import hashlib
 import json
-from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from datetime import datetime, timezone
 from pathlib import Path
 from typing import Any, Callable
 
-from m512.board.block import Progress
 from m512.board.factory import FactoryLoader
 from m512.board.loaders import Loader
 from m512.board.memory import APP, EEPROM_BYTES, FLASH_PAGE, MOTIONS, Record
@@ -19,6 +17,7 @@ from m512.crc16 import crc16
 from m512.errors import BoardError, FileError, NoAnswerError
 from m512.files import storage
 from m512.files.page import PAGE_BYTES, Fault, Page
+from m512.ui import PhaseMaker, Progress
 
 AREAS = {"motions": MOTIONS, "app": APP, "eeprom": (0, EEPROM_BYTES)}
 MANIFEST, FORMAT = storage.BACKUP_MANIFEST, storage.BACKUP_FORMAT
@@ -27,8 +26,6 @@ VERSION = 1
 MAILBOX_CELLS = range(0xFF4, 0xFF6)
 EEPROM_TRIES = 3
 READ_TRIES = 4
-
-PhaseMaker = Callable[[str], AbstractContextManager[Progress]]
 
 
 @dataclass

@@ -10,13 +10,13 @@ from __future__ import annotations
 
 import re
 from collections import deque
-from typing import Callable
 
 from m512.board.link import BAUD, Link
 from m512.board.memory import FLASH_PAGE
 from m512.crc16 import crc16
 from m512.errors import BoardError, NoAnswerError
 from m512.files.page import EMPTY
+from m512.ui import Progress, unseen
 
 REQUEST, ANSWER = 0xA5, 0x5A
 HELLO, RATE, READ, WRITE, SUMS, EE_WRITE, LEAVE = range(1, 8)
@@ -40,8 +40,6 @@ BACK_SECONDS = 4.2  # the loader ends a session, and its rate, after 4 s without
 FIRST_NUMBER = 159
 STAY, START, RESET = range(3)  # leave(), of the factory loader too: at the prompt, start the application, reset the board
 IDENTITY = re.compile(r"ID Motion512 boot (\S+) (\S+) ")
-
-Progress = Callable[[int, int], None]
 
 
 def frame(command: int, number: int, body: bytes) -> bytes:
@@ -149,15 +147,14 @@ class BlockLoader:
 
     # Flash and EEPROM
 
-    def read(self, start: int, end: int, progress: Progress | None = None) -> bytes:
+    def read(self, start: int, end: int, progress: Progress = unseen) -> bytes:
         """Memory bytes [start, end). Flash pages with the sums of an empty page are not transferred."""
         first, last = start // FLASH_PAGE, (end - 1) // FLASH_PAGE
         known = self._known(first, last) if last < EEPROM_PAGE and last > first + 4 else {}
         out = bytearray()
         for page in range(first, last + 1):
             out += known.get(page) or self._ask(READ, page.to_bytes(2, "little"))
-            if progress:
-                progress(page - first + 1, last - first + 1)
+            progress(page - first + 1, last - first + 1)
         return bytes(out[start - first * FLASH_PAGE : end - first * FLASH_PAGE])
 
     def _known(self, first: int, last: int) -> dict[int, bytes]:
@@ -166,7 +163,7 @@ class BlockLoader:
         sums = self._sums(first, last - first + 1)
         return {page: plain[found] for page, found in sums.items() if found in plain}
 
-    def _sums(self, first: int, count: int, progress: Progress | None = None) -> dict[int, tuple[int, int]]:
+    def _sums(self, first: int, count: int, progress: Progress = unseen) -> dict[int, tuple[int, int]]:
         out: dict[int, tuple[int, int]] = {}
         for at in range(first, first + count, SUMS_MAX):
             some = min(SUMS_MAX, first + count - at)
@@ -175,18 +172,17 @@ class BlockLoader:
                 raise NoAnswerError("the loader's answer to SUMS has the wrong length")
             for k in range(some):
                 out[at + k] = (int.from_bytes(data[4 * k : 4 * k + 2], "little"), int.from_bytes(data[4 * k + 2 : 4 * k + 4], "little"))
-            if progress:
-                progress(at + some - first, count)
+            progress(at + some - first, count)
         return out
 
-    def different(self, pages: dict[int, bytes], progress: Progress | None = None) -> list[int]:
+    def different(self, pages: dict[int, bytes], progress: Progress = unseen) -> list[int]:
         """Returns those of these pages that differ on the board."""
         if not pages:
             return []
         sums = self._sums(min(pages), max(pages) - min(pages) + 1, progress)
         return [number for number in sorted(pages) if sums[number] != page_sum(pages[number])]
 
-    def write(self, pages: dict[int, bytes], progress: Progress | None = None) -> None:
+    def write(self, pages: dict[int, bytes], progress: Progress = unseen) -> None:
         """Writes these pages, in this order; the loader reads each back."""
         waiting = deque(pages)
         under_way: dict[int, int] = {}
@@ -216,8 +212,7 @@ class BlockLoader:
             if answer[2] not in (OK, EQUAL):
                 raise BoardError(f"0x{page * FLASH_PAGE:05X}: {STATUS.get(answer[2], answer[2])}", answer[2])
             done += 1
-            if progress:
-                progress(done, len(pages))
+            progress(done, len(pages))
 
     def _collect(self, under_way: dict[int, int]) -> int:
         """Takes the writes that are acknowledged now out of `under_way`. Returns how many."""
@@ -227,19 +222,18 @@ class BlockLoader:
                 under_way.pop(answer[1])
         return before - len(under_way)
 
-    def read_eeprom(self, start: int = 0, end: int = 4096, progress: Progress | None = None) -> bytes:
+    def read_eeprom(self, start: int = 0, end: int = 4096, progress: Progress = unseen) -> bytes:
         base = EEPROM_PAGE * FLASH_PAGE
         return self.read(base + start, base + end, progress)
 
-    def write_eeprom(self, cells: dict[int, int], progress: Progress | None = None) -> None:
+    def write_eeprom(self, cells: dict[int, int], progress: Progress = unseen) -> None:
         """Writes single bytes, by address."""
         done = 0
         for at, data in pieces(cells, EE_WRITE_MAX):
             body = at.to_bytes(2, "little") + len(data).to_bytes(2, "little") + data + bytes(len(data) % 2)
             self._ask(EE_WRITE, body)
             done += len(data)
-            if progress:
-                progress(done, len(cells))
+            progress(done, len(cells))
 
     # The end
 

@@ -6,9 +6,7 @@ Only pages that differ are sent, so repeating an interrupted download continues 
 
 from __future__ import annotations
 
-from contextlib import AbstractContextManager
 from dataclasses import dataclass
-from typing import Callable
 
 from m512.board.block import START, STAY, BlockLoader
 from m512.board.factory import FactoryLoader
@@ -18,8 +16,8 @@ from m512.board.loaders import Loader
 from m512.board.memory import FLASH_PAGE, Plan, Record, app_bytes
 from m512.errors import BoardError, CancelledError, NoAnswerError, PortError, RefusedError
 from m512.files.wording import counted
+from m512.ui import PhaseMaker, Progress
 
-PhaseMaker = Callable[[str], AbstractContextManager[Callable[[int, int], None]]]
 BOOT_APPLICATION = 0x11
 APP_MARK, INCOMPLETE, COMPLETE = 0xFF0, 0x50, 0xFF  # EEPROM: our loader does not start an incomplete application (boot/memory.h)
 UNFIT = ("none", "damaged")  # states of an application that our loader does not start
@@ -83,7 +81,7 @@ def _lacks_record(plan: Plan) -> bool:
     return 0 in plan.pages and Record.of(app_bytes(plan.pages)) is None
 
 
-def _to_ours(loader: BlockLoader, pages: dict[int, bytes], progress: Callable[[int, int], None], plan: Plan) -> None:
+def _to_ours(loader: BlockLoader, pages: dict[int, bytes], progress: Progress, plan: Plan) -> None:
     try:
         if _lacks_record(plan):
             loader.write_eeprom({APP_MARK: INCOMPLETE})
@@ -98,7 +96,7 @@ def _to_ours(loader: BlockLoader, pages: dict[int, bytes], progress: Callable[[i
         raise PortError(f"{error}: it goes on where it stopped") from None
 
 
-def _to_factory(loader: FactoryLoader, pages: dict[int, bytes], progress: Callable[[int, int], None], around: dict[int, bytes]) -> None:
+def _to_factory(loader: FactoryLoader, pages: dict[int, bytes], progress: Progress, around: dict[int, bytes]) -> None:
     """Writes. If something ends it early, the error says what state the board is in and what is safe to do."""
     try:
         loader.write(pages, progress, around)

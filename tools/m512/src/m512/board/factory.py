@@ -6,14 +6,12 @@ Flash is written in factory_flash.py and mailbox.py, which explain why this cann
 
 from __future__ import annotations
 
-from typing import Callable
-
 from m512.board import factory_flash, mailbox
-from m512.board.block import Progress
 from m512.board.factory_line import TRIES, FactoryLine
 from m512.board.memory import APP, FLASH_PAGE, MOTIONS, motion_page_of
 from m512.errors import BoardError, RefusedError
 from m512.files.wording import spans
+from m512.ui import Progress, unseen
 
 
 class FactoryLoader(FactoryLine):
@@ -21,11 +19,11 @@ class FactoryLoader(FactoryLine):
     board = ""  # cm5 or cm2, from its banner (loaders.identify)
     was_at_prompt = False  # whether it was at its prompt before this program came
 
-    def different(self, pages: dict[int, bytes], progress: Progress | None = None) -> list[int]:
+    def different(self, pages: dict[int, bytes], progress: Progress = unseen) -> list[int]:
         """Returns those of these pages that differ on the board."""
         out, done = [], 0
         for first, last in spans(pages):
-            found = self.read(first * FLASH_PAGE, (last + 1) * FLASH_PAGE, progress and _behind(progress, done, len(pages)))
+            found = self.read(first * FLASH_PAGE, (last + 1) * FLASH_PAGE, _behind(progress, done, len(pages), FLASH_PAGE))
             for page in range(first, last + 1):
                 at = (page - first) * FLASH_PAGE
                 if found[at : at + FLASH_PAGE] != pages[page]:
@@ -35,7 +33,7 @@ class FactoryLoader(FactoryLine):
 
     # Writing flash
 
-    def write(self, pages: dict[int, bytes], progress: Progress | None = None, around: dict[int, bytes] | None = None) -> None:
+    def write(self, pages: dict[int, bytes], progress: Progress = unseen, around: dict[int, bytes] | None = None) -> None:
         """Writes these pages, in this order, and reads them back. `around`: pages known to be on the board, which may be rewritten."""
         if any(page * FLASH_PAGE < APP[1] for page in pages):
             self.stay()  # a partly written program must not be started
@@ -45,7 +43,7 @@ class FactoryLoader(FactoryLine):
             todo = {page for page in unit if page in pages}
             if todo:
                 whole = self._with_neighbour({page: known[page] for page in unit})
-                self._write_unit(whole, todo, progress and (lambda n, before=done: progress(before + n, len(pages))))
+                self._write_unit(whole, todo, _behind(progress, done, len(pages), 1))
                 done += len(todo)
 
     def _with_neighbour(self, unit: dict[int, bytes]) -> dict[int, bytes]:
@@ -58,7 +56,7 @@ class FactoryLoader(FactoryLine):
         other = page ^ 1
         return {**unit, other: self.read(other * FLASH_PAGE, (other + 1) * FLASH_PAGE)}
 
-    def _write_unit(self, unit: dict[int, bytes], todo: set[int], progress: Callable[[int], None] | None) -> None:
+    def _write_unit(self, unit: dict[int, bytes], todo: set[int], progress: Progress) -> None:
         first, count = min(unit), len(todo)
         for _ in range(TRIES):
             look: set[int] = set()
@@ -69,8 +67,7 @@ class FactoryLoader(FactoryLine):
                     break
                 factory_flash.write_page(self, page, unit)
                 look |= factory_flash.endangered(page, unit)
-                if progress:
-                    progress(min(number, count))
+                progress(min(number, count), count)
             todo = set(self.different({page: unit[page] for page in look}))
             if not todo:
                 return
@@ -81,6 +78,6 @@ class FactoryLoader(FactoryLine):
         )
 
 
-def _behind(progress: Progress, done: int, total: int) -> Progress:
-    """Turns progress in bytes into progress in pages, added to the `done` ones."""
-    return lambda count, _: progress(done + count // FLASH_PAGE, total)
+def _behind(progress: Progress, done: int, total: int, page: int) -> Progress:
+    """Turns progress in units of which a page has `page` into progress in pages, added to the `done` ones."""
+    return lambda count, _: progress(done + count // page, total)

@@ -10,9 +10,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from m512.board.block import RESET, START, STAY, Progress, pieces
+from m512.board.block import RESET, START, STAY, pieces
 from m512.board.link import REPEAT, Link
 from m512.errors import BoardError, NoAnswerError
+from m512.ui import Progress, unseen
 
 PROMPT = b"\r\n - "
 # Empties the loader's input line and asks for a prompt. The line holds 80 characters; some bytes may be lost.
@@ -97,15 +98,18 @@ class FactoryLine:
             self.clean()
         raise NoAnswerError(f"what is typed arrives damaged (`{line}` came back as {echo!r}). Is the cable good?")
 
-    def command(self, line: str, count: int = 60) -> bytes:
-        """Executes a line. Returns its answer of about `count` bytes, up to the prompt."""
+    def enter(self, line: str) -> None:
         self.type_line(line)
         self.link.write(b"\r")
+
+    def command(self, line: str, count: int = 60) -> bytes:
+        """Executes a line. Returns its answer of about `count` bytes, up to the prompt."""
+        self.enter(line)
         return self.link.read_until(PROMPT, self.patience(count), f"`{line}` to the boot loader")
 
     # Reading
 
-    def _dump(self, word: str, start: int, end: int, modulo: int, progress: Progress | None) -> bytes:
+    def _dump(self, word: str, start: int, end: int, modulo: int, progress: Progress) -> bytes:
         """Reads memory by dumps of 128 bytes. Requests a few in advance until one is damaged."""
         first = start - start % DUMP_BYTES
         out, tries, ahead = bytearray(), 0, DUMP_AHEAD
@@ -116,8 +120,7 @@ class FactoryLine:
                 for piece in self._dumps(word, at, count, modulo, ahead):
                     out += piece
                     tries = 0
-                    if progress:
-                        progress(min(first + len(out), end) - start, end - start)
+                    progress(min(first + len(out), end) - start, end - start)
             except NoAnswerError:
                 tries, ahead = tries + 1, 1
                 self.retries += 1
@@ -142,15 +145,15 @@ class FactoryLine:
                 raise NoAnswerError(f"the dump of 0x{here:X} came damaged")
             yield b"".join(data)
 
-    def read(self, start: int, end: int, progress: Progress | None = None) -> bytes:
+    def read(self, start: int, end: int, progress: Progress = unseen) -> bytes:
         return self._dump("flash", start, end, 0x20000, progress)
 
-    def read_eeprom(self, start: int = 0, end: int = 4096, progress: Progress | None = None) -> bytes:
+    def read_eeprom(self, start: int = 0, end: int = 4096, progress: Progress = unseen) -> bytes:
         return self._dump("eeprom", start, end, 0x1000, progress)
 
     # Writing EEPROM
 
-    def write_eeprom(self, cells: dict[int, int], progress: Progress | None = None) -> None:
+    def write_eeprom(self, cells: dict[int, int], progress: Progress = unseen) -> None:
         """Writes single bytes, by address. Does not read them back."""
         done = 0
         for at, data in pieces(cells, EEPROM_PIECE, b"\r\n"):  # a surplus byte would be typed text, so a line end is a piece of its own
@@ -162,13 +165,11 @@ class FactoryLine:
             else:
                 raise NoAnswerError("EEPROM bytes do not arrive. " + self.how_it_stands())
             done += len(data)
-            if progress:
-                progress(done, len(cells))
+            progress(done, len(cells))
 
     def _eeprom_piece(self, at: int, data: bytes) -> bool:
         """Returns whether it worked. If not, the loader may wait for the rest of the bytes; what clean() types is enough for that."""
-        self.type_line(f"eep_dn {at:x} {len(data):x}")
-        self.link.write(b"\r")
+        self.enter(f"eep_dn {at:x} {len(data):x}")
         answer, ready = self.link.look_for(b"Ready", self.patience(80))
         if not ready:
             return False
@@ -188,18 +189,16 @@ class FactoryLine:
         self.stays = True
 
     def _mode(self, word: str) -> None:
-        wanted = 0xFF if word == "sys" else None
         for _ in range(TRIES):
             self.command(word)
             found = self.read_eeprom(BOOT_MODE, BOOT_MODE + 1)[0]
-            if (found == 0xFF) == (wanted == 0xFF):
+            if (found == 0xFF) == (word == "sys"):
                 return
         raise BoardError(f"`{word}` does not change the boot mode")
 
     def restart(self) -> None:
         """Resets the controller. The loader is at its prompt afterwards (see stay())."""
-        self.type_line("reset")
-        self.link.write(b"\r")
+        self.enter("reset")
         self.link.look_for(PROMPT, START_SECONDS + self.patience(100))
         self.clean()
 
@@ -209,12 +208,10 @@ class FactoryLine:
             self._mode("app")
         self.stays = False
         if to == START:
-            self.type_line("go")
-            self.link.write(b"\r")
+            self.enter("go")
             self.link.read_until(b"Jump Address", self.patience(60), "`go` to the boot loader")
         elif to == RESET:
-            self.type_line("reset")
-            self.link.write(b"\r")
+            self.enter("reset")
 
 
 def _as_text(data: bytes) -> bytes:

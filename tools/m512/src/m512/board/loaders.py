@@ -97,8 +97,7 @@ def _factory(link: Link, started: bytes, board: str) -> FactoryLoader:
     loader = FactoryLoader(link)
     name = banner.name_in(started) or banner.name_in(loader.read(*BANNER_IN_FLASH))
     if not name:
-        loader.type_line("reset")
-        link.write(b"\r")
+        loader.enter("reset")
         said = call_by_hash(link, RESTART_SECONDS)
         if said is None:
             raise NoAnswerError(

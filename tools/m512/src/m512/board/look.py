@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from m512.board.block import STAY
 from m512.board.client import Client
-from m512.board.download import PhaseMaker, check_board
+from m512.board.download import check_board
 from m512.board.loaders import Loader
 from m512.board.memory import FLASH_PAGE, MOTIONS, Plan, motion_area, motion_page_of
 from m512.errors import BoardError, RefusedError
@@ -13,6 +13,7 @@ from m512.files.image import is_erased
 from m512.files.page import Page
 from m512.files.wording import counted
 from m512.pages import difference
+from m512.ui import PhaseMaker
 
 
 def through_loader(loader: Loader, plan: Plan, phase: PhaseMaker) -> list[str]:
