@@ -10,6 +10,7 @@ names are known.
 from __future__ import annotations
 
 import re
+from functools import partialmethod
 from io import StringIO
 from pathlib import Path
 
@@ -202,21 +203,12 @@ class Reader(JointWords):
 
     # Statements about a page (or the template)
 
-    def _byte(self, field: str, rest: list[Token], what: str) -> None:
-        self._count(rest, 1, 1, f"{what} 0..255")
-        setattr(self.draft.page, field, number(rest[0], 0, 255, what))
+    def _byte(self, field: str, rest: list[Token]) -> None:
+        self._count(rest, 1, 1, f"{field} 0..255")
+        setattr(self.draft.page, field, number(rest[0], 0, 255, field))
 
-    def _do_repeat(self, rest: list[Token]) -> None:
-        self._byte("repeat", rest, "repeat")
-
-    def _do_speed(self, rest: list[Token]) -> None:
-        self._byte("speed", rest, "speed")
-
-    def _do_dxl_setup(self, rest: list[Token]) -> None:
-        self._byte("dxl_setup", rest, "dxl_setup")
-
-    def _do_byte63(self, rest: list[Token]) -> None:
-        self._byte("byte63", rest, "byte63")
+    _do_repeat, _do_speed = partialmethod(_byte, "repeat"), partialmethod(_byte, "speed")
+    _do_dxl_setup, _do_byte63 = partialmethod(_byte, "dxl_setup"), partialmethod(_byte, "byte63")
 
     def _do_accel(self, rest: list[Token]) -> None:
         self._count(rest, 1, 1, "accel TIME")
@@ -240,23 +232,18 @@ class Reader(JointWords):
         self.draft.links = [link for link in self.draft.links if link[0] != field]
         self.draft.links.append((field, token, self.where, self.line))
 
-    def _do_next(self, rest: list[Token]) -> None:
-        self._count(rest, 1, 1, "next PAGE")
-        self._link("next", rest[0])
+    def _do_next(self, rest: list[Token], field: str = "next") -> None:
+        self._count(rest, 1, 1, f"{field} PAGE")
+        self._link(field, rest[0])
 
-    def _do_exit(self, rest: list[Token]) -> None:
-        self._count(rest, 1, 1, "exit PAGE")
-        self._link("exit", rest[0])
+    _do_exit = partialmethod(_do_next, field="exit")
 
-    def _do_link1(self, rest: list[Token]) -> None:
-        self._count(rest, 2, 2, "link1 CODE PAGE")
-        self.draft.page.link1_code = code(rest[0])
-        self._link("link1_page", rest[1])
+    def _do_link1(self, rest: list[Token], field: str = "link1") -> None:
+        self._count(rest, 2, 2, f"{field} CODE PAGE")
+        setattr(self.draft.page, f"{field}_code", code(rest[0]))
+        self._link(f"{field}_page", rest[1])
 
-    def _do_link2(self, rest: list[Token]) -> None:
-        self._count(rest, 2, 2, "link2 CODE PAGE")
-        self.draft.page.link2_code = code(rest[0])
-        self._link("link2_page", rest[1])
+    _do_link2 = partialmethod(_do_link1, field="link2")
 
     def _do_blend(self, rest: list[Token]) -> None:
         self._count(rest, 2, 2, "blend right PAGE | blend left PAGE")
