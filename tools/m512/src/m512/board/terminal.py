@@ -195,7 +195,7 @@ class Terminal:
         elif key in "sb":
             name = self._ask(console, "file: ")
             if name:
-                (self.send_text if key == "s" else self.send_raw)(Path(name))
+                self._send(Path(name), self._send_lines if key == "s" else self._send_pieces)
         elif key == "g":
             self._toggle_log(console)
         else:
@@ -253,10 +253,13 @@ class Terminal:
 
     # Files
 
-    def send_text(self, path: Path) -> None:
-        data = self._file(path)
-        if data is not None:
-            self._begin(lambda: self._send_lines(path, data))
+    def _send(self, path: Path, how: Callable[[Path, bytes], None]) -> None:
+        try:
+            data = storage.read(path)
+        except FileError as error:
+            self._say(str(error))
+        else:
+            self._begin(lambda: how(path, data))
 
     def _send_lines(self, path: Path, data: bytes) -> None:
         """After each line waits until the board has answered and is quiet. Waits for XON after XOFF, but not for ever: it may be lost."""
@@ -278,11 +281,6 @@ class Terminal:
                     break
         self._say(f"{path} sent")
 
-    def send_raw(self, path: Path) -> None:
-        data = self._file(path)
-        if data is not None:
-            self._begin(lambda: self._send_pieces(path, data))
-
     def _send_pieces(self, path: Path, data: bytes) -> None:
         """A line at a time, or 512 bytes of what has none. So a text that is ended by a key leaves no half line on the board."""
         sent = 0
@@ -293,10 +291,3 @@ class Terminal:
             self.link.write(piece)
             sent += len(piece)
         self._say(f"{path} sent, {sent:,} bytes")
-
-    def _file(self, path: Path) -> bytes | None:
-        try:
-            return storage.read(path)
-        except FileError as error:
-            self._say(str(error))
-            return None
