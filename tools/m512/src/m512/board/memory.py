@@ -78,9 +78,15 @@ class Plan:
 
     pages: dict[int, bytes] = field(default_factory=dict)
     record: Record | None = None
-    has_app: bool = False
-    has_motions: bool = False
     remarks: list[str] = field(default_factory=list)
+
+    @property
+    def has_app(self) -> bool:
+        return any(number * FLASH_PAGE < APP[1] for number in self.pages)
+
+    @property
+    def has_motions(self) -> bool:
+        return any(number * FLASH_PAGE >= MOTIONS[0] for number in self.pages)
 
 
 def _refuse_outside(start: int, end: int, what: str) -> None:
@@ -107,8 +113,6 @@ def plan(path: Path, address: int | None = None, board: str | None = None, with_
         segments = _segments(path, data, address, out, with_trim, damaged)
     for start, piece in segments:
         _refuse_outside(start, start + len(piece), path.name)
-        out.has_app |= start < APP[1]
-        out.has_motions |= start + len(piece) > MOTIONS[0]
         _add(out, start, piece)
     if not out.pages:
         raise FileError(f"{path} holds nothing to flash" + "".join(f": {remark}" for remark in out.remarks))

@@ -70,7 +70,7 @@ def write_motions(url: str, found: Image, image: Image, board: str = "") -> None
                     other = loader.different(_flash_pages(numbers, found), progress)
                 _must_be_as_found(sorted({motion_page_of(page) for page in other}), found, lambda number: Page(loader.read(*motion_area(number))))
                 keeping.enter_context(kept(link, found, numbers, board))
-            report = download.download(loader, Plan(_flash_pages(numbers, image), has_motions=True), ui.phase)
+            report = download.download(loader, Plan(_flash_pages(numbers, image)), ui.phase)
         ui.say(str(report))
         ui.say(loaders.give_back(loader))
 
