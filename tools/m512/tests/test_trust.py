@@ -20,7 +20,7 @@ from test_flash import make_app
 from virtual_peer import VirtualLink
 
 from m512 import __version__, ui
-from m512.board import block, bus, loaders, ports
+from m512.board import block, bus, child, loaders, ports
 from m512.board.client import Client
 from m512.board.download import Report
 from m512.board.link import Link
@@ -1008,7 +1008,7 @@ def test_images_beside_the_simulator_are_found(tmp_path, monkeypatch):
     assert sim.find_image("play-cm5.hex") == tmp_path / "bin" / "play-cm5.hex"
     monkeypatch.delenv("M512_CM5SIM")
     monkeypatch.setattr(sim, "wheel_folder", lambda: None)
-    monkeypatch.setattr(sim.sys, "executable", str(tmp_path / "python"))
+    monkeypatch.setattr(sim.child.sys, "executable", str(tmp_path / "python"))
     monkeypatch.setenv("PATH", "")
     with pytest.raises(MissingError, match="wheel .*M512_CM5SIM"):
         sim.find_cm5sim()
@@ -1141,7 +1141,7 @@ def test_a_program_for_an_adapter_ends_with_a_start_that_is_ended(says, monkeypa
         raise error
 
     if when == "console":
-        monkeypatch.setattr(bus.select, "select", ended)
+        monkeypatch.setattr(child.select, "select", ended)
     else:
         monkeypatch.setattr(Link, "_receive", ended)
     with pytest.raises(error):

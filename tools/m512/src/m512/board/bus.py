@@ -10,18 +10,14 @@ from __future__ import annotations
 
 import os
 import re
-import select
-import shutil
 import signal
 import subprocess
-import sys
 import threading
-import time
 from pathlib import Path
 from typing import IO
 
 from m512 import ui
-from m512.board.child import ending_with_this
+from m512.board import child
 from m512.board.ports import IN_USE
 from m512.errors import EXIT_BAD_FILE, FileError, M512Error, MissingError, PortError, RefusedError
 from m512.places import build_folder
@@ -67,13 +63,11 @@ def parts(word: str) -> tuple[str, int]:
 
 def find_program(image: str) -> Path:
     name = f"motion512-{image}"
-    given, build, found = os.environ.get("M512_PROGRAMS"), build_folder(), shutil.which(name)
+    given, build = os.environ.get("M512_PROGRAMS"), build_folder()
     places = [Path(given) / name] if given else []
     places += [build / "host" / "firmware" / image / name] if build else []
-    places += [Path(sys.executable).with_name(name)] + ([Path(found)] if found else [])
-    for place in places:
-        if place.exists():
-            return place
+    if program := child.found(name, places):
+        return program
     raise MissingError(
         f"the program {name} is not here: install the wheel motion512 of a release (Linux), build it from the sources "
         "(cmake --preset host), or name its folder in M512_PROGRAMS"
@@ -119,7 +113,7 @@ class Program:
             stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE,
             start_new_session=True,
-            preexec_fn=ending_with_this(signal.SIGTERM),  # brings the robot to a halt
+            preexec_fn=child.ending_with_this(signal.SIGTERM),  # brings the robot to a halt
         )
         assert self.process.stderr is not None
         self.errors: IO[bytes] = self.process.stderr
@@ -136,18 +130,11 @@ class Program:
         self.reader.start()
 
     def _wait_for_console(self) -> str:
-        deadline = time.monotonic() + START_SECONDS
-        while time.monotonic() < deadline:
-            if select.select([self.errors], [], [], 0.1)[0]:
-                some = os.read(self.errors.fileno(), 4096).decode("utf-8", "replace")
-                self.said += some
-                match = re.search(r"[^\n]*serial port: (\S+)\s", self.said)
-                if match:
-                    self.said = self.said.replace(match[0], "")
-                    return match[1]
-                if not some:
-                    break
-        raise self._refusal()
+        self.said, match = child.first_words(self.errors, START_SECONDS)
+        if not match:
+            raise self._refusal()
+        self.said = self.said.replace(match[0], "")
+        return match[1]
 
     def refusal(self, error: PortError) -> M512Error:
         """The reason of a program that has ended since it opened its console, else `error`. Not after tell()."""

@@ -10,18 +10,13 @@ The search order for cm5sim: $M512_CM5SIM, the source tree that holds this packa
 from __future__ import annotations
 
 import os
-import re
-import select
-import shutil
 import signal
 import subprocess
-import sys
 import tempfile
-import time
 from pathlib import Path
 
 from m512 import ui
-from m512.board.child import ending_with_this
+from m512.board import child
 from m512.board.client import Client
 from m512.board.link import Link
 from m512.board.memory import BOARDS, Record
@@ -41,15 +36,9 @@ def find_cm5sim() -> Path:
         if not Path(given).exists():
             raise MissingError(f"there is no simulator {given}, which M512_CM5SIM names")
         return Path(given)
-    places = []
-    if tree and build and (build / "host" / "tools" / "sim" / "libcm5sim.so").exists():
-        places += [tree / "tools" / "sim" / "cm5sim"]
-    places += [Path(sys.executable).with_name("cm5sim")]
-    found = shutil.which("cm5sim")
-    places += [Path(found)] if found else []
-    for place in places:
-        if place.exists():
-            return place
+    is_built = tree and build and (build / "host" / "tools" / "sim" / "libcm5sim.so").exists()
+    if program := child.found("cm5sim", [tree / "tools" / "sim" / "cm5sim"] if tree and is_built else []):
+        return program
     raise MissingError(
         "the simulator cm5sim is not here: install its wheel beside m512 (pip install cm5sim-....whl of a release, or "
         "tools/sim/python of a built source tree), or name the program in M512_CM5SIM"
@@ -109,9 +98,8 @@ class Simulator:
                 stdin=subprocess.DEVNULL,
                 pass_fds=(area.fileno(),),
                 start_new_session=True,  # Ctrl-C reaches only m512, which stops the robot first
-                preexec_fn=ending_with_this(signal.SIGKILL),
+                preexec_fn=child.ending_with_this(signal.SIGKILL),
             )
-        self.said = b""
         try:
             self.url = self._wait_for_port()
         except BaseException:
@@ -127,21 +115,14 @@ class Simulator:
 
     def _wait_for_port(self) -> str:
         assert self.process.stdout is not None
-        deadline = time.monotonic() + START_SECONDS
-        while time.monotonic() < deadline:
-            if select.select([self.process.stdout], [], [], 0.1)[0]:
-                some = os.read(self.process.stdout.fileno(), 4096)
-                self.said += some
-                match = re.search(rb"serial port: (\S+)", self.said)
-                if match:
-                    return match.group(1).decode()
-                if not some:
-                    break
+        said, match = child.first_words(self.process.stdout, START_SECONDS)
+        if match:
+            return match[1]
         ended = self.process.poll() is not None
         raise MissingError(
             "the simulator did not start: "
             + (
-                self.said.decode("utf-8", "replace").strip()
+                said.strip()
                 or (f"it ended with exit code {self.process.returncode}" if ended else f"it named no port for {START_SECONDS / 60:.0f} minutes")
             )
         )
