@@ -13,7 +13,7 @@ Every session of an application checks, in addition to what its input checks:
 import random
 
 from cm5sim import Board
-from cm5sim.board import CYCLES_PER_TICK, sync_goals
+from cm5sim.board import CYCLES_PER_TICK, rc_packet, sync_goals
 from m512.files.image import from_bytes
 from tests.sim.boot_noise import MAKERS
 from tests.sim.boot_noise import fuzz as boot_fuzz
@@ -215,11 +215,6 @@ class PlayConsole(Session):
 # ---- the remote ----
 
 
-def packet_of(buttons):
-    low, high = buttons & 0xFF, buttons >> 8
-    return bytes([0xFF, 0x55, low, low ^ 0xFF, high, high ^ 0xFF])
-
-
 class Remote(Session):
     name = "remote"
     promise = "Play stands whatever comes from the remote, mixed with typed text; a good packet behind it counts"
@@ -233,13 +228,13 @@ class Remote(Session):
     def noise(self, count):
         rng, made = self.rng, bytearray()
         while len(made) < count:
-            packet = bytearray(packet_of(self.buttons()))
+            packet = bytearray(rc_packet(self.buttons()))
             kind = rng.random()
             if kind < 0.45:
                 made += packet * rng.choice((1, 1, 1, 2, 5))
             elif kind < 0.8:
                 at = rng.randrange(6)
-                packet[at : at + 1] = rng.choice((b"", packet[at : at + 1] * 2, rng.randbytes(1), packet_of(self.buttons())))
+                packet[at : at + 1] = rng.choice((b"", packet[at : at + 1] * 2, rng.randbytes(1), rc_packet(self.buttons())))
                 made += packet
             elif kind < 0.9:
                 made += rng.choice((b"version\r", b"status\r", b"U", b"\xff", b"\x55", b"\xff\x55", b"@where\r", b"stop\r", b"help\r"))
@@ -250,9 +245,9 @@ class Remote(Session):
     def look(self):
         """Two stops within a second are a break, so the robot must be idle now."""
         for _ in range(2):
-            self.board.remote(packet_of(512))
+            self.board.rc(512)
             self.board.run(ms=200)
-            self.board.remote(packet_of(0))
+            self.board.rc(0)
             self.board.run(ms=200)
         for _ in range(8):
             if "state=idle" in self.answer():

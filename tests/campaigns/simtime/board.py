@@ -12,7 +12,7 @@ import tempfile
 from typing import NamedTuple
 
 from cm5sim import Board
-from cm5sim.board import sync_goals
+from cm5sim.board import rc_packet, sync_goals
 from tests.campaigns.simtime import chance, runs
 from tests.sim.play_robot import shown
 
@@ -85,15 +85,9 @@ def made(seed):
     return actions
 
 
-def packet(buttons):
-    """Returns a packet of the remote."""
-    low, high = buttons & 0xFF, buttons >> 8
-    return bytes([0xFF, 0x55, low, low ^ 0xFF, high, high ^ 0xFF])
-
-
 def data_of(action):
     """Returns the bytes on the console's line."""
-    return action[1].encode("latin-1") if action[0] == "type" else packet(action[1])
+    return action[1].encode("latin-1") if action[0] == "type" else rc_packet(action[1])
 
 
 def pause_of(count, into_tick):
@@ -220,7 +214,7 @@ def replay(actions):
             if verb == "type":
                 board.send(bytes.fromhex(rest[0]))
             elif verb == "remote":
-                board.remote(packet(int(rest[0])))
+                board.rc(int(rest[0]))
             elif verb == "fault":
                 board.servos[int(rest[0])].fault(rest[1], int(rest[2]) or None)
             elif verb == "clear":

@@ -7,6 +7,7 @@ and lines that fail and recover, power cuts, a late computer.
 
 import random
 
+from m512.crc16 import crc16
 from tests.campaigns.fuzz_board import KEYS, PlayConsole
 from tests.campaigns.fuzz_board import pages as play_pages
 
@@ -693,14 +694,9 @@ class Editor(Person):
         for offset in range(0, 512, 32):
             self.line(f"@data {offset} {data[offset : offset + 32].hex()}", 4)
         self.line("@crc", 20)
-        crc = 0xFFFF
-        for byte in data:
-            crc ^= byte << 8
-            for _ in range(8):
-                crc = (crc << 1 ^ 0x1021 if crc & 0x8000 else crc << 1) & 0xFFFF
         if rng.random() < 0.5:
             self.act(f"cutwrite {rng.randrange(1, 9)}")
-        self.line(f"@save {number} 0x{crc:04x}", SECOND)
+        self.line(f"@save {number} 0x{crc16(data):04x}", SECOND)
         self.line(f"@list {number} {number}", SECOND // 2)
 
     WEIGHTS = (

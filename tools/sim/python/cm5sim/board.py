@@ -262,10 +262,8 @@ class Board(Inside, Wear):
         self._lib.board_console_rate(self._pointer, rate)
 
     def rc(self, value: int) -> None:
-        """Sends one RC-100 packet: FF 55 low ~low high ~high."""
-        low, high = value & 0xFF, value >> 8 & 0xFF
-        packet = bytes([0xFF, 0x55, low, low ^ 0xFF, high, high ^ 0xFF])
-        self._lib.board_console_send(self._pointer, 1, packet, len(packet))
+        """Sends one packet of a remote."""
+        self.remote(rc_packet(value))
 
     def remote(self, data: bytes) -> None:
         """Queues raw bytes from the remote."""
@@ -376,6 +374,12 @@ class Board(Inside, Wear):
 
     def battery(self, volts: float) -> None:
         self._lib.board_battery(self._pointer, volts)
+
+
+def rc_packet(value: int) -> bytes:
+    """A packet of the remote RC-100: FF 55 low ~low high ~high."""
+    low, high = value & 0xFF, value >> 8 & 0xFF
+    return bytes([0xFF, 0x55, low, low ^ 0xFF, high, high ^ 0xFF])
 
 
 def sync_goals(packet: bytes) -> dict[int, int]:
