@@ -3,7 +3,6 @@
 GP robot, which walk on the real robot, must walk here, and must fall when they are spoiled. Without that, the physics could not
 judge anything. Physics is a model, and no real robot has walked our motions yet."""
 
-import functools
 import os
 import pathlib
 
@@ -14,6 +13,7 @@ from body.description import load
 from body.trial import first_pose, try_motion
 from m512.files.formats import load as load_motions
 from motions import promises
+from motions.promises import IMAGE, LIBRARY
 from tests.campaigns import proof
 from tests.campaigns.onboard import try_on_board
 
@@ -129,19 +129,16 @@ def spoilt_figures(options):
 # --- our motions ---
 
 
-def library_image():
-    return load_motions(proof.TOP / "tools" / "motions" / "motions.m512")
-
-
-def body_stands(image, number, item):
+def body_stands(item):
     promise, seed, _ = item
-    stood, said = promises.stands(image, number, promise, seed)
+    stood, said = promises.stands(IMAGE, LIBRARY.find(promise.page), promise, seed)
     return bool(stood), said
 
 
-def walk_on_board(image, number, ready, item):
+def walk_on_board(item):
     promise, seed, _ = item
-    outcome = try_on_board(image, number, promise.seconds, ready, variation=promises.body_of(promise, seed), keys=promise.keys)
+    page, ready, body = LIBRARY.find("walk"), LIBRARY.find("ready"), promises.body_of(promise, seed)
+    outcome = try_on_board(IMAGE, page, promise.seconds, ready, variation=body, keys=promise.keys)
     return bool(outcome.fell_s is None and outcome.on_feet), outcome.said()
 
 
@@ -162,14 +159,13 @@ def results_of(work, promise, count, where, options):
     return dict(zip(seeds, results))
 
 
-def stand_figures(options, image, library):
+def stand_figures(options):
     figures = []
     for promise in promises.STANDS:
         if options.only not in (None, promise.page) or (options.sample and promise.page not in promises.EASY):
             continue
         count = promise.bodies if options.bodies is None else options.bodies
-        work = functools.partial(body_stands, image, promises.number_of(library, promise.page))
-        results = results_of(work, promise, 1 if options.sample else count, "player", options)
+        results = results_of(body_stands, promise, 1 if options.sample else count, "player", options)
         begin = f", from its {promise.lie}, arms anyhow" if promise.lie else ""
         how = f" {promise.how}" if promise.how else ""
         what = f"`{promise.page}`{how}{begin}: it ends on its feet."
@@ -177,32 +173,29 @@ def stand_figures(options, image, library):
     return figures
 
 
-def board_figures(options, image, library):
+def board_figures(options):
     walk = next(promise for promise in promises.STANDS if promise.page == "walk")
-    work = functools.partial(walk_on_board, image, promises.number_of(library, "walk"), promises.number_of(library, "ready"))
-    results = results_of(work, walk, options.on_board, "board", options)
+    results = results_of(walk_on_board, walk, options.on_board, "board", options)
     what = "`walk` led by the shipped image: it ends on its feet."
     return [share_figure(what, "the same, on the simulated board with a remote", walk, results)]
 
 
-def nominal_figure(image, library):
+def nominal_figure():
     said, kept = [], True
     for promise in promises.GOES:
-        missing, what = promises.goes(image, promises.number_of(library, promise.page), promise)
+        missing, what = promises.goes(IMAGE, LIBRARY.find(promise.page), promise)
         kept &= not missing
         said.append(f"{promise.page}: {', '.join(missing) or 'as promised'} ({what})")
     return proof.Figure("Motions go as far and turn as much as they promise.", "nominal body, AX-12, 11.1 V", "; ".join(said), kept)
 
 
-def ease_of(image, item):
-    number, promise = item
-    return promises.eases(image, number, promise)
+def ease_of(promise):
+    return promises.eases(IMAGE, LIBRARY.find(promise.page), promise)
 
 
-def eases_figure(options, image, library):
+def eases_figure(options):
     asked = [promise for promise in promises.STANDS if not options.sample or promise.page in promises.EASY]
-    items = [(promises.number_of(library, promise.page), promise) for promise in asked]
-    results = proof.each(functools.partial(ease_of, image), items, "torques", options.jobs)
+    results = proof.each(ease_of, asked, "torques", options.jobs)
     bad = [f"{promise.page}: {', '.join(missing)}" for promise, (missing, _) in zip(asked, results) if missing]
     said = ", ".join(f"{promise.page} {what}" for promise, (_, what) in zip(asked, results))
     return proof.Figure(
@@ -213,8 +206,8 @@ def eases_figure(options, image, library):
     )
 
 
-def bears_figure(image, library):
-    missing, what = promises.bears(image, promises.number_of(library, "walk"))
+def bears_figure():
+    missing, what = promises.bears(IMAGE, LIBRARY.find("walk"))
     return proof.Figure(
         "Servos bear ten minutes of walking.",
         "nominal body, AX-12, 11.1 V; mean torque below a third of stall, heat below the servo's limit",
@@ -229,18 +222,16 @@ def run(options):
         figures += [speed_figures(options), spoilt_figures(options)]
     elif not DATA.exists():
         print(f"   the maker's motions are not here ({DATA.name}): no yardstick")
-    library = library_image()
-    image = library.to_bytes()
     if options.only or options.bodies is not None or options.seed_of is not None:
         options.keep = False  # a partial run
     options.kept = proof.Kept("physics", not options.sample and options.seed_of is None)
-    figures += stand_figures(options, image, library)
+    figures += stand_figures(options)
     if not options.only and options.seed_of is None:
-        figures.append(eases_figure(options, image, library))
+        figures.append(eases_figure(options))
     if not options.sample and options.seed_of is None:
         if options.only in (None, "walk") and options.on_board:
-            figures += board_figures(options, image, library)
+            figures += board_figures(options)
         if not options.only:
-            figures += [nominal_figure(image, library), bears_figure(image, library)]
+            figures += [nominal_figure(), bears_figure()]
     options.kept.finish()
     return figures

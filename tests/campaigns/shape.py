@@ -10,7 +10,6 @@ import random
 from body.chance import NOMINAL, body_of_the_bench, random_body
 from body.description import load
 from body.trial import pace
-from m512.files.formats import load as load_motions
 from motions import promises
 from tests.campaigns import proof
 from tests.campaigns.driven import Eight, Stick, drive, rounds
@@ -42,8 +41,9 @@ def body_of(seed, robot, hard=False):
 class Walk:
     """The library's walk, driven by `hand`. Is pickled for each job."""
 
-    def __init__(self, library, image, hard):
-        self.hard, self.image, self.page, self.ready = hard, image, promises.number_of(library, "walk"), promises.number_of(library, "ready")
+    def __init__(self, hard):
+        self.hard, self.image = hard, promises.IMAGE
+        self.page, self.ready = promises.LIBRARY.find("walk"), promises.LIBRARY.find("ready")
 
     def driven(self, seed, seconds, hand, **how):
         robot = how.pop("robot", promises.ROBOT)
@@ -201,7 +201,7 @@ def laid_over(walk, numbers, item):
 
 
 def layer_figures(walk, seeds, options, name):
-    numbers = {page: promises.number_of(library(), page) for page in LAYERS}
+    numbers = {page: promises.LIBRARY.find(page) for page in LAYERS}
     results = proof.each(functools.partial(laid_over, walk, numbers), [(name, seed) for seed in seeds], name, options.jobs)
     bad = [(seed, said) for seed, (kept, said) in zip(seeds, results) if not kept]
     return [
@@ -213,10 +213,6 @@ def layer_figures(walk, seeds, options, name):
             not bad,
         )
     ]
-
-
-def library():
-    return load_motions(proof.TOP / "tools" / "motions" / "motions.m512")
 
 
 ROWS = {
@@ -231,8 +227,7 @@ SAMPLE = {"cable": 1, "look": 1}  # rows of a sample and their number of bodies;
 
 
 def run(options):
-    made = library()
-    walk, figures = Walk(made, made.to_bytes(), options.hard), []
+    walk, figures = Walk(options.hard), []
     for row, make in ROWS.items():
         if options.only not in (None, row) or (options.sample and row not in SAMPLE):
             continue

@@ -23,7 +23,9 @@ UP, DOWN, LEFT, RIGHT = 1, 2, 4, 8
 PUSHES_PER_S = 1 / 12
 ARMS = range(1, 7)
 LYING_DEGREES = 45
-READY = first_pose(load_motions(pathlib.Path(__file__).with_name("motions.m512")).to_bytes(), 1, ROBOT)
+LIBRARY = load_motions(pathlib.Path(__file__).with_name("motions.m512"))
+IMAGE = LIBRARY.to_bytes()
+READY = first_pose(IMAGE, 1, ROBOT)
 NOTHING = bytes(IMAGE_BYTES)  # an image without motions
 
 
@@ -110,14 +112,6 @@ BEARS_NM = 1.5 * 11.1 / 12 / 3  # mean torque of a servo: a third of its stall t
 EASES_UNITS_PER_TICK = 0.9 * 59 * 11.1 / 12 * 6 / 128 * 1024 / 300 + 1  # 90 % of an AX-12's speed; goals are whole units
 BEARS_DEGREES_C = 70  # the limit in an AX-12's address 11
 EASY = ("ready", "bow", "wave", "clap", "cheer", "sit", "stand")  # a sample of these must never fail
-
-
-def number_of(library, page):
-    """Number of a page by its name. KeyError: the library has no such page."""
-    for number, made in library.items():
-        if number and made.title == page:
-            return number
-    raise KeyError(f"the library has no page {page}")
 
 
 def body_of(promise, seed):

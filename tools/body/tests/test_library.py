@@ -1,21 +1,15 @@
 # SPDX-License-Identifier: MIT
 """The library's motions end on the feet on bodies on which earlier versions fell, each for a different reason."""
 
-import pathlib
-
 import pytest
 
 from body.physics import Physics
 from body.quick import Quick
 from body.trial import first_pose
-from m512.files.formats import load as load_motions
 from m512.motion.player import play
 from motions import promises
+from motions.promises import IMAGE, LIBRARY
 
-MOTIONS = pathlib.Path(__file__).resolve().parents[2] / "motions"
-
-LIBRARY = load_motions(MOTIONS / "motions.m512")
-IMAGE = LIBRARY.to_bytes()
 THROUGH_MM = 10  # a depth that only presses a hand against a hip
 AIRBORNE_TICKS = 72  # a kick holds its foot up for longer than this
 
@@ -42,14 +36,14 @@ def promise_of(page):
     ],
 )
 def test_stands_on_a_body_on_which_it_fell(page, seed):
-    kept, said = promises.stands(IMAGE, promises.number_of(LIBRARY, page), promise_of(page), seed)
+    kept, said = promises.stands(IMAGE, LIBRARY.find(page), promise_of(page), seed)
     assert kept, said
 
 
 @pytest.mark.parametrize("page, side", [("kick_r", "right"), ("kick_l", "left")])
 def test_a_kick_is_a_kick(page, side):
     """Rules out a kick that stands because it hardly moves: the foot leaves the floor, goes back, then 40 mm forward."""
-    physics, number = Physics(promises.ROBOT), promises.number_of(LIBRARY, page)
+    physics, number = Physics(promises.ROBOT), LIBRARY.find(page)
     physics.stand(first_pose(IMAGE, number, promises.ROBOT))
     quick = Quick(IMAGE, physics)
     quick.torque_on()
@@ -79,5 +73,5 @@ def deepest_mm(number):
 
 @pytest.mark.parametrize("page", sorted({promise.page for promise in promises.STANDS}))
 def test_goals_do_not_drive_links_through_each_other(page):
-    depth, geoms = deepest_mm(promises.number_of(LIBRARY, page))
+    depth, geoms = deepest_mm(LIBRARY.find(page))
     assert depth <= (0 if page.startswith("kick") else THROUGH_MM), geoms
