@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Scenes of the boot loader: downloads of applications and motions by each of its protocols, EEPROM, and the mailbox."""
 
-import contextlib
 import functools
 import zlib
 
 from cm5sim.board import find_image
 from m512.board import block, download, loaders, memory
+from tests.campaigns.badlinks.runs import phase
 from tests.sim.boot_board import APP_END, BOOT_MODE, MAP, PROMPT, begin_load, end_load, say
 
 from . import robot
@@ -16,11 +16,6 @@ from .saves import MAIL_PAGE, MAIL_STATE, MAILBOX
 FLASH_PAGE = 256
 LOAD_RECORD = set(range(MAP["MEM_EE_LOAD_RECORD"], BOOT_MODE))
 APP_MARK, INCOMPLETE = MAP["MEM_EE_APP_MARK"], 0x50
-
-
-@contextlib.contextmanager
-def silently(_):
-    yield lambda *_: None
 
 
 @functools.cache
@@ -57,7 +52,7 @@ def by_blocks(board, pages, fast=False):
     loader = loaders.identify(robot.SimLink(board))
     assert isinstance(loader, block.BlockLoader)
     assert not fast or loader.go_faster()
-    download.download(loader, memory.Plan(dict(pages)), silently)
+    download.download(loader, memory.Plan(dict(pages)), phase)
     loader.leave()
     board.run(ms=20)
     board.take()
