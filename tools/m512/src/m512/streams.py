@@ -18,7 +18,7 @@ def fill_closed() -> None:
         os.set_inheritable(number, True)
     os.close(number)
     if sys.stderr is None:
-        sys.stderr = open(2, "w", closefd=False)
+        sys.stderr = os.fdopen(2, "w", closefd=False)
 
 
 def is_terminal(stream: TextIO | None) -> bool:
