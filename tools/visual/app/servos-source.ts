@@ -5,8 +5,9 @@ import type { Body } from '../model/body.ts';
 import type { Connection } from '../robot/connection.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import { WebSerialPort } from '../robot/web-serial-port.ts';
+import { AdapterPorts } from '../servos/adapter-ports.ts';
 import { canRunServos } from '../servos/machine.ts';
-import type { FromServos, PortHint } from '../servos/messages.ts';
+import type { FromServos } from '../servos/messages.ts';
 import { ServosClient } from '../servos/servos-client.ts';
 import type { ImageName } from '../view/session/session.ts';
 import { forgetServos, loadServos, saveServos } from '../view/robot-store.ts';
@@ -30,7 +31,7 @@ const HEARD_MOST = 200;
 export class ServosSource {
     private readonly events: SourceEvents;
     private readonly robot: FollowedRobot;
-    private chosen: { readonly hint: PortHint; readonly name: string } | null = null;
+    private chosen: { readonly ports: AdapterPorts<SerialPort>; readonly name: string } | null = null;
     private client: ServosClient | null = null;
     private image: ImageName = 'play';
     private readonly turns = new Turns();
@@ -63,9 +64,8 @@ export class ServosSource {
         if ('serial' in navigator && !canRunServos()) throw new RobotError('old-browser');
         return withPort(async () => {
             const port = await navigator.serial.requestPort();
-            const index = (await navigator.serial.getPorts()).indexOf(port);
-            const { usbVendorId, usbProductId } = port.getInfo();
-            this.chosen = { hint: { usbVendorId, usbProductId, index }, name: new WebSerialPort(port, TEXTS.menu.port).name };
+            this.chosen = { ports: new AdapterPorts(port), name: new WebSerialPort(port, TEXTS.menu.port).name };
+            navigator.serial.onconnect = () => void this.place(); // what is plugged in beside the adapter is not the adapter
             rememberAdapter(port);
         });
     }
@@ -144,6 +144,7 @@ export class ServosSource {
         const { chosen } = this;
         if (!chosen) throw new RobotError('not-connected');
         const kept = await this.memories();
+        const port = await this.place();
         const worker = new Worker(new URL('../servos/worker.ts', import.meta.url), { type: 'module', name: 'servos' });
         let runs = false;
         await new Promise<void>((resolve, reject) => {
@@ -157,7 +158,7 @@ export class ServosSource {
                 },
             });
             this.client = client;
-            client.post({ kind: 'start', module, kept, port: chosen.hint });
+            client.post({ kind: 'start', module, kept, port });
         }).catch((error: unknown) => {
             worker.terminate();
             this.client = null;
@@ -165,6 +166,13 @@ export class ServosSource {
         });
         runs = true;
         this.image = image;
+    }
+
+    /** The adapter's place among the ports that are plugged in; -1: it is out. */
+    private async place(): Promise<number> {
+        const ports = await navigator.serial.getPorts();
+        const adapter = this.chosen?.ports.find(ports);
+        return adapter ? ports.indexOf(adapter) : -1;
     }
 
     private async end(): Promise<void> {

@@ -3,15 +3,9 @@
 
 import type { Memories } from './machine.ts';
 
-/** Identifies an allowed port. The browser's port objects cannot be sent to a worker. */
-export interface PortHint {
-    readonly usbVendorId: number | undefined;
-    readonly usbProductId: number | undefined;
-    readonly index: number;
-}
-
 export type ToServos =
-    | { readonly kind: 'start'; readonly module: WebAssembly.Module; readonly kept: Memories; readonly port: PortHint }
+    /** port: the adapter's place in getPorts(), -1 if it is out. The browser's port objects cannot be sent to a worker. */
+    | { readonly kind: 'start'; readonly module: WebAssembly.Module; readonly kept: Memories; readonly port: number }
     | { readonly kind: 'bytes'; readonly bytes: Uint8Array }
     /** Stops the robot, ends the program, closes the port. Answered by `ended`. */
     | { readonly kind: 'end' }

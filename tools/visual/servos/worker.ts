@@ -4,13 +4,15 @@
 
 import { Adapter } from './adapter.ts';
 import type { AdapterPort } from './adapter.ts';
+import { AdapterPorts } from './adapter-ports.ts';
+import type { KindOfPort } from './adapter-ports.ts';
 import { runProgram } from './machine.ts';
-import type { FromServos, PortHint, ToServos } from './messages.ts';
+import type { FromServos, ToServos } from './messages.ts';
 import { Sleeper } from './sleeper.ts';
 
 /** The part of Web Serial that is used here. */
-type BrowserPort = AdapterPort & { getInfo(): { usbVendorId?: number; usbProductId?: number } };
-declare const navigator: { readonly serial: { getPorts(): Promise<BrowserPort[]> } };
+type BrowserPort = AdapterPort & KindOfPort;
+declare const navigator: { readonly serial: { onconnect: () => void; getPorts(): Promise<BrowserPort[]> } };
 
 const RATE_BPS = 1_000_000;
 
@@ -24,19 +26,12 @@ function tell(message: FromServos, transfer: Transferable[] = []): void {
     postMessage(message, { transfer });
 }
 
-/** The port that the person chose, or after it was unplugged one of the same kind. */
-async function find(hint: PortHint): Promise<BrowserPort | null> {
-    const ports = await navigator.serial.getPorts();
-    const isKind = (port: BrowserPort | undefined): boolean => {
-        const { usbVendorId, usbProductId } = port?.getInfo() ?? {};
-        return port !== undefined && usbVendorId === hint.usbVendorId && usbProductId === hint.usbProductId;
-    };
-    const chosen = ports[hint.index];
-    return (isKind(chosen) ? chosen : ports.find(isKind)) ?? null;
-}
-
 async function start({ module, kept, port }: Extract<ToServos, { kind: 'start' }>): Promise<void> {
-    const adapter = new Adapter(() => find(port), {
+    const chosen = (await navigator.serial.getPorts())[port];
+    const ports = chosen && new AdapterPorts(chosen);
+    const find = async (): Promise<BrowserPort | null> => ports?.find(await navigator.serial.getPorts()) ?? null;
+    navigator.serial.onconnect = () => void find(); // what is plugged in beside the adapter is not the adapter
+    const adapter = new Adapter(find, {
         news: () => sleeper.wake(),
         isThere: isThere => tell({ kind: 'adapter', isThere }),
     });

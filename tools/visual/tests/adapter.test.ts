@@ -2,6 +2,7 @@
 // The port of a servo adapter: a change of rate, a refusal, an unplugged and replugged adapter.
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { Adapter } from '../servos/adapter.ts';
+import { AdapterPorts } from '../servos/adapter-ports.ts';
 import { BytePort } from '../sim/byte-port.ts';
 
 const LONG_MS = 5000;
@@ -163,4 +164,15 @@ test('a plug that has a loose contact, and is out again right after it is taken,
     bench.isPlugged = true;
     await vi.advanceTimersByTimeAsync(LONG_MS);
     expect(bench.told.at(-1)).toBe(true);
+});
+
+test('a cable of the same kind is not taken for an adapter that is out; the adapter is, once it is back as a new port', () => {
+    const port = (usbProductId: number) => ({ getInfo: () => ({ usbVendorId: 0x0403, usbProductId }) });
+    const [chosen, back, cable, later, modem] = [port(1), port(1), port(1), port(1), port(2)];
+    const ports = new AdapterPorts(chosen);
+    expect(ports.find([cable, chosen])).toBe(chosen);
+    expect(ports.find([cable, chosen, later])).toBe(chosen);
+    expect(ports.find([cable, later, modem])).toBe(null);
+    expect(ports.find([cable, back, later, modem])).toBe(back);
+    expect(ports.find([cable, later])).toBe(null);
 });

@@ -48,6 +48,8 @@ class Runs {
     static readonly asked: string[] = [];
     /** The memories that each program got. */
     static readonly given: unknown[] = [];
+    /** The place of the port that each program got. */
+    static readonly places: unknown[] = [];
     static isAdapterOut = false;
     static last: Runs;
     onmessage: ((event: { data: object }) => void) | null = null;
@@ -57,9 +59,10 @@ class Runs {
         Runs.last = this;
     }
 
-    postMessage({ kind, kept }: { kind: string; kept?: unknown }): void {
+    postMessage({ kind, kept, port }: { kind: string; kept?: unknown; port?: unknown }): void {
         Runs.asked.push(kind);
         if (kind === 'start') Runs.given.push(kept);
+        if (kind === 'start') Runs.places.push(port);
         const answer = { start: Runs.isAdapterOut ? 'refused' : 'started', end: 'ended' }[kind];
         if (answer) setTimeout(() => this.tell({ kind: answer, text: 'there is no such port' }), 20);
     }
@@ -76,7 +79,8 @@ class Runs {
 /** My servos run Play. */
 async function runs() {
     const port = { getInfo: () => ({}) };
-    const serial = { requestPort: () => Promise.resolve(port), getPorts: () => Promise.resolve([port]) };
+    const ports = [port];
+    const serial = { requestPort: () => Promise.resolve(port), getPorts: () => Promise.resolve([...ports]), onconnect: () => undefined };
     vi.stubGlobal('navigator', { serial });
     vi.stubGlobal('Worker', Runs);
     const events = { frame: vi.fn(), text: vi.fn(), connection: vi.fn(), change: vi.fn(), motions: vi.fn() };
@@ -84,14 +88,14 @@ async function runs() {
     await source.choose();
     await source.start('play');
     source.connect();
-    return { source, events };
+    return { source, events, port, ports, serial };
 }
 
 afterEach(() => {
     vi.unstubAllGlobals();
     Object.assign(browser, { missing: '', reads: true, saves: true, kept: null });
     Object.assign(Runs, { made: 0, isAdapterOut: false });
-    Runs.asked.length = Runs.given.length = 0;
+    Runs.asked.length = Runs.given.length = Runs.places.length = 0;
 });
 
 test('a tab whose adapter could not be opened does not keep My servos from another tab; one that uses them does', async () => {
@@ -133,6 +137,20 @@ test('another image cannot be loaded: the program that runs goes on, as the page
     browser.missing = 'edit';
     await expect(source.restart('edit')).rejects.toMatchObject({ code: 'no-image' });
     expect(Runs.asked).not.toContain('end');
+    await source.close();
+});
+
+test('another image starts on the adapter, wherever it stands among the ports, and not on a cable of the same kind', async () => {
+    const { source, port, ports, serial } = await runs();
+    const cable = { getInfo: () => ({}) };
+    ports.unshift(cable);
+    serial.onconnect(); // while the adapter is there
+    await source.restart('edit');
+    ports.splice(0, 2, cable);
+    await source.restart('play');
+    ports.push({ ...port }); // plugged in again, it is another port
+    await source.restart('edit');
+    expect(Runs.places).toEqual([0, 1, -1, 1]);
     await source.close();
 });
 
