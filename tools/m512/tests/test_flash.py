@@ -13,7 +13,7 @@ from types import SimpleNamespace
 import pytest
 from block_peer import BlockPeer, BlockPtyPeer
 from conftest import REPO
-from factory_peer import FactoryPeer, FactoryPtyPeer
+from factory_peer import PROMPTED, FactoryPeer, FactoryPtyPeer
 from hex_files import hex_file
 from virtual_peer import VirtualLink
 
@@ -744,6 +744,38 @@ def test_an_eeprom_byte_that_arrives_wrong_is_written_again(m512, other_eeprom):
         result = m512("restore", folder, "-p", peer.path, "--yes", "--board", "cm5")
         assert changed and result.exit_code == 0 and "32 EEPROM cells written and read back" in result.stderr, result.stderr
         assert peer.eeprom[0x20:0x40] == b"\xff" * 32
+
+
+@pytest.mark.parametrize(
+    "how, code, says",
+    [
+        (KeyboardInterrupt, 130, "stopped while it wrote the EEPROM. Repeat the command: it writes what still differs"),
+        (SystemExit, 143, ""),
+        (None, 6, "run no other command"),  # the cable is pulled
+    ],
+)
+def test_an_end_between_eeprom_bytes_leaves_no_loader_that_takes_the_next_command_for_them(m512, other_eeprom, how, code, says):
+    """`eep_dn` waits for its bytes without a time limit. `m512 doctor` once wrote its own bytes into the EEPROM then."""
+    with FactoryPeer() as peer:
+        folder = other_eeprom(peer)
+
+        def end(direction, _, byte):
+            if direction == "->" and peer.state == "eep_dn" and byte == 0xFF:
+                peer.garble = None
+                if how:
+                    raise how(code)
+                peer.pull()
+            return byte
+
+        peer.garble = end
+        result = m512("restore", folder, "-p", peer.path, "--yes", "--board", "cm5")
+        assert result.exit_code == code and says in result.stderr, result.stderr
+        if how:
+            assert peer.state == PROMPTED and peer.eeprom[0x20:0x40] == b"\xff" * 32
+        else:
+            peer.plug()
+            assert m512("restore", folder, "-p", peer.path, "--yes", "--board", "cm5").exit_code == 0
+            assert peer.eeprom[0x20:0x40] == b"\xff" * 32
 
 
 def test_an_eeprom_cell_that_is_worn_out_is_named(m512, peer, other_eeprom):

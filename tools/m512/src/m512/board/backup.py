@@ -14,7 +14,7 @@ from m512.board.factory import FactoryLoader
 from m512.board.loaders import Loader
 from m512.board.memory import APP, EEPROM_BYTES, FLASH_PAGE, MOTIONS, Record
 from m512.crc16 import crc16
-from m512.errors import BoardError, FileError, NoAnswerError
+from m512.errors import BoardError, CancelledError, FileError, NoAnswerError, PortError
 from m512.files import storage
 from m512.files.page import PAGE_BYTES, Fault, Page
 from m512.ui import PhaseMaker, Progress
@@ -26,6 +26,7 @@ VERSION = 1
 MAILBOX_CELLS = range(0xFF4, 0xFF6)
 EEPROM_TRIES = 3
 READ_TRIES = 4
+THE_REST = "it writes what still differs"
 
 
 @dataclass
@@ -171,6 +172,16 @@ def eeprom_changes(wanted: bytes, found: bytes) -> dict[int, int]:
 
 def write_eeprom(loader: Loader, cells: dict[int, int], progress: Progress) -> None:
     """Writes EEPROM cells and reads them back. BoardError: some stay wrong; all others are written."""
+    try:
+        _write_eeprom(loader, cells, progress)
+    except KeyboardInterrupt:
+        raise CancelledError(f"stopped while it wrote the EEPROM. Repeat the command: {THE_REST}") from None
+    except PortError as error:
+        waits = ". Until then the boot loader may take all that comes for EEPROM bytes: run no other command, type nothing"
+        raise PortError(f"{error}: {THE_REST}{waits if isinstance(loader, FactoryLoader) else ''}") from None
+
+
+def _write_eeprom(loader: Loader, cells: dict[int, int], progress: Progress) -> None:
     wrong = cells
     for _ in range(EEPROM_TRIES):
         loader.write_eeprom(wrong, progress)
@@ -179,7 +190,7 @@ def write_eeprom(loader: Loader, cells: dict[int, int], progress: Progress) -> N
         wrong = {at: value for at, value in wrong.items() if found[at - first] != value}
         if not wrong:
             return
-    state = loader.how_it_stands() if isinstance(loader, FactoryLoader) else "Repeat the command: it writes what still differs"
+    state = loader.how_it_stands() if isinstance(loader, FactoryLoader) else f"Repeat the command: {THE_REST}"
     raise BoardError(f"EEPROM reads back wrong at {', '.join(f'0x{at:03X}' for at in list(wrong)[:8])}, {EEPROM_TRIES} times. {state}")
 
 

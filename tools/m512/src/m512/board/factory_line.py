@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 
 from m512.board.block import RESET, START, STAY, pieces
 from m512.board.link import REPEAT, Link
-from m512.errors import BoardError, NoAnswerError
+from m512.errors import BoardError, M512Error, NoAnswerError
 from m512.ui import Progress, unseen
 
 PROMPT = b"\r\n - "
@@ -154,18 +155,27 @@ class FactoryLine:
     # Writing EEPROM
 
     def write_eeprom(self, cells: dict[int, int], progress: Progress = unseen) -> None:
-        """Writes single bytes, by address. Does not read them back."""
+        """Writes single bytes, by address. Does not read them back. After Ctrl-C or a signal it writes the piece under way once more before it
+        ends: the loader would wait for the rest of its bytes without a time limit, and take those of the next command for them."""
         done = 0
         for at, data in pieces(cells, EEPROM_PIECE, b"\r\n"):  # a surplus byte would be typed text, so a line end is a piece of its own
-            for _ in range(TRIES):
-                if self._eeprom_piece(at, data):
-                    break
-                self.retries += 1
-                self.clean()
-            else:
-                raise NoAnswerError("EEPROM bytes do not arrive. " + self.how_it_stands())
+            try:
+                self._write_piece(at, data)
+            except (KeyboardInterrupt, SystemExit):
+                with suppress(M512Error):
+                    self.clean()
+                    self._write_piece(at, data)
+                raise
             done += len(data)
             progress(done, len(cells))
+
+    def _write_piece(self, at: int, data: bytes) -> None:
+        for _ in range(TRIES):
+            if self._eeprom_piece(at, data):
+                return
+            self.retries += 1
+            self.clean()
+        raise NoAnswerError("EEPROM bytes do not arrive. " + self.how_it_stands())
 
     def _eeprom_piece(self, at: int, data: bytes) -> bool:
         """Returns whether it worked. If not, the loader may wait for the rest of the bytes; what clean() types is enough for that."""
