@@ -96,6 +96,9 @@ class PlayPeer(VirtualPeer):
         self.began, self.state, self.page, self.until = True, "playing", int(page), self.now() + PAGE_SECONDS[int(page)]
         return "OK"
 
+    def do_rate(self, _):
+        return "OK"
+
     def do_layer(self, page):
         return "ERR 6 This page has no action" if page == "9" else "OK"
 

@@ -66,12 +66,12 @@ def test_a_play_that_the_robot_breaks_off_is_told_with_its_reason(m512, says, to
 
 
 def test_a_play_is_refused_while_another_one_goes_on(m512):
-    for damaged in ([], ["play"], ["play", "where"]):
+    for damaged, rate in (([], []), (["play"], []), (["play", "where"], []), ([], ["--rate", "300"])):  # of the one that goes on
         with PlayPeer(damaged=damaged) as robot:
             robot.state, robot.page = "playing", 2
-            result = m512("play", "2", "-p", robot.path)
-        assert result.exit_code == 8 and "Not while something plays" in result.stderr, result.stderr
-        assert "stop" not in robot.asked and robot.state == "playing"
+            result = m512("play", "2", *rate, "-p", robot.path)
+        assert result.exit_code == 8 and "something plays" in result.stderr, result.stderr
+        assert not {"stop", "rate 300"} & set(robot.asked) and robot.state == "playing"
 
 
 @pytest.mark.parametrize("words", [("play", "9"), ("play", "9", "--wait"), ("drive", "9"), ("layer", "9")])

@@ -147,6 +147,8 @@ def play(page: str, rate: int | None, amplitude: int | None, blend: int | None, 
         raise click.UsageError(str(error)) from None
     with robot(options) as client:
         number = client.motion(page)
+        if (rate, amplitude, blend) != (None, None, None) and client.where()["state"] != "idle":  # it would change the one that plays
+            raise BoardError("something plays on the robot: `m512 stop` first")
         apply(client, rate, amplitude, blend)
         is_ours = _is_ours(options)
 
