@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
 """A robot with Play at the end of a line in virtual time, after firmware/common/PROTOCOL.md: page 2 plays for a minute, page 1 leads to it after
-a second, a stop takes a second, and so does a move. A test says what happens on the way.
+a second, page 3 plays for two seconds, a stop takes a second, and so does a move. A test says what happens on the way.
 
 `damaged`: words whose next answer loses a byte, as often as they are in the list. `ended`: word -> the exceptions that m512
 gets, once something has begun, while it waits for the answers to that word, as Ctrl-C or a signal causes them. `says`: what the
-robot prints for a person at the end of page 2, after its state is idle.
+robot prints for a person at the end of page 2 or 3, soon after its state is idle.
 """
 
 from virtual_peer import VirtualPeer
@@ -13,7 +13,8 @@ from m512.crc16 import crc16
 
 BEGIN, CR = 0x1E, 0x0D
 STOP_SECONDS = MOVE_SECONDS = 1.0
-PAGE_SECONDS = {1: 1.0, 2: 60.0}
+SAYS_SECONDS = 0.15  # m512 has seen before that the state is idle
+PAGE_SECONDS = {1: 1.0, 2: 60.0, 3: 2.0}
 
 
 class PlayPeer(VirtualPeer):
@@ -21,7 +22,7 @@ class PlayPeer(VirtualPeer):
         self.damaged, self.ended, self.mute = list(damaged), {word: list(errors) for word, errors in ended.items()}, set()
         self.began, self.says = False, says
         self.asked, self.line, self.error = [], None, None
-        self.state, self.page, self.until = "idle", 0, None
+        self.state, self.page, self.until, self.ended_at = "idle", 0, None, 0.0
         super().__init__()
 
     # The line
@@ -37,6 +38,9 @@ class PlayPeer(VirtualPeer):
     def on_silence(self, seconds):
         if self.until is not None and self.now() >= self.until:
             self.pass_on()
+        if self.began and self.state == "idle" and self.says and self.now() >= self.ended_at + SAYS_SECONDS:
+            self.send(b"\r" + self.says.replace("\n", "\r\n").encode() + b"\r\n] ")
+            self.says = ""
         if self.line and seconds >= 0.25:
             self.act()
 
@@ -56,9 +60,6 @@ class PlayPeer(VirtualPeer):
             self.damaged.remove(word)
             data = data.replace(b"OK", b"K").replace(b"ERR", b"RR")
         self.send(data)
-        if self.began and self.state == "idle" and self.says and word == "where":
-            self.send(b"\r" + self.says.replace("\n", "\r\n").encode() + b"\r\n] ")
-            self.says = ""
         if self.began and self.ended.get(word):
             self.error = self.ended[word].pop(0)
 
@@ -74,7 +75,7 @@ class PlayPeer(VirtualPeer):
         if (self.state, self.page) == ("playing", 1):
             self.page, self.until = 2, self.now() + PAGE_SECONDS[2]
         else:
-            self.state, self.page, self.until = "idle", 0, None
+            self.state, self.page, self.until, self.ended_at = "idle", 0, None, self.now()
 
     def do_ver(self):
         return "image=play board=cm5 version=1.0 pages=128 OK"

@@ -31,6 +31,12 @@ def test_a_play_whose_answer_is_lost_is_reported_as_one(m512):
     assert result.exit_code == 0 and "page 2 plays" in result.stderr and robot.state == "playing", result.stderr
 
 
+def test_a_play_that_has_ended_before_its_answer_is_missed_is_not_begun_again(m512):
+    with PlayPeer(damaged=["play"], says="Ended after page 3") as robot:
+        result = m512("play", "3", "-p", robot.path)
+    assert result.exit_code == 0 and starts(robot) == ["play 3"], result.stderr
+
+
 def test_a_move_whose_answer_is_lost_has_worked(m512, monkeypatch):
     monkeypatch.setattr("play_peer.MOVE_SECONDS", 9)  # longer than m512 waits for an answer
     with PlayPeer(damaged=["move"]) as robot:

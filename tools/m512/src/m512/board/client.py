@@ -370,7 +370,7 @@ class Client:
         """Why the motion that this Client has begun, and that has ended, did not come to its end. Empty: it did, or somebody has stopped it."""
         for _ in range(TRIES):
             faulty = int(self.where().get("faulty", "0"), 16)
-            said = re.split("[\r\n]+", self.said.decode("ascii", "replace"))
+            said = self._said_lines()
             if self.version["image"] != "play" or any(END.fullmatch(line) for line in said):
                 break
             self.link.sleep(0.1)  # Play prints the end soon after its state is idle; Edit does not print that of a program's motion
@@ -382,6 +382,9 @@ class Client:
             why.append(f"fault of servo {' '.join(str(joint) for joint in range(JOINTS) if faulty >> joint & 1)} (m512 doctor)")
         return "; ".join(why)
 
+    def _said_lines(self) -> list[str]:
+        return re.split("[\r\n]+", self.said.decode("ascii", "replace"))
+
     def shape(self) -> dict[str, str]:
         """What shapes the motion, as shape_in_words() says it."""
         return shape_in_words(self._fields(self.ask("shape")))
@@ -391,7 +394,7 @@ class Client:
 
     def _start(self, request: str) -> None:
         """Sends a request that begins a movement. While something moves a board refuses it. So when its answer is lost it is not simply
-        repeated: a robot that stood still before and moves now has taken it."""
+        repeated: a robot that stood still before, and moves now or has said how a motion ended, has taken it."""
         stood = self.where()["state"] == "idle"
         self.said = b""
         for _ in range(TRIES):
@@ -399,7 +402,7 @@ class Client:
                 self.ask(request, tries=1)
                 return
             except NoAnswerError:
-                if stood and self.where()["state"] != "idle":
+                if stood and (self.where()["state"] != "idle" or any(END.fullmatch(line) for line in self._said_lines())):
                     return
         raise NoAnswerError(f"no answer to @{request.split()[0]}. {CHECK}{self.link.remedy}")
 
