@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the page does when a robot answers. It asks for the robot's pages, stands the robot in the page up, and backs up your robot.
 
+import { PAGE_COUNT } from '../model/motion.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
 import { askPageCrcs } from '../robot/page-requests.ts';
 import { askList, askPose } from '../robot/protocol.ts';
@@ -53,7 +54,8 @@ export class Arrival {
 
     askPages(): void {
         const { state, sources } = this.parts;
-        void askList(sources.connection.requests).then(pages => state.set({ pages }), this.fail);
+        const isExact = state.get().source !== 'yours';
+        void askList(sources.connection.requests, isExact).then(pages => state.set({ pages }), this.fail);
     }
 
     /** The robot in the page stands up by itself once it answers and has a body, whichever comes last. */
@@ -73,11 +75,12 @@ export class Arrival {
      *  write that was cut off is left to the person, who continues it, unless this board has other pages. */
     private async lookAgain(): Promise<void> {
         const { sources, editor, transfer } = this.parts;
-        const crcs = await askPageCrcs(sources.connection.requests);
-        const isSame = editor.state.get().robot.every((bytes, page) => bytes === null || editor.format.crc(bytes) === crcs[page]);
+        const isExpected = (crcs: readonly number[]): boolean =>
+            editor.state.get().robot.every((bytes, page) => bytes === null || editor.format.crc(bytes) === crcs[page]) ||
+            (transfer.state.get().phase === 'stopped' && transfer.continuesWith(crcs));
+        const crcs = await askPageCrcs(sources.connection.requests, 0, PAGE_COUNT - 1, { isExpected });
         const { phase } = transfer.state.get();
-        if (isSame || phase === 'reading' || phase === 'writing') return;
-        if (phase === 'stopped' && transfer.continuesWith(crcs)) return;
+        if (isExpected(crcs) || phase === 'reading' || phase === 'writing') return;
         transfer.leave();
         editor.setRobot([]);
         await this.learnYours();

@@ -150,13 +150,14 @@ export class RobotPlays {
         if (pages.length === 0) return [];
         const { format, state } = this.parts.editor;
         const first = Math.min(...pages);
-        const crcs = await askPageCrcs(this.requests, first, Math.max(...pages));
-        const { document } = state.get();
-        return pages.filter(page => {
-            const bytes = pageOf(document, page);
-            const same = format.isEmpty(bytes) ? [format.empty, format.erased] : [bytes];
-            return !same.some(one => format.crc(one) === crcs[page - first]);
-        });
+        const differingFrom = (crcs: readonly number[]): number[] =>
+            pages.filter(page => {
+                const bytes = pageOf(state.get().document, page);
+                const same = format.isEmpty(bytes) ? [format.empty, format.erased] : [bytes];
+                return !same.some(one => format.crc(one) === crcs[page - first]);
+            });
+        const isExpected = (crcs: readonly number[]): boolean => differingFrom(crcs).length === 0;
+        return differingFrom(await askPageCrcs(this.requests, first, Math.max(...pages), { isExpected }));
     }
 
     private get isSimulated(): boolean {

@@ -144,7 +144,10 @@ export class RobotTransfer implements Transfer {
     /** The write that was stopped; null: none, or it does not continue with the robot on the cable. */
     private async stopped(left: AbortSignal): Promise<Begun | null> {
         if (!this.under) return null;
-        const crcs = await askPageCrcs(this.parts.requests(), 0, PAGE_COUNT - 1, { signal: this.stop.signal });
+        const crcs = await askPageCrcs(this.parts.requests(), 0, PAGE_COUNT - 1, {
+            signal: this.stop.signal,
+            isExpected: crcs => this.continuesWith(crcs),
+        });
         left.throwIfAborted();
         if (!this.continuesWith(crcs)) this.under = null;
         return this.under;

@@ -4,8 +4,9 @@
 import { PAGE_COUNT } from '../model/motion.ts';
 import type { PageFormat } from '../model/page-format.ts';
 import { hexOf } from './hex.ts';
+import { askTwice } from './protocol.ts';
 import { RobotError } from './robot-error.ts';
-import type { RequestOptions, Requests } from './requests.ts';
+import type { Requests } from './requests.ts';
 
 export type Ask = Pick<Requests, 'ask'>;
 
@@ -25,11 +26,27 @@ function crcOf(words: string): number {
     return Number.parseInt(words, 16);
 }
 
+export interface CrcsOptions {
+    readonly signal?: AbortSignal;
+    /** The answer has no checksum. One that is not expected is believed only if the robot gives the same twice more. */
+    readonly isExpected?: (crcs: readonly number[]) => boolean;
+}
+
 /** The CRC-16 of each of these pages in flash. */
-export async function askPageCrcs(requests: Ask, first = 0, last = PAGE_COUNT - 1, options: RequestOptions = {}): Promise<number[]> {
-    const answer = await requests.ask(`@crcs ${first} ${last}`, { timeoutMs: CRCS_MS, ...options });
+export async function askPageCrcs(
+    requests: Ask,
+    first = 0,
+    last = PAGE_COUNT - 1,
+    { isExpected = () => true, ...options }: CrcsOptions = {},
+): Promise<number[]> {
+    const request = [`@crcs ${first} ${last}`, { timeoutMs: CRCS_MS, ...options }] as const;
+    const crcs = crcsOf(await requests.ask(...request), last - first + 1);
+    return isExpected(crcs) ? crcs : crcsOf(await askTwice(requests, ...request), crcs.length);
+}
+
+function crcsOf(answer: string, count: number): number[] {
     const words = answer.match(/.{1,4}/g) ?? [];
-    if (words.length !== last - first + 1) throw new RobotError('foreign', `@crcs: ${words.length} pages`);
+    if (words.length !== count) throw new RobotError('foreign', `@crcs: ${words.length} pages`);
     return words.map(crcOf);
 }
 

@@ -90,7 +90,7 @@ export class PageWrite {
 
     /** Asks which pages are written already. */
     private async look(requests: Ask, set: (page: number, state: PageAccount) => void): Promise<void> {
-        const crcs = await this.crcs(requests);
+        const crcs = await this.crcs(requests, ({ before, after }) => [before, after]);
         for (const { page, before, after } of this.pages) {
             const crc = crcs.get(page);
             if (crc === this.format.crc(after)) {
@@ -102,17 +102,20 @@ export class PageWrite {
     }
 
     private async verify(requests: Ask, set: (page: number, state: PageAccount) => void): Promise<void> {
-        const crcs = await this.crcs(requests);
+        const crcs = await this.crcs(requests, ({ after }) => [after]);
         for (const { page, after } of this.pages) {
             if (crcs.get(page) === this.format.crc(after)) set(page, 'verified');
             else if (this.account.get(page) !== 'refused') set(page, 'lost');
         }
     }
 
-    private async crcs(requests: Ask): Promise<Map<number, number>> {
+    /** By page. expected: what each of ours may be. */
+    private async crcs(requests: Ask, expected: (one: PageToWrite) => readonly Uint8Array[]): Promise<Map<number, number>> {
         const first = this.pages[0]?.page ?? 0;
         const last = this.pages.at(-1)?.page ?? first;
-        return new Map((await askPageCrcs(requests, first, last)).map((crc, i) => [first + i, crc]));
+        const isExpected = (crcs: readonly number[]): boolean =>
+            this.pages.every(one => expected(one).some(bytes => this.format.crc(bytes) === crcs[one.page - first]));
+        return new Map((await askPageCrcs(requests, first, last, { isExpected })).map((crc, i) => [first + i, crc]));
     }
 
     private async write(

@@ -58,6 +58,7 @@ const STATES: readonly string[] = ['idle', 'ready', 'approach', 'paused', 'playi
 const LIST_MS = 4000;
 const PAGE_MS = 2000;
 const MOVES: RequestOptions = { moves: true };
+const TRIES = 3;
 
 function fields(answer: string): Map<string, string> {
     return new Map(
@@ -128,8 +129,19 @@ export async function askPose(requests: Requests, options?: RequestOptions): Pro
         });
 }
 
-export async function askList(requests: Requests): Promise<PageEntry[]> {
-    const answer = await requests.ask('@list', { timeoutMs: LIST_MS });
+/** An answer without a checksum: asks until two in a row are the same. Both are in the queue at once, before what is asked later. */
+export async function askTwice(requests: Pick<Requests, 'ask'>, text: string, options: RequestOptions): Promise<string> {
+    for (let tries = 1; tries <= TRIES; tries++) {
+        const [answer, again] = await Promise.all([requests.ask(text, options), requests.ask(text, options)]);
+        if (answer === again) return answer;
+    }
+    throw strange(text, 'no two answers are the same');
+}
+
+/** isExact: no cable is between, which might damage a digit. */
+export async function askList(requests: Requests, isExact = false): Promise<PageEntry[]> {
+    const options = { timeoutMs: LIST_MS };
+    const answer = await (isExact ? requests.ask('@list', options) : askTwice(requests, '@list', options));
     return Array.from(answer.matchAll(/(\d+):(\d+|!):"([^"]*)"/g), match => {
         const damaged = match[2] === '!';
         const words = match[3] ?? '';

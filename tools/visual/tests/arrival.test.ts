@@ -76,18 +76,36 @@ test.each([
 
 const KNOWN = [new Uint8Array([1]), null, new Uint8Array([3])];
 
-/** Your robot, whose pages are known, answers once more. crcs: of its pages. continues: a write that was cut off continues with them. */
-async function answersAgain(crcs: string, phase: string, continues: boolean) {
+test('a digit of the list of motions that the line has damaged is not believed: Walk plays the page it is in', async () => {
+    const state = new Store({ source: 'yours' } as SessionState);
+    const damaged = ['22:7:"walk"'];
+    const ask = (text: string) => Promise.resolve(text === '@list' ? (damaged.shift() ?? '20:7:"walk"') : '');
+    const sources = { ...YOURS, connection: { ...YOURS.connection, requests: { ask } } };
+    const transfer = { read: () => Promise.resolve({ isDone: false, error: new RobotError('cancelled') }) };
+    arrivalWith({ state, messages: { fail: vi.fn() }, sources, transfer }).connectionChanged('ready');
+    await vi.waitFor(() => expect(state.get().pages).toMatchObject([{ page: 20, name: 'walk' }]));
+});
+
+/** Your robot, whose pages are known, answers once more. crcs: of its pages. continues: a write that was cut off continues with those.
+ *  damaged: its first answer, after the line. */
+async function answersAgain(crcs: string, phase: string, continues: boolean, damaged = crcs) {
     const known = new Store({ robot: KNOWN as readonly (Uint8Array | null)[] });
     const read = vi.fn(() => Promise.resolve({ isDone: true }));
     const keep = vi.fn(() => Promise.resolve());
     const leave = vi.fn();
-    const ask = (text: string) => Promise.resolve(text.startsWith('@crcs') ? crcs : '');
+    const answers = [damaged];
+    const ask = (text: string) => Promise.resolve(text.startsWith('@crcs') ? (answers.shift() ?? crcs) : '');
     const arrival = arrivalWith({
         messages: { fail: vi.fn(), say: nothing },
         sources: { ...YOURS, connection: { ...YOURS.connection, requests: { ask } } },
         editor: { state: known, format: { crc: ([first = 0]: Uint8Array) => first }, setRobot: (robot: []) => known.set({ robot }) },
-        transfer: { state: new Store({ phase }), read, keep, leave, continuesWith: () => continues },
+        transfer: {
+            state: new Store({ phase }),
+            read,
+            keep,
+            leave,
+            continuesWith: ([first = 0]: readonly number[]) => continues && first === Number.parseInt(crcs.slice(0, 4), 16),
+        },
     });
     arrival.connectionChanged('ready');
     await new Promise(resolve => setTimeout(resolve, 10));
@@ -107,6 +125,11 @@ test.each([
     const { read, keep, leave, robot } = await answersAgain(crcs, phase, continues);
     expect([read, keep, leave].map(one => one.mock.calls.length)).toEqual(isRead ? [1, 1, 1] : [0, 0, 0]);
     expect(robot).toEqual(isRead ? [] : KNOWN); // what is known of the board before is not shown as this one's
+});
+
+test('a write that was cut off is not thrown away because the line has damaged a digit of the answer', async () => {
+    const { read, leave } = await answersAgain(OTHER_PAGES, 'stopped', true, `1${OTHER_PAGES.slice(1)}`);
+    expect([read, leave].map(one => one.mock.calls.length)).toEqual([0, 0]);
 });
 
 test.each([
