@@ -2,6 +2,7 @@
 """`m512 term` on a terminal of its own: bytes in both directions, its keys, log, files, the boot loader, a pulled cable."""
 
 import os
+import shlex
 import sys
 
 import pexpect
@@ -31,8 +32,10 @@ def term():
     running = []
     environment = {"PATH": "/usr/bin:/bin", "TERM": "xterm", "PYTHONIOENCODING": "utf-8:strict"}  # strict: as in all languages but C
 
-    def start(*args):
-        child = pexpect.spawn(sys.executable, ["-m", "m512", "term", *map(str, args)], timeout=300, encoding="utf-8", env=environment)
+    def start(*args, output=""):
+        command = shlex.join([sys.executable, "-m", "m512", "term", *map(str, args)])
+        shell = f"({command}; echo code $? >&2) {output}" if output else f"exec {command}"
+        child = pexpect.spawn("/bin/sh", ["-c", shell], timeout=300, encoding="utf-8", env=environment)
         running.append(child)
         return child
 
@@ -164,6 +167,20 @@ def test_a_log_that_cannot_be_written_is_told_and_the_terminal_goes_on(term):
         child.expect("the log ends here: No space left on device")
         child.send("where\r")
         child.expect("<where>")
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a full disk")
+@pytest.mark.parametrize("output, code", [("> /dev/full", 4), ("| true", 141)])
+def test_an_output_that_takes_nothing_ends_the_terminal(term, output, code):
+    """It once went on and showed nothing, while keys still went to the board."""
+    with Echo() as board:
+        child = term("-p", board.path, output=output)
+        child.expect("to quit")
+        child.send("list\r")
+        child.expect("nothing that the board sends can be shown any more: .* \\(press a key\\)")
+        child.send("x")
+        child.expect(f"code {code}\r\n")
+        assert board.lines == [b"list"]
 
 
 class Playing(Echo):

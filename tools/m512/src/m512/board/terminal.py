@@ -19,7 +19,7 @@ from typing import Any, BinaryIO, Callable
 from m512.board.factory_line import PROMPT
 from m512.board.link import Link
 from m512.board.loaders import BANNER
-from m512.errors import FileError, M512Error, PortError
+from m512.errors import FileError, M512Error
 from m512.files import storage
 from m512.streams import is_terminal
 
@@ -44,7 +44,8 @@ class Terminal:
     def __init__(self, url: str, log: Path | None = None, image: str = "edit", force: bool = False):
         self.log: BinaryIO | None = None
         self.log_lock = threading.Lock()  # one thread writes it, the other opens and closes it
-        self.running, self.held, self.trouble = True, False, ""
+        self.running, self.held = True, False
+        self.trouble: Exception | None = None  # what has ended the terminal
         self.heard_at, self.heard = 0.0, b""  # the last that came
         self.work: threading.Thread | None = None  # calls the loader or sends a file
         self.work_ends = ""  # why it ends before its time
@@ -109,7 +110,7 @@ class Terminal:
             self.link.close()
             self._close_log()
         if self.trouble:
-            raise PortError(self.trouble)
+            raise self.trouble
 
     def _run_plain(self, data: bytes) -> None:
         """For standard input that is not a terminal: sends each line after the answer to the line before, and copies the answers to
@@ -142,12 +143,16 @@ class Terminal:
                 continue
             self.heard_at, self.heard = time.monotonic(), (self.heard + data)[-HEARD_BYTES:]
             self.held = data.rfind(XOFF) > data.rfind(XON) if XOFF in data or XON in data else self.held
-            console.write_bytes(bytes(b for b in data if b not in HIDDEN))
             self._to_log(data)
+            try:
+                console.write_bytes(bytes(b for b in data if b not in HIDDEN))
+            except OSError as error:  # a full disk, or a pipe whose reader has gone
+                self._lost(error, f"nothing that the board sends can be shown any more: {error.strerror}")
+                return
 
-    def _lost(self, error: M512Error) -> None:
-        self.trouble, self.work_ends, self.running = str(error), "the line broke", False
-        self._say(f"{error} (press a key)")
+    def _lost(self, error: Exception, why: str = "") -> None:
+        self.trouble, self.work_ends, self.running = error, why or "the line broke", False
+        self._say(f"{why or error} (press a key)")
 
     def _begin(self, work: Callable[[], None]) -> None:
         """Starts work that sends. It ends soon after work_ends is set."""
