@@ -94,8 +94,12 @@ def test_term_sends_a_file_line_by_line(term, tmp_path):
         assert board.lines == [b"one", b"two", b"", b"three"]
         child.send("\x1ds")
         child.expect("file: ")
-        child.send("/no/such\r")
+        child.send("/no\x00/such\r")  # Ctrl-Space, which no name can have
         child.expect("cannot read /no/such")
+        (tmp_path / "binary").write_bytes(bytes(600))
+        child.send(f"\x1ds{tmp_path / 'binary'}\r")
+        child.expect("binary was not sent: its line 1 has 600 bytes, so it is no text")
+        assert len(board.lines) == 4
 
 
 class Blocked(Echo):

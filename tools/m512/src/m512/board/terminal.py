@@ -35,6 +35,7 @@ CALL_SECONDS = 30
 PIPE_QUIET = 0.3  # silence that ends an answer when lines come from a pipe
 HELD_SECONDS = 10  # how long the board may hold a file back by XOFF: saving takes less than a second
 LINE_SECONDS = 2.0  # how long the board may take to answer a line of a file
+LINE_BYTES = 512  # longest line of a text; it takes 0.09 s
 HEARD_BYTES = 64
 XON, XOFF = 0x11, 0x13
 HIDDEN = (XON, XOFF, 0xFF)  # flow control, and the byte that a controller sends at its start
@@ -251,7 +252,7 @@ class Terminal:
             if key in ("\x7f", "\x08"):
                 out = out[:-1]
                 sys.stderr.write("\b \b")
-            else:
+            elif key >= " ":
                 out += key
                 sys.stderr.write(key)
             sys.stderr.flush()
@@ -267,8 +268,14 @@ class Terminal:
             self._begin(lambda: how(path, data))
 
     def _send_lines(self, path: Path, data: bytes) -> None:
-        """After each line waits until the board has answered and is quiet. Waits for XON after XOFF, but not for ever: it may be lost."""
-        for number, line in enumerate(data.replace(b"\r\n", b"\n").split(b"\n"), 1):
+        """After each line waits until the board has answered and is quiet. Waits for XON after XOFF, but not for ever: it may be lost. Refuses
+        long lines: a key could not end them before they have left."""
+        lines = data.replace(b"\r\n", b"\n").split(b"\n")
+        for number, line in enumerate(lines, 1):
+            if len(line) > LINE_BYTES:
+                self._say(f"{path} was not sent: its line {number} has {len(line):,} bytes, so it is no text. Ctrl-] b sends a file as it is")
+                return
+        for number, line in enumerate(lines, 1):
             until = time.monotonic() + HELD_SECONDS
             while self.held and not self.work_ends:
                 time.sleep(0.01)
