@@ -17,7 +17,7 @@
 #define BUS_RATE_57142 34u
 
 /* Room for the outgoing packet. An image short of RAM may define it smaller (at least 101: 31 goals), and likewise
- * DXL_ANSWER_PARAMS (dxl_packet.h; at least 20: the health poll), for the whole image in its CMakeLists.txt. */
+ * DXL_ANSWER_PARAMS (dxl_packet.h; at least 34: servo_link_setup.c), for the whole image in its CMakeLists.txt. */
 #ifndef BUS_PACKET_BYTES
 #define BUS_PACKET_BYTES 144u   /* DXL_PACKET_MAX */
 #endif

@@ -30,7 +30,7 @@ void bus_core_set_rate(bus_core_t *core, uint8_t divisor)
 }
 
 /* IDLE or LISTENING -> SENDING. */
-static void send(bus_core_t *core)
+static NOINLINE void send(bus_core_t *core)
 {
     core->failure = BUS_OK;
     core->parsed = 0;

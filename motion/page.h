@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
+#include "compiler.h"
 #include "target.h"
 
 #define PAGE_BYTES 512u
@@ -76,7 +77,7 @@ page_status_t page_check_header(const uint8_t header[PAGE_STEP_BYTES]);
 page_status_t page_check_step(const uint8_t step[PAGE_STEP_BYTES]);
 
 /* Sets byte 31 so that the page sums to 0xFF. */
-void page_seal(uint8_t page[PAGE_BYTES]);
+void page_seal(uint8_t page[PAGE_BYTES]) NOINLINE;
 
 /* The empty page of PAGE_FORMAT.md, sealed. */
 void page_clear(uint8_t page[PAGE_BYTES]);

@@ -101,7 +101,7 @@ static performer_status_t refusal(performer_t *performer, player_status_t status
     return (performer_status_t)status;
 }
 
-static void call_link(performer_t *performer, uint8_t code)
+static NOINLINE void call_link(performer_t *performer, uint8_t code)
 {
     link_init(&performer->link, performer->settings->remote_mode == LINK_HOLD ? LINK_HOLD : LINK_LATCH);
     link_call(&performer->link, code);
@@ -347,6 +347,16 @@ static void begin(performer_t *performer)
     performer_layers_plan(performer);
 }
 
+bool performer_engage(performer_t *performer, uint8_t id)
+{
+    if (servo_link_engage(performer->servos, id, &performer->goal_pos[id])) {
+        return true;
+    }
+    servo_link_put(&performer->faulty, id, true);
+    performer_event_put(&performer->events, PERFORMER_EV_UNREADY, id, servo_link_has(&performer->servos->outside, id), 0);
+    return false;
+}
+
 /* READY: asks one servo. false: it does not answer or obey, and the rule for faults ends the play. */
 static bool ask_one_joint(performer_t *performer)
 {
@@ -354,9 +364,7 @@ static bool ask_one_joint(performer_t *performer)
     const uint32_t joint = servo_link_bit(id);
     const bool of_layer = (performer_layers_joints(performer) & joint) != 0;
     servo_link_put(&performer->ready_left, id, false);
-    if (!of_layer && !servo_link_engage(performer->servos, id, &performer->goal_pos[id])) { /* a layer keeps it up to date */
-        servo_link_put(&performer->faulty, id, true);
-        performer_event_put(&performer->events, PERFORMER_EV_UNREADY, id, 0, 0);
+    if (!of_layer && !performer_engage(performer, id)) { /* a layer keeps its goal up to date */
         return performer->settings->fault_rule == SETTINGS_FAULT_LIMP;
     }
     servo_link_put(&performer->joints, id, true);

@@ -159,6 +159,10 @@ void performer_tick(performer_t *performer) NOINLINE; /* a symbol of its own, so
 /* Call in every turn of the main loop: bus traffic, faults, READY. Blocks at most 5 ms, and only while nothing moves. */
 void performer_poll(performer_t *performer);
 
+/* For performer*.c: switches the joint's torque on and takes its position into goal_pos (servo_link_engage). false: reported
+ * as PERFORMER_EV_UNREADY, and faulty. */
+bool performer_engage(performer_t *performer, uint8_t id);
+
 /* Takes the oldest event. false: none. */
 bool performer_next_event(performer_t *performer, performer_event_t *event);
 

@@ -34,7 +34,8 @@ typedef enum {
     PERFORMER_EV_BACK,       /* a: servo ID */
     PERFORMER_EV_ERRORS,     /* a: servo ID, b: DXL_ERR_ bits, 0: no more errors */
     PERFORMER_EV_TORQUE,     /* a: servo ID that lost its torque by itself */
-    PERFORMER_EV_UNREADY,    /* a: servo ID that cannot be driven: it is silent, or does not obey, such as a hot one */
+    PERFORMER_EV_UNREADY,    /* a: servo ID that cannot be driven: it is silent, or does not obey, such as a hot one;
+                              * b: it stands outside its angle limits (servo_link_t.outside) */
     PERFORMER_EV_BATTERY,    /* a: lowest voltage of all servos, 0.1 V */
     PERFORMER_EV_HOT,        /* a: servo ID, b: degrees C */
     PERFORMER_EV_LAYER_ENDED, /* a: the page in which it ended */

@@ -58,8 +58,7 @@ layers_status_t performer_take_for_code(performer_t *performer, uint8_t id)
     if (!performer_is_idle(performer)) {
         return LAYERS_ERR_BUSY;
     }
-    if ((performer_usable(performer) & joint) == 0 ||
-        !servo_link_engage(performer->servos, id, &performer->goal_pos[id])) {
+    if ((performer_usable(performer) & joint) == 0 || !performer_engage(performer, id)) {
         return LAYERS_ERR_JOINTS;
     }
     return LAYERS_OK;

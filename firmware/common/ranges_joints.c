@@ -22,10 +22,9 @@ bool ranges_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joint
         if (dash != NULL) {
             *dash = '-';   /* shell_word finds the words after it by counting NULs */
         }
-        for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
-            if ((id >= from && id <= to) || (id >= to && id <= from)) {
-                servo_link_put(joints, id, true);
-            }
+        const uint8_t low = (uint8_t)(from < to ? from : to), high = (uint8_t)(from < to ? to : from);
+        for (uint8_t id = low; id <= high; id++) {
+            servo_link_put(joints, id, true);
         }
     }
     return true;

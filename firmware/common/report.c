@@ -87,6 +87,21 @@ const char *report_board_P(const app_record_t *record)
     return record->board == APP_RECORD_CM2 ? TEXT_P("cm2") : record->board == APP_RECORD_PC ? TEXT_P("pc") : TEXT_P("cm5");
 }
 
+const char *report_outside_P(void)
+{
+    return TEXT_P("Outside its angle limits, move it by hand");
+}
+
+const char *report_disobedience_P(const servo_link_t *servos, uint32_t *joints)
+{
+    const uint32_t outside = *joints & servos->outside;
+    if (outside == 0) {
+        return TEXT_P("Not obeyed");
+    }
+    *joints = outside;
+    return report_outside_P();
+}
+
 void report_joints(uint32_t joints)
 {
     if (joints == 0) {

@@ -10,7 +10,7 @@
 #include "performer.h"
 
 /* What is wrong with a page (page_status_t): "checksum is wrong", "more than 7 steps". In flash, at most 19 characters. */
-const char *report_page_fault_P(uint8_t page_status);
+const char *report_page_fault_P(uint8_t page_status) NOINLINE;
 
 /* "Page 9 is damaged: checksum is wrong", "Page 9 is empty". */
 void report_bad_page(uint8_t page, uint8_t fault);
@@ -27,6 +27,13 @@ void report_version(const app_record_t *record);
 
 /* The board of the record: "cm5". */
 const char *report_board_P(const app_record_t *record);
+
+/* Why joints did not obey, for a list of them: "Not obeyed", or, if some stand outside their angle limits, what to do; then
+ * only those remain in *joints. In flash. */
+const char *report_disobedience_P(const servo_link_t *servos, uint32_t *joints) NOINLINE;
+
+/* "Outside its angle limits, move it by hand". */
+const char *report_outside_P(void);
 
 /* The joints of a mask: "1-18 20", or "none". */
 void report_joints(uint32_t joints);

@@ -158,7 +158,9 @@ void report_event(const performer_event_t *event)
         report_servo_errors(event->b);
         break;
     case PERFORMER_EV_TORQUE: report_servo(a, TEXT_P(" has lost its torque")); break;
-    case PERFORMER_EV_UNREADY: report_servo(a, TEXT_P(" does not obey")); break;
+    case PERFORMER_EV_UNREADY:
+        report_servo(a, event->b != 0 ? TEXT_P(" is outside its angle limits: move it by hand") : TEXT_P(" does not obey"));
+        break;
     case PERFORMER_EV_HOT:
         report_servo(a, TEXT_P(" is hot: "));
         text_number(event->b);

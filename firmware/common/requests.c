@@ -201,7 +201,9 @@ static uint8_t switch_named(const shell_args_t *args, uint8_t first, bool on)
     if (on && !performer_is_idle(requests_image.performer)) {   /* not in the table, because off is always allowed */
         return SHELL_ERR_MOVING;
     }
-    return requests_servos(joints & ~requests_switch_torque(joints, on), TEXT_P("Not obeyed"));
+    joints &= ~requests_switch_torque(joints, on);
+    const char *why_P = report_disobedience_P(requests_image.servos, &joints);
+    return requests_servos(joints, why_P);
 }
 
 static uint8_t do_torque(const shell_args_t *args)

@@ -58,6 +58,7 @@ typedef struct {
     uint32_t no_sync;         /* present, but deaf to SYNC WRITE: served by REG WRITE and ACTION */
     uint32_t no_reply;        /* present, but answers only READ (status return level 1) */
     uint32_t endless;         /* both angle limits are 0, endless turn: reported, not used */
+    uint32_t outside;         /* present, but refused torque: a hand has left it outside its own angle limits */
     uint32_t slow;            /* answered at 57,142 bps: reported, not used (the monitor image makes them fast) */
     uint8_t voltage_dv;       /* lowest voltage of the last full round, 0.1 V; 0: none yet */
     uint8_t hottest_degrees;  /* highest temperature of the last full round, and its servo */
@@ -115,11 +116,11 @@ void servo_link_quiet(servo_link_t *link);
 
 /* Page coordinates of a joint <-> servo coordinates: trim added or subtracted, limited to 0..1023. A limited position is for
  * pages and for people. A motion begins at that of servo_link_engage. */
-uint16_t servo_link_to_servo(const servo_link_t *link, uint8_t id, uint16_t pos);
-uint16_t servo_link_to_page(const servo_link_t *link, uint8_t id, uint16_t servo_pos);
+uint16_t servo_link_to_servo(const servo_link_t *link, uint8_t id, uint16_t pos) NOINLINE;
+uint16_t servo_link_to_page(const servo_link_t *link, uint8_t id, uint16_t servo_pos) NOINLINE;
 
 /* A page coordinate in two's complement, limited to 0..1023. */
-uint16_t servo_link_limited(uint16_t pos);
+uint16_t servo_link_limited(uint16_t pos) NOINLINE;
 
 /* Sets the offsets added to each goal (page_store_trim); NULL: none. An offset beyond +-SERVO_LINK_TRIM_MAX counts as 0.
  * Discards all poses read so far. */
@@ -152,7 +153,8 @@ uint32_t servo_link_read_pose(servo_link_t *link, uint32_t ids);
 
 /* Switches torque on where it is off. Reads the pose, makes it the goal, reads that back, then enables torque, so that no
  * servo jumps. Restores a torque limit that a shutdown has set to 0 from the maximum torque (address 14). A servo whose
- * pose or goal cannot be read stays off. 3 ms per servo. Returns those of `ids` that are on now. */
+ * pose or goal cannot be read stays off, as does one that stands outside its own angle limits (`outside`): it would leap to
+ * the limit. 3 ms per servo. Returns those of `ids` that are on now. */
 uint32_t servo_link_torque_on(servo_link_t *link, uint32_t ids);
 
 /* Switches torque off: first of all servos at once by SYNC WRITE, then of each by a WRITE, which servos confirm. Returns

@@ -11,20 +11,23 @@
 
 #define PING_TRIES 2u
 #define WRITE_BYTES_MAX 4u
-/* The registers that torque_on, read_pose and engage read: torque enable to present speed. */
-#define READ_FROM DXL_AT_TORQUE_ENABLE
+#define NEAR_POS 16u   /* 5 degrees */
+/* The registers that the search, torque_on, read_pose and engage read: angle limits to present speed. */
+#define READ_FROM DXL_AT_CW_LIMIT
 #define READ_BYTES (DXL_AT_PRESENT_SPEED + 2u - READ_FROM)
 STATIC_ASSERT(READ_BYTES <= DXL_ANSWER_PARAMS, "the bus takes the answer");
 
-static uint16_t word_at(const uint8_t *bytes)
+/* A word of a table from READ_FROM on. */
+static uint16_t word_in(const uint8_t table[READ_BYTES], uint8_t at)
 {
+    const uint8_t *bytes = &table[at - READ_FROM];
     return bytes[0] | bytes[1] << 8;
 }
 
-/* The servo's own present position, in a table from READ_FROM on. */
+/* The servo's own present position. */
 static uint16_t present_in(const uint8_t table[READ_BYTES])
 {
-    return word_at(table + (DXL_AT_PRESENT - READ_FROM)) & 1023u;
+    return word_in(table, DXL_AT_PRESENT) & 1023u;
 }
 
 /* ---- one servo after the other ---- */
@@ -96,6 +99,20 @@ static bool write_one(servo_link_t *link, uint8_t id, uint8_t at, uint16_t value
     return servo_link_write(link, id, at, bytes, count);
 }
 
+/* Reads limits, torque, goal and pose of one servo; false: no answer. */
+static bool read_table(servo_link_t *link, uint8_t id, uint8_t table[READ_BYTES])
+{
+    const bool heard = bus_call_read(id, READ_FROM, table, READ_BYTES, NULL) == BUS_OK;
+    servo_link_put(&link->silent, id, !heard);
+    if (!heard) {
+        return false;
+    }
+    bool on = table[DXL_AT_TORQUE_ENABLE - READ_FROM] != 0 && word_in(table, DXL_AT_TORQUE_LIMIT) != 0;
+    link->present_pos[id] = servo_link_to_page(link, id, present_in(table));
+    servo_link_put(&link->torque, id, on);
+    return true;
+}
+
 /* ---- search ---- */
 
 /* A PC's program that is asked to end does not search on: over an adapter the search takes seconds. */
@@ -104,16 +121,17 @@ static bool ping(servo_link_t *link, uint8_t id)
     return !system_is_asked_to_end() && bus_call_ping(id, PING_TRIES, NULL) == BUS_OK;
 }
 
-/* Reads angle limits and status return level. At level 0 a servo answers no READ, at level 1 no WRITE. One with both limits
- * 0 would turn without end at the speed of a goal: it is not used. */
+/* At status return level 0 a servo answers no READ, at level 1 no WRITE. One with both limits 0 would turn without end at
+ * the speed of a goal: it is not used. */
 static bool is_usable(servo_link_t *link, uint8_t id)
 {
-    uint8_t table[DXL_AT_RETURN_LEVEL + 1u - DXL_AT_CW_LIMIT];
-    if (bus_call_read(id, DXL_AT_CW_LIMIT, table, sizeof table, NULL) != BUS_OK) {
+    uint8_t table[READ_BYTES];
+    if (!read_table(link, id, table)) {
+        servo_link_put(&link->silent, id, false);   /* it is not present */
         return false;
     }
-    servo_link_put(&link->no_reply, id, table[DXL_AT_RETURN_LEVEL - DXL_AT_CW_LIMIT] < 2u);
-    const bool is_joint = (table[0] | table[1] | table[2] | table[3]) != 0;
+    servo_link_put(&link->no_reply, id, table[DXL_AT_RETURN_LEVEL - READ_FROM] < 2u);
+    const bool is_joint = (word_in(table, DXL_AT_CW_LIMIT) | word_in(table, DXL_AT_CCW_LIMIT)) != 0;
     servo_link_put(&link->endless, id, !is_joint);
     return is_joint;
 }
@@ -155,25 +173,10 @@ void servo_link_scan(servo_link_t *link)
     sync_write(link->present, DXL_AT_LED, 1);
     link->no_sync = for_each(link, link->present, is_led_dark);
     sync_write(link->present, DXL_AT_LED, 0);
-    (void)servo_link_read_pose(link, link->present);
     tick_forgive();
 }
 
 /* ---- pose and torque ---- */
-
-/* Reads torque, goal, limit and pose of one servo; false: no answer. */
-static bool read_table(servo_link_t *link, uint8_t id, uint8_t table[READ_BYTES])
-{
-    const bool heard = bus_call_read(id, READ_FROM, table, READ_BYTES, NULL) == BUS_OK;
-    servo_link_put(&link->silent, id, !heard);
-    if (!heard) {
-        return false;
-    }
-    bool on = table[0] != 0 && word_at(table + (DXL_AT_TORQUE_LIMIT - READ_FROM)) != 0;
-    link->present_pos[id] = servo_link_to_page(link, id, present_in(table));
-    servo_link_put(&link->torque, id, on);
-    return true;
-}
 
 static bool read_pose(servo_link_t *link, uint8_t id)
 {
@@ -186,19 +189,30 @@ uint32_t servo_link_read_pose(servo_link_t *link, uint32_t ids)
     return for_present(link, ids, read_pose);
 }
 
+/* Whether a limp servo can be held where it stands. One that a hand has left outside its own angle limits cannot: it would
+ * leap to the limit at full speed. NEAR_POS: gears have play, so it may stand a little beyond a limit to which it was
+ * driven. */
+static bool can_hold(servo_link_t *link, uint8_t id, const uint8_t table[READ_BYTES])
+{
+    const uint16_t pos = present_in(table);
+    const bool inside = pos + NEAR_POS >= word_in(table, DXL_AT_CW_LIMIT) &&
+                        pos <= word_in(table, DXL_AT_CCW_LIMIT) + NEAR_POS;
+    servo_link_put(&link->outside, id, !inside);
+    return inside;
+}
+
 /* Makes the present position the goal, so that the servo does not move, and reads it back. */
 static bool hold_still(servo_link_t *link, uint8_t id, uint8_t table[READ_BYTES])
 {
     const uint16_t pos = present_in(table);
-    return write_one(link, id, DXL_AT_GOAL, pos, 2) && read_table(link, id, table) &&
-           word_at(table + (DXL_AT_GOAL - READ_FROM)) == pos;
+    return can_hold(link, id, table) && write_one(link, id, DXL_AT_GOAL, pos, 2) && read_table(link, id, table) &&
+           word_in(table, DXL_AT_GOAL) == pos;
 }
 
 /* Writes the goal first, then the torque limit, which a shutdown may have set to 0, then torque, which many servos switch on
  * by themselves with the goal. */
 static bool switch_on(servo_link_t *link, uint8_t id, uint8_t table[READ_BYTES])
 {
-    uint8_t maximum[2];
     if (!read_table(link, id, table)) {
         return false;
     }
@@ -208,9 +222,8 @@ static bool switch_on(servo_link_t *link, uint8_t id, uint8_t table[READ_BYTES])
     if (!hold_still(link, id, table)) {
         return false;
     }
-    if (word_at(table + (DXL_AT_TORQUE_LIMIT - READ_FROM)) == 0 &&
-        (bus_call_read(id, DXL_AT_MAX_TORQUE, maximum, 2, NULL) != BUS_OK ||
-         !write_one(link, id, DXL_AT_TORQUE_LIMIT, word_at(maximum), 2))) {
+    if (word_in(table, DXL_AT_TORQUE_LIMIT) == 0 &&
+        !write_one(link, id, DXL_AT_TORQUE_LIMIT, word_in(table, DXL_AT_MAX_TORQUE), 2)) {
         return false;
     }
     return servo_link_has(&link->torque, id) || (write_one(link, id, DXL_AT_TORQUE_ENABLE, 1, 1) &&
@@ -255,9 +268,10 @@ bool servo_link_engage(servo_link_t *link, uint8_t id, uint16_t *pos)
     if (!switch_on(link, id, table)) {
         return false;
     }
-    const bool lags = word_at(speed) == 0 && word_at(table + (DXL_AT_PRESENT_SPEED - READ_FROM)) != 0;
-    *pos = (uint16_t)((lags ? word_at(goal) : present_in(table)) - (uint16_t)link->trim_pos[id]);
-    if (word_at(speed) != 0) {
+    const bool slow = word_in(table, DXL_AT_SPEED) != 0;
+    const bool lags = !slow && word_in(table, DXL_AT_PRESENT_SPEED) != 0;
+    *pos = (uint16_t)((lags ? word_in(table, DXL_AT_GOAL) : present_in(table)) - (uint16_t)link->trim_pos[id]);
+    if (slow) {
         memcpy(goal, table + (DXL_AT_PRESENT - READ_FROM), 2);
         memset(speed, 0, 2);
     }

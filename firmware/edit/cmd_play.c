@@ -55,8 +55,8 @@ void cmd_play_key(uint8_t key)
 
 /* ---- events and faults ---- */
 
-/* The faults of a joint: DXL_ERR_ bits, and two bits that servos do not use. */
-enum { BIT_SILENT = 3, BIT_LIMP = 4 };
+/* The faults of a joint: DXL_ERR_ bits, and three bits that servos do not use. */
+enum { BIT_SILENT = 3, BIT_LIMP = 4, BIT_OUTSIDE = 6 };
 
 static uint8_t state_of(uint8_t joint)
 {
@@ -69,7 +69,10 @@ static uint8_t state_of(uint8_t joint)
         servos->hottest_degrees >= the_settings.hot_degrees) {
         state |= DXL_ERR_HEAT;
     }
-    return state == 0 && servo_link_has(&the_performer.faulty, joint) ? 1u << BIT_LIMP : state;
+    if (state == 0 && servo_link_has(&the_performer.faulty, joint)) {
+        return servo_link_has(&servos->outside, joint) ? 1u << BIT_OUTSIDE : 1u << BIT_LIMP;
+    }
+    return state;
 }
 
 /* Prints all servo faults in one message, because they share one row. Lost torque also shows as ???? in the table. */
@@ -88,7 +91,7 @@ static void tell_faults(void)
     if (the_dialog.broken_off) {
         TEXT("Ended: a servo failed.");
     }
-    uint32_t joints[ARRAY_COUNT(names)] = {0};   /* by bit; one state_of per joint, or the next goals would be late */
+    uint32_t joints[BIT_OUTSIDE + 1] = {0};   /* by bit; one state_of per joint, or the next goals would be late */
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         uint8_t state = state_of(joint);
         for (uint8_t bit = 0; state != 0; bit++, state >>= 1) {
@@ -99,6 +102,7 @@ static void tell_faults(void)
     for (uint8_t bit = 0; bit < ARRAY_COUNT(names); bit++) {
         dialog_tell_joints(pgm_read_ptr(&names[bit]), joints[bit]);
     }
+    dialog_tell_joints(report_outside_P(), joints[BIT_OUTSIDE]);
     the_screen.lead = true;
     the_dialog.faults_stand = the_performer.battery_reported || the_screen.line_column != column;
     if (the_performer.battery_reported) {

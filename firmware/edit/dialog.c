@@ -52,7 +52,9 @@ void dialog_tell_failed(void)
 {
     if (the_robot.failed != 0) {
         dialog_tell_joints(TEXT_P("No answer"), the_servos.silent);
-        dialog_tell_joints(TEXT_P("Not obeyed"), the_robot.failed & ~the_servos.silent);
+        the_robot.failed &= ~the_servos.silent;
+        const char *why_P = report_disobedience_P(&the_servos, &the_robot.failed);
+        dialog_tell_joints(why_P, the_robot.failed);
         the_robot.failed = 0;
     }
 }

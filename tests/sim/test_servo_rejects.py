@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
 """WRITEs that arrive at a servo with a wrong bit: the servo ignores them and reports it in its answer (the fault "mishears"). Each image
-retries, counts the rejection, and finally names the servo. Torque goes on only after the goal has arrived."""
+retries, counts the rejection, and finally names the servo. Torque goes on only after the goal has arrived, and not while the servo stands
+outside its own angle limits, because it would leap to the limit at full speed."""
 
 import pytest
 
+from tests.sim.channel import request
 from tests.sim.edit_servos import start
 from tests.sim.monitor_robot import robot as monitor
 from tests.sim.monitor_robot import say
@@ -11,6 +13,16 @@ from tests.sim.play_robot import ask, robot
 
 TRIES = 3
 RETURN_LEVEL = 16
+CW_LIMIT = 6
+OUTSIDE = "Outside its angle limits, move it by hand: ID 3"
+
+
+def push_outside(board):
+    """Servo 3 is limp and has limits of 400 and 600. A hand leaves it at 800."""
+    board.servos[3].write(CW_LIMIT, [*(400).to_bytes(2, "little"), *(600).to_bytes(2, "little")])
+    board.servos[3].push_to(800)
+    board.run(ms=300)
+    return board.servos[3]
 
 
 def test_edit_a_goal_that_arrives_damaged_is_sent_again():
@@ -101,6 +113,39 @@ def test_play_names_a_servo_that_keeps_a_slow_speed():
     board.servos[3].write(32, [20, 0])
     board.servos[3].fault("mishears")
     assert "Servo 3 does not obey" in ask(board, "play 1") + board.expect("] ", ms=2000)
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("on 3\r", OUTSIDE),
+        ("on\r", OUTSIDE),
+        (request("@torque on 3"), "@torque ERR 7 " + OUTSIDE),
+        ("play 1\r", "Servo 3 is outside its angle limits: move it by hand"),
+        ("aim 3 500 5\r", "Servo 3 is outside its angle limits: move it by hand"),
+        (request("@move 5 3 1F4"), "Servo 3 is outside its angle limits: move it by hand"),
+    ],
+)
+def test_play_does_not_switch_on_a_joint_outside_its_angle_limits(line, told):
+    board = robot()
+    servo = push_outside(board)
+    board.send(line)
+    board.expect(told, ms=2000)
+    board.run(ms=1000)
+    assert not servo.torque and abs(servo.present - 800) <= 2
+    servo.push_to(580)
+    assert ask(board, "on") == " OK" and servo.torque
+
+
+def test_edit_does_not_switch_on_a_joint_outside_its_angle_limits():
+    with start() as r:
+        servo = push_outside(r.board)
+        for line in ("on 3", "go 0", "play"):
+            r.line(line, ms=1500)
+            assert OUTSIDE in r.message and not servo.torque and abs(servo.present - 800) <= 2
+        servo.push_to(580)
+        r.line("on 3", ms=1500)
+        assert "ID" not in r.message and servo.torque
 
 
 def test_monitor_shows_the_rejection_and_keeps_its_id():

@@ -109,6 +109,32 @@ static void test_torque_on_leaves_those_alone_that_hold_already(void)
     TEST_ASSERT_EQUAL(600, fake_bus_word(1, DXL_AT_GOAL));
 }
 
+/* Its goal would be at the limit, at full speed. Gears have play: a few units beyond the limit are no leap. */
+static void test_servo_outside_its_angle_limits_stays_off(void)
+{
+    static const struct {
+        uint16_t pos;
+        bool is_held;
+    } cases[] = {{383, false}, {384, true}, {400, true}, {616, true}, {617, false}, {1023, false}, {500, true}};
+    fake_bus_add(1, BUS_RATE_1M);
+    fake_bus_set_word(1, DXL_AT_CW_LIMIT, 400);
+    fake_bus_set_word(1, DXL_AT_CCW_LIMIT, 600);
+    servo_link_init(&servos);
+    servo_link_scan(&servos);
+    for (uint8_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const uint32_t held = cases[i].is_held ? SERVO_LINK_BIT(1) : 0;
+        uint16_t pos;
+        servo_link_torque_off(&servos, SERVO_LINK_ALL);
+        fake_bus_set_word(1, DXL_AT_PRESENT, cases[i].pos);
+        fake_bus_set_word(1, DXL_AT_GOAL, 512);
+        TEST_ASSERT_EQUAL_HEX32(held, servo_link_torque_on(&servos, SERVO_LINK_ALL));
+        TEST_ASSERT_EQUAL_HEX32(held ^ SERVO_LINK_BIT(1), servos.outside);
+        TEST_ASSERT_EQUAL(cases[i].is_held, servo_link_engage(&servos, 1, &pos));
+        TEST_ASSERT_EQUAL(cases[i].is_held, fake_bus_servo(1)->table[DXL_AT_TORQUE_ENABLE]);
+        TEST_ASSERT_EQUAL(cases[i].is_held ? cases[i].pos : 512, fake_bus_word(1, DXL_AT_GOAL));
+    }
+}
+
 static void test_servo_that_does_not_tell_its_pose_stays_off(void)
 {
     robot(2);
