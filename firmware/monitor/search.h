@@ -13,8 +13,8 @@ void search_ids(uint8_t last);
 /* Searches IDs 0..253 at 57,142 bps and at 1 Mbps. Leaves the bus at 1 Mbps. */
 void search_rates(void);
 
-/* Whether a servo answers to this ID at this rate, however damaged: the answers of two servos with one ID collide.
- * Leaves the bus at 1 Mbps. */
+/* Whether a servo answers to this ID at this rate. Any byte counts: the answers of two servos with one ID collide, and a
+ * loose contact cuts them short. 9 ms if nobody does. Leaves the bus at 1 Mbps. */
 bool search_is_there(uint8_t id, uint8_t rate);
 
 /* Moves every servo at 57,142 bps to 1 Mbps, one at a time, and searches at 1 Mbps. Leaves and names those whose ID 1 Mbps

@@ -133,6 +133,18 @@ static bool is_taken(uint8_t id, uint8_t rate)
     return taken;
 }
 
+/* After an exchange without a good answer: the servo may have obeyed all the same. The new ID at the new rate was free
+ * before, so who answers there now is this servo. */
+static bool has_moved(uint8_t id, uint8_t rate)
+{
+    const bool moved = search_is_there(id, rate);
+    if (moved) {
+        text_P_number(TEXT_P("It has obeyed: it answers now as ID "), id);
+        (void)packets_say(rate == BUS_RATE_1M ? TEXT_P(" at 1 Mbps") : TEXT_P(" at 57142 bps"));
+    }
+    return moved;
+}
+
 WORD(servo_words_baud)
 {
     const uint8_t rate = (uint8_t)args->number[0];
@@ -142,8 +154,10 @@ WORD(servo_words_baud)
     if (rate != BUS_RATE_1M && rate != BUS_RATE_57142) {
         return packets_say(TEXT_P("BAUD 1: 1 Mbps. BAUD 34 (hex 22): 57142 bps. No image speaks another rate"));
     }
-    if (rate == BUS_RATE_1M || !is_taken(current, rate)) {
+    if (rate == BUS_RATE_1M) {   /* it has this rate already */
         (void)write_number(args, DXL_AT_BAUD);
+    } else if (!is_taken(current, rate) && !write_number(args, DXL_AT_BAUD)) {
+        (void)has_moved(current, rate);
     }
     return SHELL_OK;
 }
@@ -154,7 +168,7 @@ WORD(servo_words_id)
     if (!is_one_servo() || is_taken(id, BUS_RATE_1M) || is_taken(id, BUS_RATE_57142)) {
         return SHELL_ERR_REPORTED;
     }
-    if (write_number(args, DXL_AT_ID)) {
+    if (write_number(args, DXL_AT_ID) || has_moved(id, BUS_RATE_1M)) {
         current = id;
     }
     return SHELL_OK;
@@ -171,7 +185,9 @@ WORD(servo_words_reset)
     if ((current != 1 && is_taken(1, BUS_RATE_1M)) || is_taken(1, BUS_RATE_57142)) {
         return SHELL_ERR_REPORTED;
     }
-    if (packets_exchange(current, DXL_RESET, 0)) {
+    /* The factory rate of some servos is 57,142 bps. */
+    if (packets_exchange(current, DXL_RESET, 0) || (current != 1 && has_moved(1, BUS_RATE_1M)) ||
+        has_moved(1, BUS_RATE_57142)) {
         current = 1;
     }
     return SHELL_OK;

@@ -149,6 +149,39 @@ def test_an_id_that_two_servos_share_is_taken():
     board.close()
 
 
+@pytest.mark.parametrize("times", [1, None])
+def test_an_id_whose_answers_are_cut_short_is_taken(times):
+    board = robot(servos=(1, 3))
+    board.servos[3].fault("short", times=times)
+    assert "That ID is taken" in say(board, "cid 1", "id 3") and board.servos.ids == [1, 3]
+    board.close()
+
+
+@pytest.mark.parametrize(
+    ("line", "told", "prompt"),
+    [
+        ("id 9", "It has obeyed: it answers now as ID 9 at 1 Mbps", "CID:009"),
+        ("reset yes", "It has obeyed: it answers now as ID 1 at 1 Mbps", "CID:001"),
+        ("baud 34", "It has obeyed: it answers now as ID 3 at 57142 bps", "CID:003"),
+    ],
+)
+def test_a_servo_that_has_moved_and_whose_answer_is_lost_is_found(line, told, prompt):
+    """The repeated packet goes to an ID or a rate that nobody has any more. A servo that answers READ only (level 1) never confirms."""
+    for fault in ("checksum", "short", "level 1"):
+        board = robot(servos=(2, 3))
+        say(board, "cid 3")
+        if fault == "level 1":
+            board.servos[3].write(16, [1])
+        else:
+            board.servos[3].fault(fault, times=1)
+        heard = say(board, line)
+        assert told in heard and prompt in heard, fault
+        board.close()
+    board = robot(servos=(2,))
+    assert "It has obeyed" not in say(board, "cid 3", line)
+    board.close()
+
+
 def test_baud_moves_a_servo_to_the_other_rate_and_fast_brings_it_back():
     board = robot(servos=(1, 3))
     assert "03 04 03 04 22" in say(board, "cid 3", "baud 34")
