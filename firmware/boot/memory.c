@@ -113,7 +113,11 @@ bool memory_write_work(uint16_t page)
         memory_app_came = true;
         memory_ee_set(MEM_EE_APP_MARK, MARK_INCOMPLETE);
     }
-    return memory_commit(page, memory_work) <= MEMORY_EQUAL;
+    if (memory_commit(page, memory_work) <= MEMORY_EQUAL) {
+        return true;
+    }
+    memory_app_came = false;   /* avrdude ends its session as usual after an error, even with a good exit code */
+    return false;
 }
 
 void memory_download_good(void)

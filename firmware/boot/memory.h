@@ -45,13 +45,14 @@ typedef enum { MEMORY_WRITTEN = 0, MEMORY_EQUAL = 1, MEMORY_REFUSED = 2, MEMORY_
 memory_result_t memory_commit(uint16_t page, const uint8_t *data);
 
 /* The same with the first 256 bytes of memory_work. true: the page now holds them. Page 0 is the first one of an
- * application: from it on, until memory_download_good, EEPROM says that the application is incomplete. */
+ * application: from it on, until memory_download_good, EEPROM says that the application is incomplete. After a false it
+ * says so until page 0 comes again. */
 bool memory_write_work(uint16_t page);
 extern uint16_t memory_rewrites;
 
 /* A download has ended well: if page 0 came with it, the application is complete. */
 void memory_download_good(void);
-extern bool memory_app_came; /* memory_write_work had page 0 since the last prompt */
+extern bool memory_app_came; /* memory_write_work had page 0 since the last prompt, and no page has failed since */
 
 /* What EEPROM MEM_EE_APP_MARK says. Every other value counts as MARK_NONE: the byte may be another program's. */
 #define MARK_INCOMPLETE 0x50u

@@ -228,6 +228,19 @@ def test_an_application_without_a_record_is_incomplete_when_avrdude_is_stopped(s
     assert say(stk, "id").endswith("app=bad")
 
 
+def test_an_application_without_a_record_is_incomplete_when_avrdude_leaves_after_a_page_that_failed(stk):
+    """avrdude ends each session with LEAVE."""
+    begin_application(stk)
+    address, block = page(BOOT_START, noise(256))  # refused, like a page that is worn out
+    assert (ask(stk, address, 2), ask(stk, block, 2)) == (IN_SYNC_OK, b"\x14\x11")
+    leave(stk)
+    assert say(stk, "id").endswith("app=bad")
+    assert ask(stk, SYNC, 2) == IN_SYNC_OK  # sent again
+    begin_application(stk)
+    leave(stk)
+    assert say(stk, "id").endswith("app=plain")
+
+
 def test_signature(stk):
     assert ask(stk, b"\x75\x20", 5) == b"\x14\x1e\x97\x02\x10"
 
