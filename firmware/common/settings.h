@@ -44,7 +44,7 @@ enum { SETTINGS_NEUTRAL_512 = 0, SETTINGS_NEUTRAL_PAGE1 = 1 };
     ROW(hot, hot_degrees, 0, 100, 70, "servo warning, degrees C, 0 = off") \
     ROW(neutral, neutral, 0, SETTINGS_NEUTRAL_PAGE1, SETTINGS_NEUTRAL_512, "MIRROR about 0: 512, 1: page 1") \
     ROW(flow, flow, 0, 1, 1, "1 = XON/XOFF") \
-    ROW(fast, fast_line, 0, 1, 0, "1 = 117,647 baud after start") \
+    ROW(fast, fast_line, 0, 1, 0, "1 = 117,647 baud after start; remote and m512 need 0") \
     ROW(talk, talk, 0, 1, 1, "1 = status lines while playing")
 #define SETTINGS_ADDED(ROW) \
     ROW(centre, centre_page, 0, TARGET_MOTION_PAGES - 1u, 1, "amplitude is about step 1 of this page, 0 = off") \
