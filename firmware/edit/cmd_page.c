@@ -162,11 +162,17 @@ page_save_status_t cmd_page_save(uint8_t page)
 
 const char *cmd_page_saved_P(page_save_status_t status)
 {
-    return status == PAGE_SAVE_OK            ? TEXT_P("OK")
-           : status == PAGE_SAVE_UNCHANGED   ? TEXT_P("OK, no change")
-           : status == PAGE_SAVE_ERR_VERIFY  ? TEXT_P("Not saved: flash error")
-           : status == PAGE_SAVE_ERR_PENDING ? TEXT_P("Not saved: the next start tries again")
-                                             : TEXT_P("No boot loader can write: kept in RAM");
+    TEXT_NAMED(ok, "OK");
+    TEXT_NAMED(unchanged, "OK, no change");
+    TEXT_NAMED(verify, "Not saved: flash error");
+    TEXT_NAMED(no_writer, "No boot loader can write: kept in RAM");
+    TEXT_NAMED(pending, "Not saved: the next start tries again");
+    TEXT_NAMED(restart, "Not saved: EXIT first, an earlier save is pending");
+    static const char *const results[] PROGMEM = {
+        [PAGE_SAVE_OK] = ok, [PAGE_SAVE_UNCHANGED] = unchanged, [PAGE_SAVE_ERR_VERIFY] = verify,
+        [PAGE_SAVE_ERR_NO_WRITER] = no_writer, [PAGE_SAVE_ERR_PENDING] = pending, [PAGE_SAVE_ERR_RESTART] = restart,
+    };
+    return pgm_read_ptr(&results[status]);
 }
 
 COMMAND(cmd_save)

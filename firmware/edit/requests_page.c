@@ -4,7 +4,6 @@
 #include <string.h>
 #include "board.h"
 #include "commands.h"
-#include "crc16.h"
 #include "pgm.h"
 #include "ranges_own.h"
 #include "requests.h"
@@ -56,15 +55,10 @@ REQUEST(do_data)
     return REQUEST_OK;
 }
 
-static uint16_t ram_crc(void)
-{
-    return crc16_bytes(CRC16_START, the_session.cells, PAGE_BYTES);
-}
-
 REQUEST(do_crc)
 {
     text_put(' ');
-    text_hex(ram_crc(), 4);
+    text_hex(page_save_crc(the_session.cells), 4);
     return REQUEST_OK;
 }
 
@@ -75,7 +69,7 @@ REQUEST(do_save)
     if (!shell_parse(shell_word(args, 2), true, &crc)) {
         return requests_refuse(REQUEST_ERR_RANGE, TEXT_P("CRC must be hexadecimal"));
     }
-    if (crc != ram_crc()) {
+    if (crc != page_save_crc(the_session.cells)) {
         return requests_refuse(REQUEST_ERR_CRC, TEXT_P("The CRC does not fit the page in RAM"));
     }
     const page_save_status_t status = cmd_page_save((uint8_t)args->number[0]);

@@ -34,7 +34,7 @@ void flash_read(uint32_t addr, void *to, uint16_t bytes)
         : "r30", "r31", "memory");
 }
 
-bool flash_equals(uint32_t addr, const void *data, uint16_t bytes)
+NOINLINE bool flash_equals(uint32_t addr, const void *data, uint16_t bytes)
 {
     const uint8_t *p = data;
     while (bytes-- > 0) {

@@ -113,6 +113,44 @@ def test_page_with_impossible_fields_is_not_saved():
         assert r.message.endswith("OK") and r.flash_page(2)[20] == 1
 
 
+def pending(r):
+    """Edits page 1 and saves it while its second half does not take what is written. From then on it does."""
+    second_half = MOTION_START // 256 + 2 * 1 + 1
+
+    def spoil():
+        kind, address = r.board.operation(r.board.operations)
+        if address // 256 == second_half and kind in ("erase", "write"):
+            r.board.flash[256 * second_half + 90] ^= 1
+
+    edit(r)
+    r.board.allow("flash-unerased")
+    r.board.on_operation(spoil)
+    assert "Not saved: the next start tries again" in r.line("save", ms=2000)
+    r.board.on_operation(None)
+    assert r.flash_page(1) not in (bytes(OLD.data), new_bytes())
+
+
+def test_a_pending_page_is_not_displaced_before_the_next_start():
+    """Its new contents are in the journal only, and half of the old ones are gone."""
+    with robot(pages={1: OLD, 2: OTHER}) as r:
+        pending(r)
+        r.line("page 2", "y")
+        edit(r)
+        assert "Not saved: EXIT first, an earlier save is pending" in r.line("save", ms=2000)
+        assert r.flash_page(2) == bytes(OTHER.data) and r.unsaved
+        r.line("exit", "y", ms=3000)
+        assert r.flash_page(1) == new_bytes() and r.fault == ""
+
+
+def test_the_contents_of_a_pending_page_may_be_saved_elsewhere():
+    with robot(pages={1: OLD, 2: OTHER}) as r:
+        pending(r)
+        assert r.line("save 9", ms=2000).startswith("save 9 OK") and r.flash_page(9) == new_bytes()
+        r.line("page 2", "y")
+        edit(r)
+        assert r.line("save", ms=2000).startswith("save OK")
+
+
 def test_without_a_boot_loader_the_page_stays_in_ram():
     with robot(pages={1: OLD}, images=("edit-cm5.hex",)) as r:
         edit(r)
