@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Searches IDs 0..last at the current rate of the bus. */
+/* Searches IDs 0..last at the current rate of the bus. An ID with a damaged answer is printed with a question mark. */
 void search_ids(uint8_t last);
 
 /* Searches IDs 0..253 at 57,142 bps and at 1 Mbps. Leaves the bus at 1 Mbps. */
@@ -18,7 +18,7 @@ void search_rates(void);
 bool search_is_there(uint8_t id, uint8_t rate);
 
 /* Moves every servo at 57,142 bps to 1 Mbps, one at a time, and searches at 1 Mbps. Leaves and names those whose ID 1 Mbps
- * already has: two servos with one ID at one rate can only be told apart by unplugging one. */
+ * already has: two servos with one ID at one rate can only be told apart by unplugging one. Names those that do not obey. */
 void search_make_fast(void);
 
 #endif

@@ -122,6 +122,26 @@ def test_fast_leaves_a_servo_whose_id_is_taken_at_1_mbps_and_says_what_to_do():
     board.close()
 
 
+def test_fast_names_a_servo_that_has_not_moved():
+    board = robot(servos=(1,))
+    board.servos.add(20, "dx117").write(47, [1])  # its EEPROM is locked until power-off
+    board.send("fast\r")
+    board.run(ms=2500)
+    heard = board.take().decode()
+    assert " Moved to 1 Mbps:\r\n ID: 001 001 Dynamixels" in heard
+    assert " Not at 1 Mbps, did not obey: 020\r\n Switch the servos' power off and on" in heard
+    board.close()
+
+
+def test_scan_shows_an_id_that_two_servos_share():
+    board = robot(servos=(1, 2, 3))
+    assert "?" not in say(board, "scan 10")
+    board.servos.add(2).write(5, [240])  # answers 20 us earlier
+    heard = say(board, "scan 10")
+    assert " ID: 001 002? 003 002 Dynamixels Found." in heard and "Two servos have this ID, or its cable is bad" in heard
+    board.close()
+
+
 def test_a_new_id_is_free_at_both_rates():
     board = robot(servos=(1, 3))
     slow = board.servos.add(21, "dx117")
