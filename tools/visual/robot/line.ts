@@ -50,7 +50,10 @@ export class Line {
             if (this.xoff) await this.untilXon(HOLD_LIMIT_MS);
             if (!this.writer || this.isClosed) throw new RobotError('not-connected');
             if (this.clock.now() > endMs) throw new RobotError('no-answer');
-            await this.writer.write(bytes);
+            await this.writer.write(bytes).catch((cause: unknown) => {
+                this.lose(cause); // this stream takes nothing more, and the reader may never notice
+                throw new RobotError('port-lost', '', { cause });
+            });
         });
         this.writing = done.catch(() => undefined); // the caller gets the error; later writes may still work
         return done;

@@ -32,3 +32,16 @@ test.each([
     expect(sent).toEqual([7]);
     await line.close();
 });
+
+test('a write that the port refuses is a lost port, even if the reader notices nothing', async () => {
+    const port = new BytePort('robot', () => {
+        throw new DOMException('the device has been lost', 'NetworkError');
+    });
+    await port.open();
+    const lost = vi.fn();
+    const line = new Line(port, wallClock, { text: () => undefined, answer: () => undefined, lost });
+    await expect(line.write(Uint8Array.of(7))).rejects.toMatchObject({ code: 'port-lost' });
+    expect(lost.mock.calls).toMatchObject([[{ name: 'NetworkError' }]]);
+    await expect(line.write(Uint8Array.of(7))).rejects.toMatchObject({ code: 'not-connected' });
+    await line.close();
+});
