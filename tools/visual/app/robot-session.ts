@@ -47,6 +47,9 @@ import { StatusMessages } from './status-messages.ts';
 const SHOWN_MS = 160;
 /** Eleven seconds of a line of 57,600 baud. What is longer was not meant for the terminal, and nothing else would be heard meanwhile. */
 const MOST_TYPED = 65_536;
+/** Typed bytes that a robot acts upon: the ends of a line, and Ctrl-C and the space bar, which break a play in Edit. What a terminal answers
+ *  by itself has none of them. */
+const ACTED_UPON: ReadonlySet<number> = new Set(['\r', '\n', '\x03', ' '].map(key => key.charCodeAt(0)));
 
 const startState = (): SessionState => ({
     source: 'simulated',
@@ -154,7 +157,10 @@ export class RobotSession implements Session {
             editor: this.editor,
             transfer: this.transfer,
         });
-        this.sim = new SimulatorControls(this.state, simulated, () => this.dropForRestart());
+        this.sim = new SimulatorControls(this.state, simulated, {
+            restarts: () => this.dropForRestart(),
+            pressed: () => this.dropWaiting(),
+        });
         this.plays = new RobotPlays({
             state: this.state,
             editor: this.editor,
@@ -254,8 +260,8 @@ export class RobotSession implements Session {
         this.status.terminalSize(size);
     }
 
-    async play(page: number): Promise<void> {
-        await this.act(() => this.plays.play(page));
+    play(page: number): Promise<boolean> {
+        return this.act(() => this.plays.play(page));
     }
 
     async playEdited(page: number): Promise<void> {
@@ -341,6 +347,7 @@ export class RobotSession implements Session {
     remote(held: ReadonlySet<RemoteButton>): void {
         const stops = held.has('b6');
         if (stops) this.dropWaiting();
+        else if (held.size > 0) this.stops.tell();
         const { source, version } = this.state.get();
         if (stops && (source === 'yours' ? version?.image !== 'play' : version?.image === 'edit')) void this.command('stop');
         else this.driving.remote(held);
@@ -353,6 +360,7 @@ export class RobotSession implements Session {
     type(bytes: Uint8Array): void {
         if (bytes.length > MOST_TYPED) return this.messages.complain(TEXTS.terminal.tooLong, 'robot');
         this.status.typed();
+        if (bytes.some(byte => ACTED_UPON.has(byte))) this.dropMoves('line');
         void this.write(bytes).catch(this.messages.fail);
     }
 
@@ -396,14 +404,19 @@ export class RobotSession implements Session {
     }
 
     private dropWaiting(): void {
+        this.preview.pause();
+        this.sources.dropText();
+        this.dropMoves('stop');
+    }
+
+    /** A person stops the robot or takes it over, so the page moves it no more with what was asked before. */
+    private dropMoves(by: 'stop' | 'line'): void {
         clearTimeout(this.late);
         this.runs++;
         this.isRunWaiting = false;
-        this.preview.pause();
         this.plays.cancel();
-        this.sources.simulated.dropInterrupted();
+        this.sources.simulated.dropInterrupted(by);
         this.driving.forget();
-        this.sources.dropText();
         this.stops.tell();
     }
 

@@ -64,6 +64,8 @@ export class SimulatedSource {
     /** Why it does not run any more; null: it runs. */
     private stopped: string | null = null;
     private stops = 0;
+    /** What standing up has interrupted and goes on with afterwards. */
+    private interrupted: Where | null = null;
     /** Floor, battery and faults as the person has set them. The next robot gets them, too. */
     private readonly room = new Map<string, ToSim>();
     /** Counts changes of the image. The last one counts. */
@@ -184,9 +186,11 @@ export class SimulatedSource {
         return standing;
     }
 
-    /** The person has pressed Stop: what standing up has interrupted does not go on afterwards. */
-    dropInterrupted(): void {
-        this.stops++;
+    /** What standing up has interrupted does not go on afterwards. Behind a Stop, neither does what it is about to interrupt; a line that was
+     *  typed may just have begun that. */
+    dropInterrupted(by: 'stop' | 'line'): void {
+        this.interrupted = null;
+        if (by === 'stop') this.stops++;
     }
 
     private async stand(): Promise<void> {
@@ -194,11 +198,12 @@ export class SimulatedSource {
         const now = await this.nextFrame();
         if (!connection?.version || !now.isHeld) return;
         const { requests } = connection;
-        let wanted: Where | null = null;
+        this.interrupted = null;
         try {
             const before = await askWhere(requests, { timeoutMs: WHERE_MS });
+            const isToGoOn = before.state !== 'idle' && before.state !== 'paused' && before.page !== READY_PAGE;
+            if (isToGoOn && stops === this.stops) this.interrupted = before;
             if (before.state !== 'idle') await command(requests, 'break');
-            if (before.state !== 'idle' && before.state !== 'paused' && before.page !== READY_PAGE) wanted = before;
             await this.untilIdle(connection);
             await play(requests, READY_PAGE);
             await this.untilIdle(connection);
@@ -206,7 +211,8 @@ export class SimulatedSource {
             this.post({ kind: 'hold', held: false });
         }
         for (let frame = 0; frame < MOST_FRAMES && (await this.nextFrame()).isHeld; frame++); // the hand opens
-        if (wanted && stops === this.stops) await play(requests, wanted.page, wanted.code); // the play that was interrupted
+        const { interrupted } = this;
+        if (interrupted) await play(requests, interrupted.page, interrupted.code);
     }
 
     private async untilIdle({ requests }: Connection): Promise<void> {

@@ -8,16 +8,22 @@ import type { SimulatedSource } from './simulated-source.ts';
 /** After this time the image has started and answers. */
 const STARTED_MS = 1500;
 
+export interface SimulatorEvents {
+    /** The robot is switched off or reset, and does not go on with anything. */
+    restarts(): void;
+    /** Another button of its panel is pressed: Start stops a play, the others begin or steer one. */
+    pressed(): void;
+}
+
 export class SimulatorControls implements SimControls {
     private readonly state: Store<SessionState>;
     private readonly robot: Pick<SimulatedSource, 'post' | 'connection'>;
-    private readonly restarts: () => void;
+    private readonly events: SimulatorEvents;
 
-    /** restarts: the robot is switched off or reset, and does not go on with anything. */
-    constructor(state: Store<SessionState>, robot: Pick<SimulatedSource, 'post' | 'connection'>, restarts: () => void) {
+    constructor(state: Store<SessionState>, robot: Pick<SimulatedSource, 'post' | 'connection'>, events: SimulatorEvents) {
         this.state = state;
         this.robot = robot;
-        this.restarts = restarts;
+        this.events = events;
     }
 
     setSpeed(speed: number): void {
@@ -31,13 +37,13 @@ export class SimulatorControls implements SimControls {
     }
 
     setPower(on: boolean): void {
-        if (!on) this.restarts();
+        if (!on) this.events.restarts();
         this.robot.post({ kind: 'power', on });
         if (on) setTimeout(() => this.robot.connection?.askAgain(), STARTED_MS);
     }
 
     press(button: PanelButton, down: boolean): void {
-        if (button === 'mode' && down) this.restarts();
+        if (down) this.events[button === 'mode' ? 'restarts' : 'pressed']();
         this.robot.post({ kind: 'button', button, down });
     }
 

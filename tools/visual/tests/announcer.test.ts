@@ -63,26 +63,27 @@ const LIES = {
     back: { pos: [0, 0, 0.05], quat: [Math.SQRT1_2, 0, -Math.SQRT1_2, 0] },
 } as const;
 
-test('get up: one that has rolled over gets up from there, and gives up behind three tries; Stop ends it', () => {
+test('get up: one that has rolled over gets up from there, and gives up behind three tries; Stop ends it', async () => {
     const played: string[] = [];
-    const getUp = new GetUp(motion => played.push(motion));
-    const ends = (lies: keyof typeof LIES, hasFallen = true): void => {
+    const getUp = new GetUp(motion => Promise.resolve(played.push(motion) > 0));
+    const ends = async (lies: keyof typeof LIES, hasFallen = true): Promise<void> => {
+        await Promise.resolve(); // it has begun
         getUp.look(true, LIES[lies], true);
         getUp.look(false, LIES[lies], hasFallen);
     };
     getUp.start(LIES.face);
-    ends('back');
-    ends('back', false); // it stands
-    ends('face'); // a later fall that nobody asked for
+    await ends('back');
+    await ends('back', false); // it stands
+    await ends('face'); // a later fall that nobody asked for
     expect(played).toEqual(['face', 'back']);
     played.length = 0;
     getUp.start(LIES.back);
-    for (let i = 0; i < 5; i++) ends('face');
+    for (let i = 0; i < 5; i++) await ends('face');
     expect(played).toEqual(['back', 'face', 'face']);
     played.length = 0;
     getUp.start(LIES.back);
     getUp.stop();
-    ends('face');
+    await ends('face');
     expect(played).toEqual(['back']);
 });
 

@@ -170,13 +170,54 @@ test('what the robot did in the air goes on when it stands', async () => {
     await vi.waitFor(() => expect(plays()).toEqual(['@play 1', `@play ${WALK}`]), SOON);
 });
 
-test('... but not behind a Stop', async () => {
-    const { session, worker, plays } = await page();
+const typed =
+    (text: string) =>
+    (session: RobotSession): void =>
+        session.type(new TextEncoder().encode(text));
+
+/** By these a person takes the robot over. */
+const TAKEN: readonly (readonly [string, (session: RobotSession) => unknown])[] = [
+    ['Stop', session => session.command('stop')],
+    ['a typed line', typed('break\r')],
+    ["Edit's space bar", typed(' ')],
+    ["the panel's Start", session => session.sim.press('start', true)],
+];
+
+test.each(TAKEN)('%s: neither that nor a motion that waits begins afterwards, and nobody follows', async (_, take) => {
+    const { session, worker, plays, said } = await page();
     await vi.waitFor(() => expect(plays()).toEqual(['@play 1']), SOON);
-    await session.command('stop');
+    const waits = session.play(2);
+    const stopped = vi.fn();
+    session.onStop(stopped);
+    await take(session);
     const asked = worker.sent.length;
     await vi.waitFor(() => expect(worker.sent.length).toBeGreaterThan(asked + 4), SOON);
     expect(plays()).toEqual(['@play 1']);
+    expect(await waits).toBe(false);
+    expect(said).toContain('Stopped.');
+    expect(stopped).toHaveBeenCalledTimes(1);
+});
+
+test('a line that was typed just before may have begun what the robot does in the air: that goes on when it stands', async () => {
+    const { session, plays } = await page();
+    await new Promise<void>(resolve => session.state.watch(({ connection }) => connection === 'ready' && resolve()));
+    typed('play walk\r')(session); // the hand has begun to stand it up, and has asked nothing yet
+    await vi.waitFor(() => expect(plays()).toEqual(['@play 1', `@play ${WALK}`]), SOON);
+});
+
+test('half a line, and what the terminal answers by itself, take nothing over; a key of the remote ends what follows', async () => {
+    const { session, plays } = await page();
+    await vi.waitFor(() => expect(plays()).toEqual(['@play 1']), SOON);
+    const stopped = vi.fn();
+    session.onStop(stopped);
+    typed('pla\x1b[35;80R')(session);
+    session.sim.press('start', false);
+    session.remote(new Set());
+    expect(stopped).not.toHaveBeenCalled();
+    await vi.waitFor(() => expect(plays()).toEqual(['@play 1', `@play ${WALK}`]), SOON);
+    session.remote(new Set(['up']));
+    session.remote(new Set());
+    expect(stopped).toHaveBeenCalledTimes(1);
 });
 
 test('a robot that crashes ends what is asked of it', async () => {
@@ -185,9 +226,9 @@ test('a robot that crashes ends what is asked of it', async () => {
     worker.isSilent = true; // it does not answer any more
     const waiting = Promise.all([session.play(2), session.transfer.read()]);
     worker.crash();
-    expect(await within(3000, waiting)).toMatchObject([undefined, { isDone: false }]);
+    expect(await within(3000, waiting)).toMatchObject([false, { isDone: false }]);
     expect(session.state.get().message?.text).not.toMatch(/No robot is connected/);
-    expect(await within(3000, session.play(2))).toBeUndefined();
+    expect(await within(3000, session.play(2))).toBe(false);
 });
 
 test('a robot that crashes as it starts: the motion of a link does not loop for ever', async () => {
@@ -267,7 +308,7 @@ test.each(RESTARTS)('%s while a motion waits for the robot to stand: it never pl
     await vi.waitFor(() => expect(plays()).toEqual(['@play 1']), SOON);
     const asked = session.play(2);
     void restart(session);
-    expect(await within(3000, asked)).toBeUndefined();
+    expect(await within(3000, asked)).toBe(false);
     await untilQuiet();
     expect(Worker.all).not.toContain('@play 2');
     expect(said.at(-1)).toMatch(/^Not done: the robot was switched off/);
@@ -276,6 +317,7 @@ test.each(RESTARTS)('%s while a motion waits for the robot to stand: it never pl
 const STOPS: typeof RESTARTS = [
     ['Stop', session => session.command('stop')],
     ['B6', session => [['b6'] as const, []].map(held => session.remote(new Set(held)))],
+    ["the panel's Start", session => session.sim.press('start', true)],
     ...RESTARTS,
 ];
 

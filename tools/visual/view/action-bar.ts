@@ -98,9 +98,9 @@ export class ActionBar extends SessionElement {
         if (this.frame) this.gettingUp.start(this.frame.trunk);
     }
 
-    private playNamed(wanted: string): void {
+    private async playNamed(wanted: string): Promise<boolean> {
         const page = this.session.state.get().pages.find(({ name }) => name === wanted);
-        if (page) void this.session.play(page.page);
+        return page !== undefined && this.session.play(page.page);
     }
 
     private button(title: string, isReady: boolean, action: (event: Event) => void, kind = ''): HTMLButtonElement {

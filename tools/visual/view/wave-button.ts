@@ -18,7 +18,7 @@ export class WaveButton extends SessionElement {
         this.replaceChildren(this.button);
         this.disposals.push(
             this.session.state.watch(state => this.render(state)),
-            this.session.onStop(() => this.wish.forget()), // Stop, and another robot
+            this.session.onStop(() => this.wish.forget()),
         );
     }
 
@@ -34,9 +34,9 @@ export class WaveButton extends SessionElement {
 
     private press(): void {
         if (this.session.state.get().where?.state === 'playing') return this.wave();
-        this.wish.ask();
-        this.session.remote(new Set(['up']));
+        this.session.remote(new Set(['up'])); // this forgets the wish before, as each key does
         this.session.remote(new Set());
+        this.wish.ask();
     }
 
     private wave(): void {

@@ -122,13 +122,14 @@ export interface Session {
     onFrame(listener: (state: RobotState) => void): () => void;
     /** Text of the board for a terminal. */
     onText(listener: (bytes: Uint8Array) => void): () => void;
-    /** The user wants the robot to stop: pending actions must be dropped. */
+    /** A person stops the robot, or moves it by its remote, its panel or a typed line: what would go on by itself must be dropped. */
     onStop(listener: () => void): () => void;
 
     show(tab: Tab): void;
     /** Reports the size of the terminal. */
     terminalSize(size: TerminalSize): void;
-    play(page: number): Promise<void>;
+    /** false: the robot does not play it, which has been reported. */
+    play(page: number): Promise<boolean>;
     command(command: Command): Promise<void>;
     /** Default: all servos. false: the robot refused or did not answer, which has been reported. */
     setTorque(on: boolean, servos?: readonly number[]): Promise<boolean>;
