@@ -26,6 +26,23 @@ test('a robot whose key starts nothing does not wave over the motion that is pla
     );
 });
 
+test('a press that starts nothing is soon forgotten: the robot refuses, is paused, or its play ends before it has begun', () => {
+    for (const states of [
+        ['idle', 'idle', 'idle'],
+        ['paused', 'paused', 'paused'],
+        ['approach', 'idle', 'idle', 'idle'],
+    ]) {
+        const wish = asked();
+        for (const state of states) wish.isDue(at(state), WALK);
+        expect(wish.isDue(at('playing', WALK), WALK)).toBe(false);
+    }
+    const slow = asked();
+    const idle = at('idle');
+    for (let i = 0; i < 9; i++) slow.isDue(idle, WALK); // one answer of the robot, and changes of something else
+    for (let i = 0; i < 9; i++) slow.isDue(at('approach'), WALK);
+    expect(slow.isDue(at('playing', WALK), WALK)).toBe(true);
+});
+
 test('a robot that is off, or stopped, forgets it', () => {
     const off = asked();
     expect([at('idle', 0, false), at('playing', WALK)].map(state => off.isDue(state, WALK))).toEqual([false, false]);
