@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Live follow moves the robot slowly to the latest wanted pose. Only one request is under way. While the robot moves, it refuses `@move`,
-// so the next pose waits.
+// Live follow moves the robot slowly to the latest wanted pose. Only one request is under way. While the robot moves, the next pose waits.
+// A move that was stopped, perhaps at the robot's own panel or remote, ends it: the robot must not move on by itself.
 
 import type { Connection } from '../robot/connection.ts';
-import { REFUSED, movePose } from '../robot/protocol.ts';
+import { REFUSED, askWhere, movePose } from '../robot/protocol.ts';
 import { wallClock } from '../robot/clock.ts';
 import type { Clock } from '../robot/clock.ts';
 import { RobotError } from '../robot/robot-error.ts';
 
 export const FOLLOW_DEGREES_PER_SECOND = 60;
 const AGAIN_MS = 60;
+/** Play's sentences for a move that has not reached its pose. Edit has none, but only keys of its terminal stop it. */
+const CUT_OFF = /(?:Broken off|fault of a servo) in a move/;
+const CUT_OFF_LENGTH = 50;
 
 export class Follow {
     private readonly connection: () => Pick<Connection, 'requests'>;
@@ -18,6 +21,7 @@ export class Follow {
     private wanted: readonly (number | null)[] | null = null;
     private ended: () => void = () => undefined;
     private isRunning = false;
+    private heardLast = '';
 
     constructor(connection: () => Pick<Connection, 'requests'>, fail: (error: unknown) => void, clock: Clock = wallClock) {
         this.connection = connection;
@@ -29,12 +33,25 @@ export class Follow {
         return this.wanted !== null;
     }
 
-    /** Servo units by ID. null stops following, but a movement that has begun is finished. ended: called when a request fails, which ends
-     *  it, too. */
+    /** Servo units by ID. null stops following, but a movement that has begun is finished. ended: called when a request fails or a move is
+     *  cut off, which ends it, too. */
     set(positions: readonly (number | null)[] | null, ended: () => void = () => undefined): void {
         this.wanted = positions;
         this.ended = ended;
         if (positions && !this.isRunning) void this.run();
+    }
+
+    /** The robot's text. */
+    hear(bytes: Uint8Array): void {
+        const text = this.heardLast + new TextDecoder('latin1').decode(bytes);
+        const isCutOff = CUT_OFF.test(text);
+        this.heardLast = isCutOff ? '' : text.slice(-CUT_OFF_LENGTH);
+        if (isCutOff && this.wanted) this.end();
+    }
+
+    private end(): void {
+        this.wanted = null;
+        this.ended();
     }
 
     private async run(): Promise<void> {
@@ -47,18 +64,20 @@ export class Follow {
                 else await new Promise<void>(resolve => this.clock.after(AGAIN_MS, resolve));
             }
         } catch (error) {
-            this.wanted = null;
-            this.ended();
+            this.end();
             this.fail(error);
         } finally {
             this.isRunning = false;
         }
     }
 
-    /** false: the robot is still moving. */
+    /** false: the robot still moves, or follows no more. Asks before it moves the robot: the answer comes behind the sentence on how the last
+     *  move has ended. */
     private async move(pose: readonly (number | null)[]): Promise<boolean> {
+        const { requests } = this.connection();
+        if ((await askWhere(requests)).state !== 'idle' || !this.wanted) return false;
         try {
-            await movePose(this.connection().requests, FOLLOW_DEGREES_PER_SECOND, pose);
+            await movePose(requests, FOLLOW_DEGREES_PER_SECOND, pose);
             return true;
         } catch (error) {
             if (error instanceof RobotError && error.number === REFUSED.busy) return false;

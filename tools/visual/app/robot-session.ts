@@ -213,6 +213,7 @@ export class RobotSession implements Session {
                 this.texts.tell(bytes);
                 this.status.hear(bytes);
                 this.messages.hear(bytes);
+                this.follower.hear(bytes);
             },
             connection: state => this.arrival.connectionChanged(state),
             change: change => {

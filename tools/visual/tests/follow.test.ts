@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Live follow with the real Edit: the robot ends in the last wanted pose and never exceeds the safe speed.
+// Live follow with the real Edit and Play: the robot ends in the last wanted pose and never exceeds the safe speed.
 import { expect, test } from 'vitest';
 import { FOLLOW_DEGREES_PER_SECOND, Follow } from '../app/follow.ts';
 import { Connection } from '../robot/connection.ts';
@@ -8,9 +8,9 @@ import { RobotBench } from './robot-bench.ts';
 
 const UNITS_PER_DEGREE = 1024 / 300;
 
-async function ready(seed: number) {
-    const bench = await RobotBench.make('edit', seed);
-    const connection = new Connection(bench.port, bench.clock, { state: () => undefined, text: () => undefined });
+async function ready(seed: number, image: 'edit' | 'play' = 'edit', text: (bytes: Uint8Array) => void = () => undefined) {
+    const bench = await RobotBench.make(image, seed);
+    const connection = new Connection(bench.port, bench.clock, { state: () => undefined, text });
     connection.connect();
     for (let i = 0; i < 200 && connection.state !== 'ready'; i++) await bench.run(50);
     await bench.until(setTorque(connection.requests, true));
@@ -67,5 +67,34 @@ test('a limp joint stays limp; a limp robot is left alone, it is said, and it fo
     await bench.run(1500);
     expect(failed).toEqual([expect.objectContaining({ code: 'refused' })]);
     expect([ends, follow.isOn]).toEqual([1, false]); // the box is no longer ticked, so that the next edit moves nothing
+    await connection.close();
+});
+
+test('stopped at its own panel: it stays where it is, also if another pose waits, and it follows no more', async () => {
+    const { bench, connection } = await ready(63, 'play', bytes => follow.hear(bytes));
+    const follow = new Follow(
+        () => connection,
+        error => expect(error).toBe('nothing'),
+        bench.clock,
+    );
+    const at = async (): Promise<number> => (await bench.until(askPose(connection.requests))).find(({ id }) => id === 5)?.position ?? 0;
+    for (const waits of [[], [poseWith({ 5: 300 })]]) {
+        let ends = 0;
+        const set = (pose: (number | null)[]): void => follow.set(pose, () => ends++);
+        set(poseWith({ 5: 512 }));
+        await bench.run(4000); // it follows: the end of a move alone ends nothing
+        expect([Math.abs((await at()) - 512) < 5, follow.isOn]).toEqual([true, true]);
+        set(poseWith({ 5: 800 }));
+        await bench.run(600);
+        for (const pose of waits) set(pose);
+        bench.board.press('start', true);
+        await bench.run(300);
+        bench.board.press('start', false);
+        const stopped = await at();
+        await bench.run(3000);
+        expect([ends, follow.isOn]).toEqual([1, false]);
+        expect(stopped).toBeLessThan(700);
+        expect(Math.abs((await at()) - stopped)).toBeLessThan(20); // it slows down
+    }
     await connection.close();
 });
