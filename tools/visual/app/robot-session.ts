@@ -146,6 +146,11 @@ export class RobotSession implements Session {
             events: this.events(),
             mayAsk: () => this.status.mayAsk(),
             left: () => this.leaveRobot(),
+            dropHidden: () => {
+                const { isWaiting } = this;
+                this.dropWaiting();
+                return isWaiting;
+            },
             fail: this.messages.fail,
         });
         const { simulated } = this.sources;
@@ -421,10 +426,15 @@ export class RobotSession implements Session {
         this.stops.tell();
     }
 
+    /** Something waits for the robot that rejects nothing when it is dropped. */
+    private get isWaiting(): boolean {
+        return this.driving.isWaiting || this.follower.isOn || this.isRunWaiting;
+    }
+
     /** The robot is switched off, reset, restarted or told to forget. What still waits for it must not move or change it afterwards. */
     private dropForRestart(): void {
         const dropped = new RobotError('dropped');
-        if (this.driving.isWaiting || this.follower.isOn || this.isRunWaiting) this.messages.fail(dropped);
+        if (this.isWaiting) this.messages.fail(dropped);
         this.plays.drop(dropped); // each says so
         this.dropWaiting();
         this.driving.letGo();

@@ -25,11 +25,13 @@ export interface SourcesParts {
     mayAsk(): boolean;
     /** Another robot is used from now on. */
     left(): void;
+    /** Drops what waits for the servos, because the page is hidden. true: something did. */
+    dropHidden(): boolean;
     fail(error: unknown): void;
 }
 
 function isMoving(where: Where | null): boolean {
-    return where !== null && (where.state === 'approach' || where.state === 'playing' || where.aimed > 0);
+    return where !== null && ((where.state !== 'idle' && where.state !== 'paused') || where.aimed > 0);
 }
 
 export class RobotSources {
@@ -144,6 +146,7 @@ export class RobotSources {
     private async lookHidden(): Promise<void> {
         this.tellHidden();
         if (!document.hidden || this.parts.state.get().source !== 'servos') return;
+        if (this.parts.dropHidden()) this.wasHidden = true;
         const { requests } = this.connection;
         const where = await askWhere(requests);
         if (!isMoving(where)) return;

@@ -27,13 +27,13 @@ const tab = {
     addEventListener: (_: string, look: () => void) => void tab.looks.push(look),
 };
 
-/** A robot whose flash has no motions. sent: the words of all requests, and `remote` for a packet of the remote. aim: as in `@where`. */
-function scripted(image: 'play' | 'edit', aim = '00000000') {
+/** A robot whose flash has no motions. sent: the words of all requests, and `remote` for a packet of the remote. aim, state: as in `@where`. */
+function scripted(image: 'play' | 'edit', aim = '00000000', state = 'idle') {
     const sent: string[] = [];
     const crc = format.crc(format.empty).toString(16).padStart(4, '0');
     const answers: Record<string, string> = {
         '@ver': `image=${image} version=1.0.0 board=cm5 protocol=1 can=list,page${image === 'edit' ? ',save' : ''}`,
-        '@where': `state=idle page=0 step=0 repetition=0 code=0 dv=96 faulty=0 aim=${aim}`,
+        '@where': `state=${state} page=0 step=0 repetition=0 code=0 dv=96 faulty=0 aim=${aim}`,
         '@crc': crc,
         '@list': '20:4:"walk"',
     };
@@ -175,12 +175,10 @@ test.each([
     expect(session.state.get().message?.text === TEXTS.robot.errors['goes-on']).toBe(isSaid);
 });
 
-test.each([
-    ['swings by code', '00000004', true],
-    ['stands', '00000000', false],
-])('a hidden page ends what My servos do: a joint that %s', async (_, aim, ends) => {
+/** The page drives servos. */
+async function servos(aim?: string, state?: string) {
     const { session } = await page('play');
-    const { port, sent } = scripted('play', aim);
+    const { port, sent } = scripted('play', aim, state);
     vi.spyOn(ServosSource.prototype, 'choose').mockResolvedValue(true);
     vi.spyOn(ServosSource.prototype, 'start').mockResolvedValue();
     vi.spyOn(ServosSource.prototype, 'close').mockResolvedValue();
@@ -191,13 +189,37 @@ test.each([
     connection.connect();
     await session.connectServos();
     await vi.waitFor(() => expect(connection.state).toBe('ready'));
-    tab.hidden = true;
-    for (const look of tab.looks) look();
+    const hide = (isHidden: boolean): void => {
+        tab.hidden = isHidden;
+        for (const look of tab.looks) look();
+    };
+    return { session, sent, hide };
+}
+
+test.each([
+    ['swing by code', '00000004', 'idle', true],
+    ['get ready for a play', '00000000', 'ready', true],
+    ['stand in a play that is paused', '00000000', 'paused', false],
+    ['stand', '00000000', 'idle', false],
+])('a hidden page ends what My servos do: they %s', async (_, aim, state, ends) => {
+    const { session, sent, hide } = await servos(aim, state);
+    hide(true);
     await soon();
     expect(sent.includes('@break')).toBe(ends);
-    tab.hidden = false;
-    for (const look of tab.looks) look();
+    hide(false);
     expect(session.state.get().message?.text).toBe(ends ? TEXTS.robot.errors['was-hidden'] : undefined);
+});
+
+test('a motion that waits until My servos are found does not begin in a hidden page', async () => {
+    const { session, sent, hide } = await servos();
+    session.state.set({ connection: 'asking' });
+    void session.run(2);
+    hide(true);
+    session.state.set({ connection: 'ready' });
+    await soon();
+    expect(sent).not.toContain('@crcs'); // which comes before it is played
+    hide(false);
+    expect(session.state.get().message?.text).toBe(TEXTS.robot.errors['was-hidden']);
 });
 
 test('the time of the robot in the page stands still; yours has its own, and the page sees what it does', async () => {
