@@ -86,9 +86,10 @@ export class DocumentEditor implements Editor {
         return {
             start: open.start,
             change: edit => {
+                if (!isOpen()) return false;
                 if (!edit.ok) return this.refuse(edit.refusal);
-                if (isOpen()) this.show(states.changeGesture(this.state.get(), edit.value));
-                return isOpen();
+                this.show(states.changeGesture(this.state.get(), edit.value));
+                return true;
             },
             finish: () => isOpen() && this.become(states.finishGesture(this.state.get())),
             cancel: () => isOpen() && this.show(states.cancelGesture(this.state.get())),
@@ -104,8 +105,11 @@ export class DocumentEditor implements Editor {
     }
 
     select(change: Partial<Selection>): void {
-        const state = { ...this.state.get(), ...change };
-        this.show(change.page === undefined || change.step !== undefined ? state : { ...state, step: 0, steps: new Set([0]) });
+        const state = this.state.get();
+        const isFirst = change.page !== undefined && change.step === undefined;
+        const chosen = { page: state.page, step: state.step, ...(isFirst ? { step: 0, steps: new Set([0]) } : {}), ...change };
+        const isElsewhere = chosen.page !== state.page || chosen.step !== state.step;
+        this.become({ ...(isElsewhere ? states.finishGesture(state) : state), ...chosen });
     }
 
     open(document: MotionDocument, history: History): void {

@@ -12,7 +12,8 @@ import type { Result } from '../../model/result.ts';
 import type { EditName, Transaction } from '../../model/transaction.ts';
 import type { Store } from '../store.ts';
 
-/** One drag or one held key: a single undo step. It ends with finish(), cancel() or any other edit. */
+/** One drag or one held key: a single undo step. It ends with finish(), cancel(), any other edit, or the choice of another
+ *  page or step (by a second finger), which it would change otherwise. */
 export interface Gesture {
     /** The document at the start of the gesture. All edits of the gesture are made against it. */
     readonly start: MotionDocument;
