@@ -19,6 +19,10 @@ const ANSWER_MS = 1000;
 const ERR_LINE = '15';
 /** After a time-out nothing is sent for this long or until the late answer arrives, so that it is not taken for the next one. */
 const SETTLE_MS = 500;
+/** A stop waits this long for the answer to something else: it comes within 0.1 s, unless it is long or lost. */
+const STOP_WAITS_MS = 200;
+/** A stop without an answer is sent this often, unless something that moves has been asked since. It does no harm twice. */
+const STOP_TRIES = 3;
 /** A press that the line has not taken within this time is dropped. */
 const PRESS_MS = 500;
 
@@ -40,6 +44,8 @@ interface Request {
     readonly stops: boolean;
     readonly resolve: (answer: string) => void;
     readonly reject: (error: RobotError) => void;
+    /** How often it was sent. */
+    tries: number;
 }
 
 export class Requests {
@@ -49,6 +55,7 @@ export class Requests {
     private current: Request | null = null;
     private abandoned: Request | null = null;
     private cancelTimer: () => void = () => undefined;
+    private cancelSettle: () => void = () => undefined;
     /** Why nothing can be asked any more. */
     private ended: 'port-lost' | 'not-connected' | null = null;
     /** A request that moves was given up. now: `@stop` is sent next; later: it was sent, and is due again when another
@@ -72,12 +79,13 @@ export class Requests {
         return new Promise((resolve, reject) => {
             if (this.ended) return reject(new RobotError(this.ended));
             const { timeoutMs = ANSWER_MS, moves = false, stops = false } = options;
-            const request = { text, timeoutMs, moves, stops, resolve, reject };
+            const request = { text, timeoutMs, moves, stops, resolve, reject, tries: 0 };
             options.signal?.addEventListener('abort', () => this.cancel(request), { once: true });
             if (options.signal?.aborted) return reject(new RobotError('cancelled'));
             if (stops) {
                 this.dropQueued();
                 this.queue.unshift(request);
+                this.overtake();
             } else this.queue.push(request);
             this.next();
         });
@@ -118,9 +126,10 @@ export class Requests {
         const word = request.text.split(' ', 1)[0] ?? '';
         const refusal = / ERR (\d+) (.*)$/.exec(line);
         if (this.stopDue === 'later' && refusal?.[1] !== ERR_LINE) this.stopDue = request.moves || request.stops ? 'no' : 'now';
-        if (refusal?.[1] === ERR_LINE)
+        if (refusal?.[1] === ERR_LINE) {
+            if (this.isRepeated(request)) return this.next();
             request.reject(new RobotError('no-answer', request.text)); // it was not executed
-        else if (refusal) request.reject(new RobotError('refused', refusal[2] ?? '', { number: Number(refusal[1]) }));
+        } else if (refusal) request.reject(new RobotError('refused', refusal[2] ?? '', { number: Number(refusal[1]) }));
         else request.resolve(line.slice(word.length, -' OK'.length).trim());
         this.next();
     }
@@ -129,6 +138,7 @@ export class Requests {
     end(code: 'port-lost' | 'not-connected'): void {
         this.ended = code;
         this.cancelTimer();
+        this.cancelSettle();
         this.endSilence();
         const all = this.current ? [this.current, ...this.queue] : [...this.queue];
         this.current = null;
@@ -136,11 +146,27 @@ export class Requests {
         for (const request of all) request.reject(new RobotError(code));
     }
 
+    /** What is under way before a stop is given up soon. */
+    private overtake(): void {
+        const { current } = this;
+        if (current === null || current.stops) return;
+        this.clock.after(STOP_WAITS_MS, () => this.current === current && this.timeOut(current));
+    }
+
+    private isRepeated(request: Request): boolean {
+        if (!request.stops || request.tries >= STOP_TRIES || this.queue.some(({ moves }) => moves)) return false;
+        this.queue.unshift(request);
+        return true;
+    }
+
     private next(): void {
-        if (this.current || this.abandoned !== null) return;
+        if (this.current) return;
+        // A late answer begins with another word than that to a stop.
+        if (this.abandoned !== null && !this.queue[0]?.stops) return;
         const request = this.stopDue === 'now' ? this.ownStop() : this.queue.shift();
         if (!request) return;
         this.current = request;
+        request.tries++;
         if (this.pressed === 'sent') this.pressed = 'asked';
         this.cancelSilence ??= this.clock.after(ANSWER_MS, () => this.beSilent());
         this.cancelTimer = this.clock.after(request.timeoutMs, () => this.timeOut(request));
@@ -155,7 +181,7 @@ export class Requests {
     private ownStop(): Request {
         this.stopDue = 'later';
         const ignore = (): void => undefined;
-        return { text: '@stop', timeoutMs: ANSWER_MS, moves: false, stops: true, resolve: ignore, reject: ignore };
+        return { text: '@stop', timeoutMs: ANSWER_MS, moves: false, stops: true, resolve: ignore, reject: ignore, tries: STOP_TRIES };
     }
 
     private beSilent(): void {
@@ -178,6 +204,10 @@ export class Requests {
     }
 
     private timeOut(request: Request): void {
+        if (this.isRepeated(request)) {
+            this.finish();
+            return this.next();
+        }
         this.abandon(request, new RobotError('no-answer', request.text));
     }
 
@@ -195,12 +225,14 @@ export class Requests {
         this.finish();
         this.abandoned = request;
         if (request.moves) this.stopDue = 'now';
-        this.cancelTimer = this.clock.after(SETTLE_MS, () => this.settle());
+        this.cancelSettle();
+        this.cancelSettle = this.clock.after(SETTLE_MS, () => this.settle());
         request.reject(error);
+        this.next(); // a stop does not wait for that
     }
 
     private settle(): void {
-        this.cancelTimer();
+        this.cancelSettle();
         this.abandoned = null;
         this.next();
     }

@@ -27,9 +27,11 @@ import {
 } from '../robot/protocol.ts';
 import { remotePacket } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
+import { Requests } from '../robot/requests.ts';
+import type { RequestOptions } from '../robot/requests.ts';
 import { BytePort } from '../sim/byte-port.ts';
 import { makeFormat } from './motion-bench.ts';
-import { RobotBench, robotImages, settle } from './robot-bench.ts';
+import { RobotBench, SimulatedClock, robotImages, settle } from './robot-bench.ts';
 
 const { format } = await makeFormat();
 const crcOf = (bytes: Uint8Array): number => format.crc(bytes);
@@ -161,6 +163,65 @@ test('what would move the robot and waits behind a long answer is dropped by Sto
     expect((await bench.until(askWhere(requests))).state).toBe('idle');
     const late = [askList(requests), play(requests, 2), command(requests, 'break')];
     expect(await codes(late)).toEqual(['done', 'cancelled', 'done']);
+});
+
+/** Requests on a line that this test answers. sent: [milliseconds, first word]. */
+function scripted() {
+    const clock = new SimulatedClock();
+    const sent: [number, string][] = [];
+    const write = async (bytes: Uint8Array): Promise<void> => {
+        sent.push([clock.now(), /@\w+/.exec(String.fromCharCode(...bytes))?.[0] ?? '']);
+    };
+    const requests = new Requests({ write }, clock);
+    const pass = async (ms: number): Promise<void> => {
+        for (let i = 0; i < ms / 10; i++) {
+            clock.advance(10);
+            await settle();
+        }
+    };
+    const ask = (text: string, options?: RequestOptions): Promise<string> =>
+        requests.ask(text, options).catch((error: RobotError) => error.code);
+    return { requests, sent, pass, ask };
+}
+const STOP = { stops: true };
+
+test.each([
+    [100, 300],
+    [1100, 1100],
+])('the answer to a question is lost; Stop after %i ms is sent at %i ms, and what was asked behind it later', async (pressed, at) => {
+    const { requests, sent, pass, ask } = scripted();
+    const [where, next] = [ask('@where'), ask('@pose')];
+    await pass(pressed);
+    const stop = ask('@stop', STOP);
+    await pass(300);
+    expect(sent).toEqual([
+        [0, '@where'],
+        [at, '@stop'],
+    ]);
+    requests.take('@stop OK');
+    expect([await where, await stop]).toEqual(['no-answer', '']);
+    await pass(600);
+    requests.take('@pose OK');
+    expect(await next).toBe('');
+});
+
+test('a stop without an answer, or whose bytes were lost, is sent three times, but not after a play was asked for', async () => {
+    for (const lose of [() => undefined, (requests: Requests) => requests.take('@stop ERR 15 bytes lost')]) {
+        const { requests, sent, pass, ask } = scripted();
+        const stop = ask('@stop', STOP);
+        for (let i = 0; i < 4; i++) {
+            lose(requests);
+            await pass(1000);
+        }
+        expect([await stop, sent.length]).toEqual(['no-answer', 3]);
+    }
+    const { sent, pass, ask } = scripted();
+    const stop = ask('@stop', STOP);
+    await pass(500);
+    void ask('@play 2', { moves: true });
+    await pass(1500);
+    expect(await stop).toBe('no-answer');
+    expect(sent.map(([, word]) => word)).toEqual(['@stop', '@play']);
 });
 
 test('a board that says nothing: time-out, and the late answer does not answer the next question', async () => {
