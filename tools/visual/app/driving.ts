@@ -37,6 +37,8 @@ export class Driving {
     private becoming: symbol | null = null;
     private isPushed = false;
     private ranPlay = false;
+    /** A key was sent, and no release since. */
+    private isDown = false;
 
     constructor(parts: DrivingParts) {
         this.parts = parts;
@@ -149,12 +151,16 @@ export class Driving {
         return version?.image === 'play' ? (pages.find(page => page.name === 'walk')?.page ?? null) : null;
     }
 
-    /** Edit and a boot loader would take a packet for typed letters, and who knows what another board would do. */
+    /** Edit and a boot loader would take a packet for typed letters, and who knows what another board would do. A robot that a hand holds hears
+     *  only what moves nothing. */
     private send(held: ReadonlySet<RemoteButton>): void {
-        if (this.state.source === 'yours' ? this.state.version?.image === 'play' : this.hears) this.pass(held);
+        const movesNothing = held.has(STOP) || (held.size === 0 && this.isDown);
+        const hears = movesNothing ? this.runsPlay : this.hears;
+        if (this.state.source === 'yours' ? this.state.version?.image === 'play' : hears) this.pass(held);
     }
 
     private pass(held: ReadonlySet<RemoteButton>): void {
+        this.isDown = held.size > 0;
         const { messages, simulated } = this.parts;
         if (this.isSimulated) simulated.post({ kind: 'bytes', sender: 'remote', bytes: remotePacket(held) });
         else void this.write(held).catch(messages.fail);

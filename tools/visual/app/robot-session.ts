@@ -354,8 +354,8 @@ export class RobotSession implements Session {
         const stops = held.has('b6');
         if (stops) this.dropWaiting();
         else if (held.size > 0) this.stops.tell();
-        const { source, version } = this.state.get();
-        if (stops && (source === 'yours' ? version?.image !== 'play' : version?.image === 'edit')) void this.command('stop');
+        const { connection, version } = this.state.get();
+        if (stops && !(connection === 'ready' && version?.image === 'play')) void this.command('stop');
         else this.driving.remote(held);
     }
 

@@ -72,6 +72,9 @@ function driven(start: Partial<SessionState>, isHeld = false) {
         },
         becomes,
         forget,
+        take: (): void => {
+            simulated.isHeld = true;
+        },
         leave: (change: Partial<SessionState>): void => {
             driving.leave();
             state.set(change);
@@ -121,6 +124,19 @@ test.each([
     await vi.advanceTimersByTimeAsync(500);
     expect(sent).toEqual([remotePacket([]), remotePacket(['up']), remotePacket([])]);
     expect(asked()).toBe(1);
+});
+
+test('a robot that a hand takes while it walks hears that the key is let go, and the stop key; no other', async () => {
+    const { press, sent, take } = driven({});
+    press('up');
+    take();
+    press();
+    press('b6');
+    press();
+    press('left');
+    await vi.advanceTimersByTimeAsync(200);
+    const codes = sent.map(packet => packet.join()).filter((packet, i, all) => packet !== all[i - 1]);
+    expect(codes).toEqual([[], ['up'], [], ['b6'], []].map(held => remotePacket(held as RemoteButton[]).join()));
 });
 
 test('My servos start anew: a key is kept without a word until the program runs, then sent', async () => {
