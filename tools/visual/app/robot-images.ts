@@ -41,16 +41,20 @@ export class RobotImages {
     run(image: ImageName): void {
         const { source } = this.state;
         const run = async (): Promise<void> => {
-            if (this.edit !== null && (await this.wouldLoseEdits())) throw new RobotError('page-unsaved');
+            if (this.edit !== null) await this.mustHaveNoEdits();
             await this.restart(image);
         };
         void run().catch((error: unknown) => source === this.state.source && this.parts.fail(error));
     }
 
-    /** Whether a restart of this robot would lose edits in Edit. false also if it cannot be asked: a robot that hangs is to restart. */
-    async wouldLoseEdits(): Promise<boolean> {
+    /** Before a restart of this robot. Rejects with RobotError: page-unsaved, or time-stands if it cannot say so now. A robot that hangs is to
+     *  restart. */
+    async mustHaveNoEdits(): Promise<void> {
         const { edit } = this;
-        return edit !== null && this.hasEdits(edit).catch(() => false);
+        const { source, speed } = this.state;
+        if (edit === null) return;
+        if (source === 'simulated' && speed === 0) throw new RobotError('time-stands');
+        if (await this.hasEdits(edit).catch(() => false)) throw new RobotError('page-unsaved');
     }
 
     /** Edit, if it runs and answers. */

@@ -379,8 +379,10 @@ export class RobotSession implements Session {
     }
 
     async reload(reload: () => void): Promise<boolean> {
-        if (this.state.get().source !== 'yours' && (await this.images.wouldLoseEdits())) {
-            this.messages.fail(new RobotError('page-unsaved'));
+        try {
+            if (this.state.get().source !== 'yours') await this.images.mustHaveNoEdits();
+        } catch (error) {
+            this.messages.fail(error);
             return false;
         }
         reload();

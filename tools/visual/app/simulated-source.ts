@@ -159,6 +159,7 @@ export class SimulatedSource {
     pause(): void {
         this.isShown = false;
         this.post({ kind: 'speed', speed: 0 });
+        if (this.connection?.state === 'ready') this.connection.requests.dropAll();
     }
 
     resume(): void {

@@ -106,6 +106,12 @@ export class Requests {
         if (this.current?.moves) this.cancel(this.current);
     }
 
+    /** Cancels everything: the time of the robot in the page stands still while another one is used, so nothing would be answered. */
+    dropAll(): void {
+        for (const one of [...this.queue]) this.cancel(one);
+        if (this.current) this.cancel(this.current);
+    }
+
     private dropQueued(): void {
         for (const one of this.queue.filter(({ moves }) => moves)) this.cancel(one);
     }

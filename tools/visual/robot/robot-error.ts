@@ -22,6 +22,7 @@ export type RobotErrorCode =
     | 'text-dropped' // the robot was to stop, or was restarted, while a pasted text was being sent
     | 'page-changed' // a page of the robot has changed since it was read; its number is in `words`
     | 'page-unsaved' // the page in Edit's memory has somebody else's edits
+    | 'time-stands' // the time of the robot in the page stands still, so it cannot say whether edits would be lost
     | 'page-mixed' // likewise, perhaps on a page that this page has half sent; its number is in `words`
     | 'save-failed' // the board cannot save pages
     | 'pages-refused' // the board saves pages, but not all of them; the numbers of those are in `words`

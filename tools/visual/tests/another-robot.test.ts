@@ -225,10 +225,14 @@ test('a motion that waits until My servos are found does not begin in a hidden p
 test('the time of the robot in the page stands still; yours has its own, and the page sees what it does', async () => {
     const { session, yours, connect } = await page('play');
     session.sim.setSpeed(0);
+    const pose = Array.from({ length: 31 }, (_, id) => (id === 3 ? 600 : null));
+    session.follow(pose); // it never answers
     await connect();
     await soon();
     expect(yours.sent).toContain('@where');
     expect(session.state.get().where).not.toBeNull();
+    session.follow(pose);
+    await vi.waitFor(() => expect(yours.sent).toContain('@move'));
 });
 
 test('Stop right after Play: the picture does not begin to move when the robot has not begun in time', async () => {

@@ -113,6 +113,10 @@ test.each([true, false])(
         images.run('play'); // nor by a button
         await vi.waitFor(() => expect(told).toMatchObject([{ code: 'page-unsaved' }]));
         ask.mockRejectedValue(new RobotError('no-answer'));
+        state.set({ speed: 0 });
+        images.run('play');
+        await vi.waitFor(() => expect(told).toMatchObject([{}, { code: 'time-stands' }]));
+        state.set({ speed: 1 });
         images.run('play'); // but a robot that hangs is restarted
         await vi.waitFor(() => expect(restart.mock.calls).toEqual([['play']]));
     },

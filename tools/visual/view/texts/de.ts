@@ -222,6 +222,8 @@ const DE: Texts = {
                 'Diese Bewegung hat sich im Roboter geändert, seit sie gelesen wurde; sie wurde nicht überschrieben. Vergleiche noch einmal. Bewegung:',
             'page-unsaved':
                 'Die Bewegung im Speicher von Edit hat Änderungen, die nicht gespeichert sind. Gib SAVE oder UNDO im Terminal ein und versuche es noch einmal.',
+            'time-stands':
+                'Die Zeit des Roboters steht still, deshalb kann er nicht sagen, ob Edit Änderungen hat, die nicht gespeichert sind. Lass die Zeit weiterlaufen und versuche es noch einmal.',
             'page-mixed':
                 'Die Bewegung im Speicher von Edit hat Änderungen, die nicht gespeichert sind; vielleicht gehört eine halbe Bewegung aus einer abgebrochenen Übertragung dazu. Speichere sie nicht ungesehen. Um sie zu verwerfen, gib PAGE 1 im Terminal ein und antworte y; versuche es dann noch einmal. Bewegung:',
             'save-failed':

@@ -62,6 +62,8 @@ const errors: Record<Exclude<RobotErrorCode, 'needs-edit'>, string> = {
     'text-dropped': 'The robot was told to stop or to start anew, so the rest of the pasted text was not sent.',
     'page-changed': 'This motion has changed in the robot since it was read; nothing was written over it. Compare once more. Motion:',
     'page-unsaved': "The motion in Edit's memory has edits that are not saved. Type SAVE or UNDO in the terminal, then try again.",
+    'time-stands':
+        "The robot's time stands still, so it cannot say whether Edit has edits that are not saved. Let its time go on, then try again.",
     'page-mixed':
         "The motion in Edit's memory has edits that are not saved, and half of a motion from a transfer that broke off may be among them. Do not save them unseen. To drop them, type PAGE 1 in the terminal and answer y; then try again. Motion:",
     'save-failed':

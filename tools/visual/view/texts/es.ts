@@ -215,6 +215,8 @@ const ES: Texts = {
                 'Este movimiento ha cambiado en el robot desde que se leyó; no se ha sobrescrito. Compara otra vez. Movimiento:',
             'page-unsaved':
                 'El movimiento en la memoria de Edit tiene cambios sin guardar. Escribe SAVE o UNDO en el terminal e inténtalo de nuevo.',
+            'time-stands':
+                'El tiempo del robot está detenido, así que no puede decir si Edit tiene cambios sin guardar. Deja que el tiempo siga e inténtalo de nuevo.',
             'page-mixed':
                 'El movimiento en la memoria de Edit tiene cambios sin guardar, y entre ellos puede estar la mitad de un movimiento de una transferencia interrumpida. No los guardes sin mirarlos. Para descartarlos, escribe PAGE 1 en el terminal y responde y; después inténtalo de nuevo. Movimiento:',
             'save-failed':
