@@ -13,13 +13,14 @@ from types import SimpleNamespace
 import pytest
 from block_peer import BlockPeer, BlockPtyPeer
 from conftest import REPO
+from factory_peer import APP as RUNS
 from factory_peer import PROMPTED, FactoryPeer, FactoryPtyPeer
 from hex_files import hex_file
 from virtual_peer import VirtualLink
 
 from m512 import ui
 from m512.board import backup, factory_flash, kept, memory
-from m512.board.block import frame
+from m512.board.block import LEAVE, frame
 from m512.board.client import Client
 from m512.board.factory import FactoryLoader
 from m512.board.factory_flash import LAST_START
@@ -403,6 +404,27 @@ def test_without_a_file_that_keeps_them_no_pages_are_changed(m512, started, monk
 
 
 # Our loader
+
+
+@pytest.mark.parametrize("loses", ["_answer", "_request"])
+@pytest.mark.parametrize("words, state, to", [("run", PROMPTED, 1), ("backup b1", RUNS, 2), ("restore b0 --yes", RUNS, 2)])
+def test_a_loader_that_has_left_and_whose_answer_is_lost_is_no_failure(m512, tmp_path, monkeypatch, words, state, to, loses):
+    """`the boot loader does not answer any more. Repeat the command` once came after all was done."""
+    monkeypatch.chdir(tmp_path)
+    with BlockPeer(old_flash()) as board:
+        assert m512("backup", "b0", "-p", board.path).exit_code == 0
+        board.flash[0xE000:0xE200], board.left, board.state = bytes(512), [], state
+        works, lost = getattr(board, loses), []
+
+        def lose(command, *rest):
+            if command == LEAVE and not lost:
+                lost.append(command)
+            else:
+                works(command, *rest)
+
+        setattr(board, loses, lose)
+        result = m512(*words.split(), "-p", board.path, "--wait", "5")
+        assert result.exit_code == 0 and board.left == [to] and lost, result.stderr
 
 
 def test_only_a_transfer_that_broke_off_goes_on_where_it_stopped(m512, motions):

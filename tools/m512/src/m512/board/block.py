@@ -105,9 +105,9 @@ class BlockLoader:
             out += some
         return out
 
-    def _ask(self, command: int, body: bytes, tries: int = TRIES, seconds: float = ANSWER_SECONDS) -> bytes:
+    def _ask(self, command: int, body: bytes, tries: int = TRIES, seconds: float = ANSWER_SECONDS, may_go: bool = False) -> bytes:
         """Sends a request and returns the data of its answer. Repeats it when nothing or a damaged frame arrives. NoAnswerError,
-        BoardError."""
+        BoardError. may_go: the loader may have gone when nothing arrives; then there is no data."""
         status = None
         for attempt in range(tries):
             self.retries += attempt > 0
@@ -117,6 +117,8 @@ class BlockLoader:
                 answer = self._receive(seconds)  # a late answer to an earlier request
             if answer is None:
                 self.link.drain()
+                if may_go and self._has_gone():
+                    return b""
                 continue
             status = answer[2]
             if status in (OK, EQUAL):
@@ -239,10 +241,23 @@ class BlockLoader:
 
     def leave(self, to: int = STAY) -> None:
         """Ends the session."""
-        self._ask(LEAVE, to.to_bytes(2, "little"))
+        self._ask(LEAVE, to.to_bytes(2, "little"), may_go=to != STAY)
         if self.rate != BAUD:
             self.link.set_rate(BAUD)
             self.rate = BAUD
+
+    def _has_gone(self) -> bool:
+        """Whether the loader answers no more. An application may listen by now, so the question is that of the beginning."""
+        if self.rate != BAUD:
+            self.link.set_rate(BAUD)
+            self.rate = BAUD
+            self.link.sleep(BACK_SECONDS)
+        self.number = FIRST_NUMBER
+        try:
+            self._ask(HELLO, b"", tries=1)
+        except NoAnswerError:
+            return True
+        return False
 
 
 def pieces(cells: dict[int, int], most: int, alone: bytes = b"") -> list[tuple[int, bytes]]:

@@ -296,12 +296,12 @@ def backup(folder: Path | None, what: str, yes: bool, port: str, board: str, wai
     with link:
         with loaders.as_found(loader):
             made = backups.take(loader, folder, areas, ui.phase, numbered)
+        ui.say(f"{made.folder}: " + ", ".join(f"{area} {len(made.data[area]):,} bytes" for area in areas))
         after = loaders.give_back(loader)
+        if not loader.was_at_prompt:
+            ui.say(after)
     if as_json:
         ui.show(json.dumps(made.manifest, indent=2))
-    ui.say(
-        f"{made.folder}: " + ", ".join(f"{area} {len(made.data[area]):,} bytes" for area in areas) + ("" if loader.was_at_prompt else f". {after}")
-    )
 
 
 @click.command(
