@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Nothing of a user's is lost silently: existing files, hand-written texts, boards, motions in HEX files, terminals."""
 
+import ctypes
+import fcntl
 import json
 import os
 import re
@@ -9,6 +11,7 @@ import subprocess
 import sys
 import termios
 import time
+from pathlib import Path
 
 import pytest
 from block_peer import PROMPTED, SESSION, BlockPeer, BlockPtyPeer
@@ -1101,7 +1104,7 @@ def says(tmp_path, monkeypatch):
 )
 def test_what_a_program_refuses_is_told_in_words_of_m512(m512, says, text, ours):
     says(text)
-    assert m512("pose", "-p", "bus:/dev/ttyX@3").stderr == f"m512: {ours}\n"
+    assert m512("pose", "-p", "bus:/dev/ttyX").stderr == f"m512: {ours}\n"
 
 
 def test_the_reason_of_a_program_that_ends_while_its_console_is_opened_is_the_error(m512, says, monkeypatch):
@@ -1154,6 +1157,24 @@ def test_a_program_for_an_adapter_ends_with_a_start_that_is_ended(says, monkeypa
 def test_a_device_that_is_no_serial_port_is_called_so(m512):
     result = m512("doctor", "-p", "bus:/dev/null")
     assert "/dev/null: not a serial port" in result.stdout and "Errno" not in result.stdout and "ioctl" not in result.stdout
+
+
+@pytest.mark.parametrize("rate", [0, 99999999999])
+def test_a_rate_that_no_adapter_has_is_called_so(m512, rate):
+    assert f"bus:/dev/null@{rate}: the rate is 9600..3000000" in m512("doctor", "-p", f"bus:/dev/null@{rate}").stdout
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/locks"), reason="Linux tells who has locked a file")
+def test_a_program_whose_name_is_cut_inside_a_letter_is_named(tmp_path):
+    """Linux keeps 15 bytes of a name."""
+    set_name, mine = 15, Path("/proc/self/comm").read_bytes().strip()
+    with (tmp_path / "locked").open("w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        ctypes.CDLL(None).prctl(set_name, "sicherungskopi\u00fc".encode())
+        try:
+            assert f"sicherungskopi\ufffd, process {os.getpid()}" in bus._holder(file.name)
+        finally:
+            ctypes.CDLL(None).prctl(set_name, mine)
 
 
 @pytest.mark.parametrize("words", [("extract", "1"), ("rename", "1", "x"), ("delete", "1"), ("merge", "x.bin", "1")])

@@ -24,6 +24,7 @@ from m512.places import build_folder
 
 PREFIX = "bus:"
 PLAY_RATE = 1_000_000  # of bus:DEVICE without a rate
+RATES = range(9600, 3_000_001)  # of the programs' --rate
 START_SECONDS = 120.0  # the search for servos takes up to 10 s; a busy computer needs more
 END_SECONDS = 30.0
 LAST_SECONDS = 2.0  # from the end of a program's console to the end of the program
@@ -54,11 +55,14 @@ def refuse_lasting(word: str, what: str) -> None:
 
 
 def parts(word: str) -> tuple[str, int]:
-    """(device, rate) of bus:DEVICE or bus:DEVICE@RATE."""
+    """(device, rate) of bus:DEVICE or bus:DEVICE@RATE. PortError: no such word, or no rate of an adapter."""
     match = re.fullmatch(r"bus:(?P<device>[^@]+)(@(?P<rate>\d+))?", word)
     if not match:
         raise PortError(f"{word}: say bus:DEVICE or bus:DEVICE@RATE, such as bus:/dev/ttyUSB0")
-    return match["device"], int(match["rate"] or PLAY_RATE)
+    rate = int(match["rate"] or PLAY_RATE)
+    if rate not in RATES:
+        raise PortError(f"{word}: the rate is {RATES[0]}..{RATES[-1]}")
+    return match["device"], rate
 
 
 def find_program(image: str) -> Path:
@@ -91,7 +95,8 @@ def _holder(path: str) -> str:
     try:
         inode = os.stat(path).st_ino
         holder = re.search(rf"FLOCK .* (\d+) \S+:{inode} ", Path("/proc/locks").read_text())
-        return f" ({Path(f'/proc/{holder[1]}/comm').read_text().strip()}, process {holder[1]})" if holder else ""
+        name = Path(f"/proc/{holder[1]}/comm").read_text(errors="replace").strip() if holder else ""  # Linux may cut it inside a letter
+        return f" ({name}, process {holder[1]})" if holder else ""
     except OSError:
         return ""
 
@@ -157,7 +162,6 @@ class Program:
     def _in_our_words(self, line: str) -> str:
         """A line of the program, with its options replaced by m512's equivalents."""
         text = re.sub(r"^motion512-\w+: ", "", line)
-        text = re.sub(r"^--rate \d+: ", lambda _: f"{self.word}: the rate is ", text)
         text = text.replace("--off, or m512 torque off", f"m512 torque off -p {self.word}")
         text = re.sub("(say )?`on`", f"`m512 torque on -p {self.word}` (in `m512 term`: on)", text)
         return text.replace("with --robot", "in M512_ROBOT").replace("--robot", "M512_ROBOT")
