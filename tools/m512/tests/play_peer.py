@@ -87,7 +87,7 @@ class PlayPeer(VirtualPeer):
         return f"state={self.state} page={self.page} step=1 repetition=1 code=0 dv=96 faulty=00000000 missed=0 {self.do_shape()}"
 
     def do_pose(self):
-        return "1:500:1 OK"
+        return "1:500:1 2:500:0 OK"
 
     def do_play(self, page, code="0"):
         if self.state != "idle":
@@ -102,6 +102,9 @@ class PlayPeer(VirtualPeer):
 
     def do_layer(self, page):
         return "ERR 6 This page has no action" if page == "9" else "OK"
+
+    def do_aim(self, joint, *_):
+        return "OK" if joint == "1" else "ERR 7 None of these servos can be moved"
 
     def do_move(self, *_):
         if self.state != "idle":

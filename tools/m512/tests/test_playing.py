@@ -89,6 +89,17 @@ def test_an_empty_page_of_a_board_is_refused_by_its_number_and_stops_nothing(m51
     assert result.exit_code == 4 and "page 9 has no action" in result.stderr and "stop" not in robot.asked, result.stderr
 
 
+@pytest.mark.parametrize(
+    "joints, asked, says",
+    [(("1:600", "9:500"), [], "no answer from servos 9: nothing was moved"), (("1:600", "2:500"), ["aim 1 600", "aim 2 500"], "joint 2: None of")],
+)
+def test_an_aim_that_one_joint_cannot_take_says_which_and_what_was_moved(m512, joints, asked, says):
+    with PlayPeer() as robot:
+        result = m512("aim", *joints, "-p", robot.path)
+    assert result.exit_code == 8 and says in result.stderr and [line for line in robot.asked if line.startswith("aim")] == asked, result.stderr
+    assert ("holds joint 1 now" in result.stderr and "m512 free" in result.stderr) == bool(asked), result.stderr
+
+
 @pytest.mark.parametrize("words", [("play", "2"), ("play", "2", "--wait"), ("pose", "1:900")])
 def test_ctrl_c_while_the_start_is_answered_stops_the_robot(m512, words):
     with PlayPeer(play=[CTRL_C], move=[CTRL_C]) as robot:

@@ -603,7 +603,7 @@ def test_joints_are_moved_by_code_and_given_back(m512, robot):
         seen.add(robot.board.servos[3].goal)
     assert min(seen) in range(440, 450) and max(seen) in range(575, 585)  # 20 degrees are 68 units
     assert "aim 1,3" in run("free", "2").stdout and "aim none" in run("free").stdout
-    assert "None of these servos" in run("aim", "25:512", code=8).stderr
+    assert "no answer from servos 25: nothing was moved" in run("aim", "25:512", code=8).stderr
     assert "amplitude is 0..511" in run("swing", "3", "512", "600", "2s", code=2).stderr
     assert "such as 2s" in run("swing", "3", "512", "60", "2", code=2).stderr
     assert "0..1023" in run("aim", "3:2000", code=2).stderr

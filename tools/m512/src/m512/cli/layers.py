@@ -11,7 +11,8 @@ import click
 
 from m512 import ui
 from m512.cli.files import id_list
-from m512.cli.robot import ID_MAX, ids_argument, in_json, positions_of, robot, robot_options
+from m512.cli.robot import ID_MAX, ids_argument, in_json, must_be_there, positions_of, robot, robot_options
+from m512.errors import BoardError
 
 if TYPE_CHECKING:
     from m512.board.client import Client
@@ -87,8 +88,15 @@ def aim(positions: Sequence[str], speed: int | None, **options: Any) -> None:
         raise click.UsageError(f"{len(wanted)} joints: code moves {AIMED_MOST} at once at most")
     must_last("an aim", options)
     with robot(options) as client:
+        must_be_there(client, wanted)
+        held: list[int] = []
         for joint, at in wanted.items():
-            client.ask(f"aim {joint} {at}" + (f" {speed}" if speed else ""))
+            try:
+                client.ask(f"aim {joint} {at}" + (f" {speed}" if speed else ""))
+            except BoardError as error:
+                told = f". Code holds joint {', '.join(map(str, held))} now (`m512 free` ends that)" if held else ""
+                raise BoardError(f"joint {joint}: {error}{told}", error.number) from None
+            held.append(joint)
         show_shape(client, options["as_json"])
 
 

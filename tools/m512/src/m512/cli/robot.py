@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable
@@ -255,9 +255,7 @@ def pose(positions: Sequence[str], speed: int, as_text: bool, **options: Any) ->
     wanted, failed = positions_of(positions), None
     with robot(options) as client:
         if wanted:
-            missing = sorted(wanted.keys() - client.pose().keys())
-            if missing:
-                raise BoardError(f"no answer from servos {' '.join(map(str, missing))}: nothing was moved")
+            must_be_there(client, wanted)
 
             def start() -> None:
                 client.move(wanted, speed)
@@ -277,6 +275,13 @@ def pose(positions: Sequence[str], speed: int, as_text: bool, **options: Any) ->
             ui.show(f"ID {joint:2}  {'silent' if at is None else at:>6}  {degrees}  {'holds' if on else 'limp'}")
     if failed:
         raise failed
+
+
+def must_be_there(client: Client, joints: Collection[int]) -> None:
+    """BoardError if the robot does not have all of these joints."""
+    missing = sorted(set(joints) - client.pose().keys())
+    if missing:
+        raise BoardError(f"no answer from servos {' '.join(map(str, missing))}: nothing was moved")
 
 
 def positions_of(words: Sequence[str]) -> Any:
