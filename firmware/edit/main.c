@@ -39,7 +39,9 @@ static NOINLINE void start(void)
     ring_t *ring = console_rx_ring();
     receiver = (boot_rx_t){ ring->bytes, &ring->head, &ring->tail, console_rx_lost(), ring->mask };
     page_service_kind_t service = page_service_init(&receiver);
-    const char *notice_P = journal_recover(the_session.cells) == JOURNAL_RESTORED ? TEXT_P("Saved what was cut off")
+    journal_result_t recovered = journal_recover(the_session.cells);
+    const char *notice_P = recovered == JOURNAL_RESTORED ? TEXT_P("Saved what was cut off")
+                      : recovered == JOURNAL_FAILED ? TEXT_P("Not saved")
                       : service == PAGE_SERVICE_MAILBOX ? mail_text_P()
                       : service == PAGE_SERVICE_NONE  ? TEXT_P("No boot loader can write: no SAVE")
                                                       : TEXT_P("Arrows move, HELP explains, EXIT leaves");

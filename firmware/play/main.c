@@ -216,8 +216,8 @@ static void greet(settings_status_t settings)
     text_line_end();
     report_failed_assert();
     (void)views_version(NULL);
-    if (journal_is_pending()) { /* our loader would have completed it; Play cannot write flash */
-        TEXT("A save was cut off: start Edit once, it completes the page");
+    if (journal_is_pending()) { /* Play cannot write flash; if our loader could not complete it, the page is worn out */
+        TEXT("A save was cut off: start Edit once, it completes the page or says why not");
         text_line_end();
     }
     if (settings == SETTINGS_DAMAGED) {

@@ -113,8 +113,8 @@ def test_page_with_impossible_fields_is_not_saved():
         assert r.message.endswith("OK") and r.flash_page(2)[20] == 1
 
 
-def pending(r):
-    """Edits page 1 and saves it while its second half does not take what is written. From then on it does."""
+def pending(r, worn=False):
+    """Edits page 1 and saves it while its second half does not take what is written. From then on it does, unless it is worn out."""
     second_half = MOTION_START // 256 + 2 * 1 + 1
 
     def spoil():
@@ -126,7 +126,8 @@ def pending(r):
     r.board.allow("flash-unerased")
     r.board.on_operation(spoil)
     assert "Not saved: the next start tries again" in r.line("save", ms=2000)
-    r.board.on_operation(None)
+    if not worn:
+        r.board.on_operation(None)
     assert r.flash_page(1) not in (bytes(OLD.data), new_bytes())
 
 
@@ -140,6 +141,13 @@ def test_a_pending_page_is_not_displaced_before_the_next_start():
         assert r.flash_page(2) == bytes(OTHER.data) and r.unsaved
         r.line("exit", "y", ms=3000)
         assert r.flash_page(1) == new_bytes() and r.fault == ""
+
+
+def test_a_start_that_cannot_complete_a_pending_page_says_so():
+    with robot(pages={1: OLD}) as r:
+        pending(r, worn=True)
+        r.line("exit", "y", ms=3000)
+        assert r.message == "Not saved"
 
 
 def test_the_contents_of_a_pending_page_may_be_saved_elsewhere():
