@@ -615,6 +615,25 @@ def test_restore_says_whether_the_controller_stays_in_its_loader(m512, peer, tmp
     assert result.exit_code == 0 and says in result.stderr and peer.eeprom[0xFFF] == mode, result.stderr
 
 
+@pytest.mark.parametrize("direction, lost", [("<-", b"J"), ("->", b"\r")])  # of `Jump Address`; the end of `go`
+def test_factory_application_that_is_started_and_does_not_say_so_is_no_failure(m512, direction, lost):
+    with FactoryPeer(old_flash()) as peer:
+        typed, done = bytearray(), []
+
+        def lose(way, _, byte):
+            if way == "->":
+                typed.append(byte)
+            if (way, bytes([byte])) == (direction, lost) and typed.endswith((b"go", b"go\r")) and not done:
+                done.append(byte)
+                return None
+            return byte
+
+        peer.garble = lose
+        result = m512("run", "-p", peer.path, "--board", "cm5")
+        peer.pass_time(0.1)
+        assert done and result.exit_code == 0 and "started" in result.stderr and peer.state == RUNS, result.stderr
+
+
 def test_factory_success_is_not_believed(m512, motions):
     flash = bytearray(b"\xff" * 0x20000)
     flash[0xE000:0x1E000] = EMPTY * 128

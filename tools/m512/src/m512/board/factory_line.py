@@ -218,10 +218,21 @@ class FactoryLine:
             self._mode("app")
         self.stays = False
         if to == START:
-            self.enter("go")
-            self.link.read_until(b"Jump Address", self.patience(60), "`go` to the boot loader")
+            self._start()
         elif to == RESET:
             self.enter("reset")
+
+    def _start(self) -> None:
+        """Starts the application. When the loader says nothing of it and answers no more, it has gone, and what it said was lost."""
+        for _ in range(TRIES):
+            self.enter("go")
+            if self.link.look_for(b"Jump Address", self.patience(60))[1]:
+                return
+            try:
+                self.clean()
+            except NoAnswerError:
+                return
+        raise NoAnswerError("the boot loader does not start the application. " + self.how_it_stands())
 
 
 def _as_text(data: bytes) -> bytes:
