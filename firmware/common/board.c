@@ -38,10 +38,10 @@ void board_idle(void)
     }
 }
 
-void board_restart(settings_store_t *store, const settings_t *settings)
+void board_restart(settings_store_t *store)
 {
     system_kick();
-    settings_save_finish(store, settings);
+    settings_save_finish(store);
     console_flush();
     system_restart();
 }

@@ -21,7 +21,7 @@ void board_idle(void);
 
 /* Restarts the controller. Use it for every intentional restart: it first completes a pending save of settings
  * (up to 0.45 s) and sends the buffered text. Nothing may be moving. */
-void board_restart(settings_store_t *store, const settings_t *settings) __attribute__((noreturn));
+void board_restart(settings_store_t *store) __attribute__((noreturn));
 
 /* The record of the running image (app_record.h). false: it has no magic or was not filled in. */
 bool board_record(app_record_t *record);

@@ -5,6 +5,7 @@
 #include "boot_call.h"
 #include "eeprom.h"
 #include "memory_map.h"
+#include "pgm.h"
 #include "target.h"
 
 #include <stddef.h>
@@ -31,7 +32,7 @@ static bool is_ours(void)
 {
     boot_api_head_t head;
     flash_read(MEM_BOOT_API, &head, sizeof head);
-    return memcmp(head.signature, BOOT_API_SIGNATURE, sizeof head.signature) == 0 && head.version >= 1 &&
+    return memcmp_P(head.signature, PSTR(BOOT_API_SIGNATURE), sizeof head.signature) == 0 && head.version >= 1 &&
            (head.features & (BOOT_HAS_WRITE | BOOT_HAS_PROGRAM)) == (BOOT_HAS_WRITE | BOOT_HAS_PROGRAM);
 }
 

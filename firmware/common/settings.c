@@ -7,28 +7,24 @@
 #include <stddef.h>
 #include <string.h>
 
-/* A copy has this head, the settings, and the CRC-16 of both, low byte first. Another version of the program may have
- * written fewer or more settings, because new ones are added at the end. Missing settings get their defaults. */
-typedef struct {
-    uint8_t magic;
-    uint8_t layout;
-    uint8_t sequence;
-    uint8_t body_bytes;
-} head_t;
-
+/* A copy has a head, the settings, and the CRC-16 of both, low byte first. Another version of the program may have written
+ * fewer or more settings, because new ones are added at the end. Missing settings get their defaults. */
 #define COPY_BYTES 64u
+#define COPIES ((MEM_EE_SETTINGS_END - MEM_EE_SETTINGS) / COPY_BYTES)
 #define MAGIC 'S'
 #define LAYOUT 1u
-/* A save clears the magic, writes everything after it, and writes the magic last. So a mixture of old and new bytes never
- * has the magic. A cleared magic reads as never written, so a first save that is cut off does not count as damage. */
+/* A save clears the magic, writes everything after it from the end on, and the magic last. So a mixture of old and new bytes
+ * never has the magic. A cleared magic reads as never written, so a first save that is cut off does not count as damage. */
 #define CRC_BYTES 2u
-#define BODY_BYTES_MAX (COPY_BYTES - sizeof(head_t) - CRC_BYTES)
-#define RECORD_BYTES (sizeof(head_t) + sizeof(settings_t) + CRC_BYTES)
-#define SAVE_STEPS (RECORD_BYTES + 1u)
+#define BODY_BYTES_MAX (COPY_BYTES - sizeof(settings_head_t) - CRC_BYTES)
+#define CRC_AT offsetof(settings_store_t, crc)
+#define RECORD_BYTES (CRC_AT + CRC_BYTES)
+#define SAVE_STEPS (2u * (1u + RECORD_BYTES))   /* each byte is written, then read back */
 #define NO_MAGIC 0xFFu
 
 STATIC_ASSERT(sizeof(settings_t) <= BODY_BYTES_MAX, "a record fits its place");
-STATIC_ASSERT(MEM_EE_SETTINGS + 2u * COPY_BYTES <= MEM_EE_SETTINGS_END, "two copies fit");
+STATIC_ASSERT(CRC_AT == sizeof(settings_head_t) + sizeof(settings_t), "a record has no holes");
+STATIC_ASSERT(COPIES >= 2u, "one copy is whole while another is being written");
 
 typedef struct {
     uint8_t offset, low, high;
@@ -53,15 +49,14 @@ void settings_defaults(settings_t *settings)
 
 /* ---- loading ---- */
 
-static uint16_t copy_addr(uint8_t copy)
+static uint16_t copy_addr(uint8_t number)
 {
-    return MEM_EE_SETTINGS + copy * COPY_BYTES;
+    return MEM_EE_SETTINGS + number * COPY_BYTES;
 }
 
 static bool is_sound(const settings_t *settings)
 {
-    for (uint8_t i = 0; i < SETTINGS_ITEMS; i++) {
-        const range_t *range_P = &ranges_P[i];
+    for (const range_t *range_P = ranges_P; range_P < ranges_P + SETTINGS_ITEMS; range_P++) {
         const uint8_t value = ((const uint8_t *)settings)[pgm_read_byte(&range_P->offset)];
         if (value < pgm_read_byte(&range_P->low) || value > pgm_read_byte(&range_P->high)) {
             return false;
@@ -75,44 +70,52 @@ static bool is_sound(const settings_t *settings)
     return true;
 }
 
-/* Reads one copy. Missing settings get their defaults. */
-static settings_status_t load_copy(uint8_t copy, uint8_t *sequence, settings_t *settings)
-{
+typedef union {
     struct {
-        head_t head;
-        uint8_t rest[COPY_BYTES - sizeof(head_t)];
-    } record;
-    eeprom_read(copy_addr(copy), &record, sizeof record);
-    const uint8_t bytes = record.head.body_bytes;
-    if (record.head.magic == NO_MAGIC) {
+        settings_head_t head;
+        settings_t settings;
+    };
+    uint8_t bytes[COPY_BYTES];   /* another version's settings may end before or behind ours */
+} copy_t;
+
+/* Reads copy `number`. Missing settings get their defaults. */
+static settings_status_t load_copy(uint8_t number, copy_t *copy)
+{
+    eeprom_read(copy_addr(number), copy, sizeof *copy);
+    const settings_head_t *head = &copy->head;
+    if (head->magic == NO_MAGIC) {
         return SETTINGS_EMPTY;
     }
-    if (record.head.magic != MAGIC || record.head.layout != LAYOUT || bytes > BODY_BYTES_MAX) {
+    if (head->magic != MAGIC || head->layout != LAYOUT || head->body_bytes > BODY_BYTES_MAX) {
         return SETTINGS_DAMAGED;
     }
-    const uint16_t crc = crc16_bytes(CRC16_START, &record, sizeof record.head + bytes);
-    *sequence = record.head.sequence;
-    settings_defaults(settings);
-    memcpy(settings, record.rest, bytes < sizeof *settings ? bytes : sizeof *settings);
-    return crc == (record.rest[bytes] | (uint16_t)record.rest[bytes + 1u] << 8) && is_sound(settings) ? SETTINGS_OK
-                                                                                                     : SETTINGS_DAMAGED;
+    const uint8_t end = (uint8_t)(sizeof *head + head->body_bytes);
+    const uint16_t crc = crc16_bytes(CRC16_START, copy, end);
+    if (crc != (copy->bytes[end] | (uint16_t)copy->bytes[end + 1u] << 8)) {
+        return SETTINGS_DAMAGED;
+    }
+    if (head->body_bytes < sizeof(settings_t)) {
+        memcpy_P(copy->bytes + end, (const uint8_t *)&defaults_P + head->body_bytes, sizeof(settings_t) - head->body_bytes);
+    }
+    return is_sound(&copy->settings) ? SETTINGS_OK : SETTINGS_DAMAGED;
 }
 
-settings_status_t settings_load(settings_store_t *store, settings_t *settings)
+settings_status_t settings_load(settings_store_t *store)
 {
     settings_status_t status = SETTINGS_EMPTY;
-    store->saving = false;
-    store->copy = 1;
-    store->sequence = 0;
-    settings_defaults(settings);
-    for (uint8_t copy = 0; copy < 2u; copy++) {
-        settings_t loaded;
-        uint8_t sequence;
-        const settings_status_t of_copy = load_copy(copy, &sequence, &loaded);
-        if (of_copy == SETTINGS_OK && (status != SETTINGS_OK || (int8_t)(sequence - store->sequence) > 0)) {
-            *settings = loaded;
-            store->copy = copy;
-            store->sequence = sequence;
+    memset(store, 0, sizeof *store);
+    store->newest = COPIES - 1u;   /* so that the first save writes copy 0 */
+    store->head.magic = MAGIC;
+    store->head.layout = LAYOUT;
+    store->head.body_bytes = sizeof store->settings;
+    settings_defaults(&store->settings);
+    for (uint8_t number = 0; number < COPIES; number++) {
+        copy_t copy;
+        const settings_status_t of_copy = load_copy(number, &copy);
+        if (of_copy == SETTINGS_OK && (status != SETTINGS_OK || (int8_t)(copy.head.sequence - store->head.sequence) >= 0)) {
+            store->settings = copy.settings;
+            store->newest = number;
+            store->head.sequence = (uint8_t)(copy.head.sequence + 1u);
         }
         status = status == SETTINGS_EMPTY || of_copy == SETTINGS_OK ? of_copy : status;
     }
@@ -121,48 +124,56 @@ settings_status_t settings_load(settings_store_t *store, settings_t *settings)
 
 /* ---- saving ---- */
 
+/* The record just written is the newest copy, which the next save spares. */
+static void take_over(settings_store_t *store)
+{
+    store->newest = store->to;
+    store->head.sequence++;
+}
+
+/* Begins to write the record as the copy behind this one. The newest copy is spared. NOINLINE: inlined, it costs 30 bytes
+ * more, and Edit has fewer. */
+static NOINLINE void go_on_behind(settings_store_t *store, uint8_t number)
+{
+    store->to = (uint8_t)((number + 1u) % COPIES);
+    store->failed = store->to == store->newest;
+    store->left = store->failed ? 0 : SAVE_STEPS;
+}
+
 void settings_save_start(settings_store_t *store)
 {
-    store->at = 0;
-    store->saving = true;
+    if (store->left == 1) {   /* the last byte of a save is being written */
+        take_over(store);
+    }
+    const uint16_t crc = crc16_bytes(CRC16_START, store, CRC_AT);
+    store->crc[0] = (uint8_t)crc;
+    store->crc[1] = (uint8_t)(crc >> 8);
+    go_on_behind(store, store->newest);
 }
 
-/* Byte `at` of the record to write. NOINLINE: inlined, the record would stay on the stack of the main loop. */
-static NOINLINE uint8_t byte_to_save(const settings_store_t *store, const settings_t *settings, uint8_t at)
+void settings_save_poll(settings_store_t *store)
 {
-    const head_t head = { MAGIC, LAYOUT, store->sequence + 1u, sizeof *settings };
-    if (at < sizeof head) {
-        return ((const uint8_t *)&head)[at];
+    while (store->left != 0 && !eeprom_is_busy()) {
+        const bool is_first = store->left > 2u * RECORD_BYTES;
+        const uint8_t at = is_first ? 0 : (uint8_t)(store->left - 1u) / 2u;
+        const uint8_t byte = is_first ? NO_MAGIC : ((const uint8_t *)store)[at];
+        const uint16_t addr = copy_addr(store->to) + at;
+        if (store->left % 2u == 0) {
+            (void)eeprom_start(addr, byte);
+        } else if (eeprom_byte(addr) != byte && !is_first) {   /* worn out. If the magic stays, the CRC tells a mixture */
+            go_on_behind(store, store->to);
+            continue;
+        }
+        if (--store->left == 0) {
+            take_over(store);
+        }
     }
-    if (at < sizeof head + sizeof *settings) {
-        return ((const uint8_t *)settings)[at - sizeof head];
-    }
-    const uint16_t crc = crc16_bytes(crc16_bytes(CRC16_START, &head, sizeof head), settings, sizeof *settings);
-    return (uint8_t)(at == sizeof head + sizeof *settings ? crc : crc >> 8);
 }
 
-bool settings_save_poll(settings_store_t *store, const settings_t *settings)
+void settings_save_finish(settings_store_t *store)
 {
-    uint8_t copy = 1u - store->copy;
-    if (!store->saving || eeprom_is_busy()) {
-        return store->saving;
-    }
-    if (store->at == SAVE_STEPS) {
-        store->saving = false;
-        return false;
-    }
-    const uint8_t at = store->at == RECORD_BYTES ? 0 : store->at;   /* the magic is written last */
-    uint8_t byte = store->at == 0 ? NO_MAGIC : byte_to_save(store, settings, at);
-    if (eeprom_start(copy_addr(copy) + at, byte) && ++store->at == SAVE_STEPS) {
-        store->copy = copy;   /* from here on a new save goes to the other one, after this byte */
-        store->sequence++;
-    }
-    return true;
-}
-
-void settings_save_finish(settings_store_t *store, const settings_t *settings)
-{
-    while (settings_save_poll(store, settings)) {
+    while (store->left != 0) {
+        settings_save_poll(store);
         eeprom_wait();
     }
 }

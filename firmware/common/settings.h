@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * settings.h - the user's settings in EEPROM: two copies with sequence number and CRC, written in turn, so that a power
- * cut during a save leaves either the old or the new settings.
- * Main loop only. RAM: one settings_t and one settings_store_t, both the caller's.
- * EEPROM: MEM_EE_SETTINGS.. (two copies of 64 bytes), far from the loader's bytes. */
+ * settings.h - the user's settings in EEPROM: four copies with sequence number and CRC, written in turn, so that a power
+ * cut during a save leaves either the old or the new settings, and a copy with a worn-out byte is passed over.
+ * Main loop only. RAM: one settings_store_t, the caller's.
+ * EEPROM: MEM_EE_SETTINGS.. (four copies of 64 bytes), far from the loader's bytes. */
 #ifndef SETTINGS_H
 #define SETTINGS_H
 
@@ -66,27 +66,39 @@ typedef enum {
     SETTINGS_DAMAGED     /* no copy is valid; the defaults are in force */
 } settings_status_t;
 
-/* The state of a save. */
 typedef struct {
-    uint8_t copy;        /* the copy loaded or written last */
+    uint8_t magic;
+    uint8_t layout;
     uint8_t sequence;
-    uint8_t at;          /* next byte of the record to write */
-    bool saving;
+    uint8_t body_bytes;
+} settings_head_t;
+
+/* The settings and the state of a save. */
+typedef struct {
+    settings_head_t head;    /* of the next save; head, settings and CRC are as in EEPROM */
+    settings_t settings;     /* read and changed by the caller, the rest is not */
+    uint8_t crc[2];
+    uint8_t left;            /* steps of the save to do; 0: none */
+    bool failed;             /* the EEPROM did not take the last save: its newest copy is older. The caller clears this */
+    uint8_t newest;          /* number of the newest copy */
+    uint8_t to;              /* number of the copy to write */
 } settings_store_t;
 
 void settings_defaults(settings_t *settings);
 
 /* Loads the newer valid copy, or the defaults. A copy with a field out of range counts as damaged. NOINLINE: inlined, its
  * records would stay on the stack during the rest of the start-up. */
-settings_status_t settings_load(settings_store_t *store, settings_t *settings) NOINLINE;
+settings_status_t settings_load(settings_store_t *store) NOINLINE;
 
-/* Begins to save. Then call settings_save_poll until it returns false. Each call writes at most one byte and never blocks:
- * about 50 bytes, 8.5 ms for each that changes. If `settings` change meanwhile, start again. */
+/* Begins to save. Then call settings_save_poll regularly: it begins to write at most one byte and never blocks. A save takes
+ * 8.5 ms for each of about 50 bytes that changes. Each is read back. If one is worn out, the next copy is written instead.
+ * If the settings change meanwhile, start again. */
 void settings_save_start(settings_store_t *store);
-bool settings_save_poll(settings_store_t *store, const settings_t *settings);   /* true: not done yet */
+void settings_save_poll(settings_store_t *store);
 
-/* Blocks until a save in progress is done, up to 0.45 s. Nothing may be moving. */
-void settings_save_finish(settings_store_t *store, const settings_t *settings);
+/* Blocks until a save in progress is done, up to 0.45 s, and as much again for each copy with a worn-out byte. Nothing may
+ * be moving. */
+void settings_save_finish(settings_store_t *store);
 
 /* A setting by name, for a line shell. */
 typedef struct {

@@ -143,7 +143,7 @@ static uint8_t save_by_mailbox(uint8_t page)
         return DIALOG_TO_ASK;
     }
     page_save_by_mailbox(page, the_session.cells);
-    board_restart(&the_settings_store, &the_settings);
+    board_restart(&the_settings_store);
 }
 
 page_save_status_t cmd_page_save(uint8_t page)
@@ -202,7 +202,7 @@ COMMAND(cmd_exit)
     if (!dialog_ask_unsaved()) {
         return DIALOG_TO_ASK;
     }
-    board_restart(&the_settings_store, &the_settings);
+    board_restart(&the_settings_store);
 }
 
 /* ---- name ---- */

@@ -65,8 +65,8 @@ static uint8_t state_of(uint8_t joint)
         return 1u << BIT_SILENT;
     }
     uint8_t state = servos->errors[joint];
-    if (joint == servos->hottest_id && the_settings.hot_degrees != 0 &&
-        servos->hottest_degrees >= the_settings.hot_degrees) {
+    if (joint == servos->hottest_id && the_settings_store.settings.hot_degrees != 0 &&
+        servos->hottest_degrees >= the_settings_store.settings.hot_degrees) {
         state |= DXL_ERR_HEAT;
     }
     if (state == 0 && servo_link_has(&the_performer.faulty, joint)) {

@@ -36,7 +36,7 @@ COMMAND(cmd_go)
 static uint16_t neutral_of(uint8_t joint)
 {
     uint8_t word[2];
-    if (the_settings.neutral != SETTINGS_NEUTRAL_PAGE1 || !page_store_is_good(&the_pages, 1)) {
+    if (the_settings_store.settings.neutral != SETTINGS_NEUTRAL_PAGE1 || !page_store_is_good(&the_pages, 1)) {
         return PAGE_POS_MIDDLE;
     }
     page_store_read(1, (uint16_t)(PAGE_AT_STEP0 + 2u * joint), word, sizeof word);
@@ -63,7 +63,7 @@ COMMAND(cmd_mirror)
     uint8_t words[PAGE_STEP_BYTES];
     memcpy(words, &the_session.cells[session_step_at(step)], sizeof words);
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        uint8_t partner = the_settings.pair[joint];
+        uint8_t partner = the_settings_store.settings.pair[joint];
         if (partner < PAGE_JOINTS) {
             uint16_t word = mirrored(step, joint, partner);
             words[2 * joint] = (uint8_t)word;
@@ -98,18 +98,18 @@ COMMAND(cmd_pairs)
             report_bad_page(1, page_store_look(1));
             return SHELL_ERR_REPORTED;
         }
-        the_settings.neutral = page1 ? SETTINGS_NEUTRAL_PAGE1 : SETTINGS_NEUTRAL_512;
+        the_settings_store.settings.neutral = page1 ? SETTINGS_NEUTRAL_PAGE1 : SETTINGS_NEUTRAL_512;
     } else if (args->count == 3) {
         uint16_t a, b;
         if (!shell_take(args, 1, RANGE_ID, &a) || !shell_take(args, 2, RANGE_ID, &b)) {
             return SHELL_ERR_RANGE;
         }
-        settings_pair(&the_settings, (uint8_t)a, (uint8_t)b);
+        settings_pair(&the_settings_store.settings, (uint8_t)a, (uint8_t)b);
     }
     if (args->count > 1) {
         settings_save_start(&the_settings_store);
     }
-    print_pairs(&the_settings);
+    print_pairs(&the_settings_store.settings);
     return SHELL_OK;
 }
 

@@ -130,7 +130,7 @@ static void take_bytes(void)
 static void tick_work(void)
 {
     performer_tick(&the_performer);
-    (void)settings_save_poll(&the_settings_store, &the_settings);
+    settings_save_poll(&the_settings_store);
     if (the_dialog.late_ticks != 0) {
         the_dialog.late_ticks--;
     }

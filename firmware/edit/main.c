@@ -14,7 +14,6 @@
 page_store_t the_pages;
 servo_link_t the_servos;
 performer_t the_performer;
-settings_t the_settings;
 settings_store_t the_settings_store;
 static boot_rx_t receiver;   /* the loader puts bytes that arrive during a page write into the console's ring */
 
@@ -49,12 +48,12 @@ static NOINLINE void start(void)
     if (page_store_is_damaged(&the_pages, 0)) {
         notice_P = TEXT_P("Page 0 is damaged: no trim");
     }
-    (void)settings_load(&the_settings_store, &the_settings);
-    console_set_flow(the_settings.flow != 0);
+    (void)settings_load(&the_settings_store);
+    console_set_flow(the_settings_store.settings.flow != 0);
     text_init(put);
     servo_link_init(&the_servos);
     servo_link_scan(&the_servos);
-    performer_init(&the_performer, &the_pages.source, &the_servos, &the_settings);
+    performer_init(&the_performer, &the_pages.source, &the_servos, &the_settings_store.settings);
     editor_init(notice_P);
 }
 

@@ -13,7 +13,6 @@
 extern page_store_t the_pages;     /* the motion pages in flash */
 extern servo_link_t the_servos;
 extern performer_t the_performer;
-extern settings_t the_settings;
 extern settings_store_t the_settings_store;
 
 #endif

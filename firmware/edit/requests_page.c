@@ -113,7 +113,7 @@ static const requests_table_t own_words = { own, ARRAY_COUNT(own) };
 
 static void __attribute__((noreturn)) restart(void)
 {
-    board_restart(&the_settings_store, &the_settings);
+    board_restart(&the_settings_store);
 }
 
 static const char name[] PROGMEM = "edit";

@@ -424,7 +424,9 @@ void session_begin_turn(uint8_t turn)
 
 static bool travel(bool back)
 {
-    undo_target_t target = { change_byte, turn_steps };
+    undo_target_t target;   /* without an initializer: that would stand in RAM */
+    target.flip = change_byte;
+    target.turn = turn_steps;
     bool done = (back ? undo_back(&the_session.undo, &target) : undo_forth(&the_session.undo, &target)) ||
                 exchange_spare(back);
     if (!done && back && the_session.undo_reloads) {

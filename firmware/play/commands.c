@@ -53,12 +53,12 @@ static uint8_t choose(const shell_args_t *args, uint8_t *setting, const char *wo
 
 static uint8_t do_law(const shell_args_t *args)
 {
-    return choose(args, &the_play.settings.law, settings_laws_P, TEXT_P("Say exact or classic"));
+    return choose(args, &the_play.store.settings.law, settings_laws_P, TEXT_P("Say exact or classic"));
 }
 
 static uint8_t do_remote(const shell_args_t *args)
 {
-    return choose(args, &the_play.settings.remote_mode, settings_remotes_P, TEXT_P("Say latch or hold or drive"));
+    return choose(args, &the_play.store.settings.remote_mode, settings_remotes_P, TEXT_P("Say latch or hold or drive"));
 }
 
 static uint8_t set_one(const shell_args_t *args)
@@ -68,7 +68,7 @@ static uint8_t set_one(const shell_args_t *args)
         settings_item(i, &item);
         if (shell_word_is(args, 1, item.name)) {
             uint16_t value;
-            if (!shell_parse(shell_word(args, 2), false, &value) || !settings_set(&the_play.settings, &item, value)) {
+            if (!shell_parse(shell_word(args, 2), false, &value) || !settings_set(&the_play.store.settings, &item, value)) {
                 shell_print_range(item.name, item.low, item.high, false);
                 return SHELL_ERR_REPORTED;
             }
@@ -91,7 +91,7 @@ static uint8_t do_settings(const shell_args_t *args)
             TEXT("Say settings, settings name value, or settings defaults");
             return SHELL_ERR_REPORTED;
         }
-        settings_defaults(&the_play.settings);
+        settings_defaults(&the_play.store.settings);
         save();
         return REQUEST_OK;
     }

@@ -153,7 +153,7 @@ static uint32_t centre_joints(void)
 {
     uint16_t pose_pos[PAGE_JOINTS];
     const page_source_t *source = &the_play.pages.source;
-    const uint8_t page = the_play.settings.centre_page;
+    const uint8_t page = the_play.store.settings.centre_page;
     return shape_steps_of(source, page) != 0 ? player_first_pose(source, NULL, page, pose_pos) : 0;
 }
 

@@ -28,7 +28,7 @@ play_t the_play;
 
 static void restart(void)
 {
-    board_restart(&the_play.store, &the_play.settings);
+    board_restart(&the_play.store);
 }
 
 static const char name[] PROGMEM = "play";
@@ -93,7 +93,7 @@ static void print_news(void)
     performer_event_t event;
     inputs_refusal_t refusal;
     if (performer_next_event(&the_play.performer, &event)) {
-        if (the_play.settings.talk == 0 && is_chatter(event.kind)) {
+        if (the_play.store.settings.talk == 0 && is_chatter(event.kind)) {
             return;
         }
         if (event.kind == PERFORMER_EV_UNREADY && servo_link_has(&the_play.servos.silent, event.a)) {
@@ -105,6 +105,11 @@ static void print_news(void)
     } else if (inputs_next_refusal(&the_play.inputs, &refusal)) {
         const uint8_t covered = begin_status_line();
         views_print_refusal(&refusal);
+        end_status_line(covered);
+    } else if (the_play.store.failed) {
+        the_play.store.failed = false;
+        const uint8_t covered = begin_status_line();
+        TEXT("Settings not saved: EEPROM error");
         end_status_line(covered);
     }
 }
@@ -236,15 +241,15 @@ static void greet(settings_status_t settings)
 static NOINLINE void start(void)
 {
     text_init(put);
-    const settings_status_t status = settings_load(&the_play.store, &the_play.settings);
+    const settings_status_t status = settings_load(&the_play.store);
     page_store_init(&the_play.pages);
     servo_link_init(&the_play.servos);
-    performer_init(&the_play.performer, &the_play.pages.source, &the_play.servos, &the_play.settings);
+    performer_init(&the_play.performer, &the_play.pages.source, &the_play.servos, &the_play.store.settings);
     performer_set_layers(&the_play.performer, &the_play.layers);
-    inputs_init(&the_play.inputs, &the_play.performer, &the_play.pages, &the_play.settings);
+    inputs_init(&the_play.inputs, &the_play.performer, &the_play.pages, &the_play.store.settings);
     shell_init(&the_play.shell, the_play.line, sizeof the_play.line, the_play.history, sizeof the_play.history);
-    console_set_flow(the_play.settings.flow != 0);
-    if (the_play.settings.fast_line != 0) {
+    console_set_flow(the_play.store.settings.flow != 0);
+    if (the_play.store.settings.fast_line != 0) {
         console_set_rate(CONSOLE_RATE_115200);
     }
     play_find_servos();

@@ -50,7 +50,7 @@ void play_service(void)
     }
     inputs_take(&the_play.inputs);
     performer_poll(&the_play.performer);
-    (void)settings_save_poll(&the_play.store, &the_play.settings);
+    settings_save_poll(&the_play.store);
     system_kick();
 }
 

@@ -20,7 +20,6 @@ typedef struct {
     performer_t performer;
     servo_link_t servos;
     page_store_t pages;
-    settings_t settings;
     settings_store_t store;
     inputs_t inputs;
     shell_t shell;

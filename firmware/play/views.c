@@ -113,14 +113,14 @@ uint8_t views_status(const shell_args_t *args)
         text_line_end();
     }
     TEXT("Law ");
-    text_P(settings_word_P(settings_laws_P, the_play.settings.law));
+    text_P(settings_word_P(settings_laws_P, the_play.store.settings.law));
     TEXT(", remote ");
-    text_P(settings_word_P(settings_remotes_P, the_play.settings.remote_mode));
+    text_P(settings_word_P(settings_remotes_P, the_play.store.settings.remote_mode));
     TEXT(", approach ");
-    if (the_play.settings.approach_deg_s == 0) {
+    if (the_play.store.settings.approach_deg_s == 0) {
         TEXT("off");
     } else {
-        text_number(the_play.settings.approach_deg_s);
+        text_number(the_play.store.settings.approach_deg_s);
         TEXT(" degrees/s");
     }
     text_line_end();
@@ -178,7 +178,7 @@ void views_print_settings(void)
         settings_item(i, &item);
         text_P(item.name);
         text_put(' ');
-        text_number(settings_value(&the_play.settings, &item));
+        text_number(settings_value(&the_play.store.settings, &item));
         text_P_number(TEXT_P("  ("), item.low);
         text_P_number(TEXT_P(".."), item.high);
         TEXT(")  ");

@@ -62,7 +62,7 @@ bool machine_recall(machine_memory_t memory, uint8_t *bytes, uint32_t count);
 
 /* Replaces `count` bytes at `at`. true: they now survive a power cut (`now` false: only the end of the program). A power cut
  * meanwhile may leave any mixture of old and new bytes there, but affects no others. Bytes kept with `now` false are written
- * in order: a power cut leaves the memory as it was at some moment after machine_settle. A disk does so, because both copies
+ * in order: a power cut leaves the memory as it was at some moment after machine_settle. A disk does so, because all copies
  * of the settings lie in one of its sectors. */
 bool machine_keep(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uint32_t count, bool now);
 

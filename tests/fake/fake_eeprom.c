@@ -7,6 +7,7 @@
 
 static uint8_t bytes[EEPROM_BYTES];
 static uint32_t wear[EEPROM_BYTES];
+static bool is_worn_out[EEPROM_BYTES];
 static uint32_t writes, cut_at;
 static uint8_t busy_calls, busy_left;
 static int torn;
@@ -16,6 +17,7 @@ void fake_eeprom_reset(void)
 {
     memset(bytes, 0xFF, sizeof bytes);
     memset(wear, 0, sizeof wear);
+    memset(is_worn_out, 0, sizeof is_worn_out);
     writes = 0;
     cut_at = 0;
     busy_calls = 2;
@@ -25,6 +27,12 @@ void fake_eeprom_reset(void)
 uint8_t *fake_eeprom_bytes(void)
 {
     return bytes;
+}
+
+void fake_eeprom_wear_out(uint16_t address)
+{
+    ASSERT(address < EEPROM_BYTES);
+    is_worn_out[address] = true;
 }
 
 void fake_eeprom_set_busy_calls(uint8_t calls)
@@ -63,7 +71,7 @@ static void write_cell(uint16_t address, uint8_t byte)
         }
         longjmp(*cut_to, 1);
     }
-    bytes[address] = byte;
+    bytes[address] = is_worn_out[address] ? bytes[address] : byte;
     busy_left = busy_calls;
 }
 

@@ -11,6 +11,7 @@ void fake_eeprom_reset(void);
 uint8_t *fake_eeprom_bytes(void);                 /* to prepare and compare */
 void fake_eeprom_set_busy_calls(uint8_t calls);   /* calls that a write takes; default 2 */
 uint32_t fake_eeprom_wear(uint16_t address);      /* writes of this byte */
+void fake_eeprom_wear_out(uint16_t address);      /* until the reset this byte keeps its value, whatever is written */
 uint32_t fake_eeprom_writes(void);                /* writes of all bytes since reset */
 
 /* Cuts the power at byte write `operation` (1 = the next one; 0 = never), then jumps to `where`. The byte becomes

@@ -476,6 +476,28 @@ def test_settings_outlive_power_off():
     assert ask(board, "law").startswith("classic")
 
 
+def test_worn_out_eeprom_loses_no_setting_that_was_answered_ok_unsaid():
+    board = robot()
+    worn = {0x46}  # approach, in the second of four copies
+
+    def forget():
+        memory, at = board.operation(board.operations)
+        if memory == "eeprom" and at in worn:
+            board.eeprom[at] = 99
+
+    board.on_operation(forget)
+    for approach in (77, 33):
+        assert ask(board, f"settings approach {approach}") == " OK"
+        board.run(ms=1500)
+        board.power_off()
+        board.power_on()
+        board.expect("] ", ms=2000)
+        assert f"approach {approach} " in ask(board, "settings")
+    worn |= {0x06, 0xC6}  # in all but the newest copy
+    assert ask(board, "settings approach 55") == " OK"
+    board.expect("Settings not saved: EEPROM error", ms=1500)
+
+
 def test_cm2_plays_without_a_panel():
     board = robot(kind="cm2", image="play-cm2.hex")
     assert "CM-2" in ask(board, "version")

@@ -107,28 +107,27 @@ static void test_a_power_cut_at_any_write_leaves_the_old_page_or_the_new_one(voi
 static bool set_with_cut(uint32_t write, uint32_t seed, uint8_t last)
 {
     static settings_store_t store;   /* static: kept across longjmp */
-    static settings_t settings;
     jmp_buf cut;
     setUp();
     (void)begin();
-    (void)settings_load(&store, &settings);
-    settings.approach_deg_s = 33;
+    (void)settings_load(&store);
+    store.settings.approach_deg_s = 33;
     settings_save_start(&store);
-    settings_save_finish(&store, &settings);
+    settings_save_finish(&store);
     host_settle();
     fake_machine_cut(write, seed, &cut);
     if (setjmp(cut) == 0) {
         for (uint8_t approach_deg_s = 44; approach_deg_s <= last; approach_deg_s += 11u) {
-            settings.approach_deg_s = approach_deg_s;
+            store.settings.approach_deg_s = approach_deg_s;
             settings_save_start(&store);
-            settings_save_finish(&store, &settings);
+            settings_save_finish(&store);
         }
         fake_machine_cut(0, 0, NULL);
         return false;
     }
     (void)begin();
-    (void)settings_load(&store, &settings);
-    const uint8_t found = settings.approach_deg_s;
+    (void)settings_load(&store);
+    const uint8_t found = store.settings.approach_deg_s;
     TEST_ASSERT_TRUE_MESSAGE(found == 33 || found == 44 || found == last, "old or new");
     return true;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * files.c - the robot's folder: pages.bin (motion pages as m512 reads them), journal.bin and eeprom.bin.
  * A file has its full length from the start, and bytes are replaced in place. So a power cut can affect only the bytes being
- * written, as on the chip; the journal and the two copies of the settings make them either old or new. */
+ * written, as on the chip; the journal and the copies of the settings make them either old or new. */
 #include "machine.h"
 
 #include <errno.h>

@@ -13,6 +13,7 @@ from .robot import Memories
 
 AREA = range(MAP["MEM_EE_SETTINGS"], MAP["MEM_EE_SETTINGS_END"])
 COPY_BYTES = 64
+COPIES = len(AREA) // COPY_BYTES
 FIELDS = ("law", "remote", "approach", "fault", "low", "hot", "neutral", "flow", "fast", "talk")
 JOINTS = 31
 LAST = ("centre", "drive")  # after the joints' partners
@@ -32,9 +33,9 @@ def record(body, sequence):
 
 
 def kept(eeprom):
-    """Returns (body, damaged): the settings that a start must find. They are the newer good copy, otherwise the defaults."""
+    """Returns (body, damaged): the settings that a start must find. They are the newest good copy, otherwise the defaults."""
     good, dirty = None, False
-    for copy in range(2):
+    for copy in range(COPIES):
         data = eeprom[AREA.start + COPY_BYTES * copy :][: BODY_BYTES + 6]
         if data[0] == ord("S") and data[1] == 1 and data[3] == BODY_BYTES and data == record(data[4:-2], data[2]):
             if good is None or 0 < (data[2] - good[1] & 0xFF) < 0x80:
@@ -78,8 +79,8 @@ class Settings:
         self.allowed = [kept(bytes(self.board.eeprom))[0]]
 
     def saved(self):
-        """Waits until nothing is written any more. The main loop writes at most one byte per turn, even if equal. After that only the
-        last settings are permitted."""
+        """Waits until nothing is written any more. The main loop begins to write at most one byte per turn. After that only the last
+        settings are permitted."""
         operations = -1
         while operations != self.board.operations:
             operations = self.board.operations

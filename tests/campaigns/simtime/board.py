@@ -26,7 +26,7 @@ SERVOS = range(1, 19)
 SHORT = (1, 2, 9, 12, 13, 15, 21, 22)
 LOOPS = (3, 4, 6, 7, 8)  # endless: after an end, a code would start a play whose first frame is not waited for
 PAGES_AT, PAGES_BYTES = 0xE000, 128 * 512
-SETTINGS_AT, SETTINGS_BYTES = 0, 128
+SETTINGS_AT, SETTINGS_BYTES = 0, 256
 
 
 class Trace(NamedTuple):

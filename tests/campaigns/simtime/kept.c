@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * kept.c - the stored settings, by firmware/common/settings.h and firmware/play/README.md: two copies in EEPROM,
- * each with a sequence number and a CRC, written in turn. A save writes the other copy with the next number. After a
+ * kept.c - the stored settings, by firmware/common/settings.h and firmware/play/README.md: four copies in EEPROM,
+ * each with a sequence number and a CRC, written in turn. A save writes the next copy with the next number. After a
  * power cut the settings are old or new. Play must show the newest copy, and that must be what was set. */
 #include "session.h"
 
@@ -9,6 +9,7 @@
 
 #include "linker/memory_map.h"
 
+#define COPIES 4u
 #define COPY_BYTES 64u
 #define HEAD_BYTES 4u              /* S, layout, sequence number, length of the settings */
 #define CRC_BYTES 2u
@@ -29,7 +30,7 @@ static const struct {
 #define ITEMS (sizeof items / sizeof items[0])
 
 static struct {
-    uint8_t copy[2][COPY_BYTES];   /* as they were when last valid */
+    uint8_t copy[COPIES][COPY_BYTES];   /* as they were when last valid */
     int newest;                    /* of the valid copies; -1: none */
     uint8_t sure[COPY_BYTES];      /* the newest copy that a power cut cannot revert */
     bool is_sure;                  /* `sure` is valid */
@@ -62,11 +63,13 @@ static bool is_whole(const uint8_t *at)
 /* Sequence numbers wrap at 256. */
 static int newest_copy(void)
 {
-    const bool first = is_whole(copy_at(0)), second = is_whole(copy_at(1));
-    if (first && second) {
-        return (int8_t)(copy_at(1)[2] - copy_at(0)[2]) > 0 ? 1 : 0;
+    int newest = -1;
+    for (unsigned copy = 0; copy < COPIES; copy++) {
+        if (is_whole(copy_at(copy)) && (newest < 0 || (int8_t)(copy_at(copy)[2] - copy_at((unsigned)newest)[2]) > 0)) {
+            newest = (int)copy;
+        }
     }
-    return first ? 0 : second ? 1 : -1;
+    return newest;
 }
 
 static int value_of(unsigned item)
@@ -80,7 +83,7 @@ static int value_of(unsigned item)
 
 static void note_copies(void)
 {
-    for (unsigned copy = 0; copy < 2; copy++) {
+    for (unsigned copy = 0; copy < COPIES; copy++) {
         memcpy(kept.copy[copy], copy_at(copy), COPY_BYTES);
     }
     kept.newest = newest_copy();
@@ -95,18 +98,18 @@ static void look_at_save(unsigned copy)
         return;
     }
     const uint8_t last = kept.copy[kept.newest][2];
-    if ((int)copy == kept.newest || at[2] != (uint8_t)(last + 1)) {
+    if (copy != ((unsigned)kept.newest + 1) % COPIES || at[2] != (uint8_t)(last + 1)) {
         session_fail("settings are saved in turn", "copy %u as number %u behind copy %d with number %u", copy, at[2],
                      kept.newest, last);
     }
 }
 
-/* Two saves may be over within a tick, after a search. So the older copy comes first. */
+/* Two saves may be over within a tick, after a search. So the oldest copy comes first. */
 static void look_at_copies(void)
 {
-    const unsigned older = newest_copy() == 0 ? 1 : 0;
-    for (unsigned i = 0; i < 2; i++) {
-        const unsigned copy = older ^ i;
+    const int newest = newest_copy();
+    for (unsigned i = 1; i <= COPIES; i++) {
+        const unsigned copy = ((unsigned)newest + i) % COPIES;   /* none is whole: any order will do */
         const bool is_other = memcmp(copy_at(copy), kept.copy[copy], COPY_BYTES) != 0;
         if (is_whole(copy_at(copy)) && is_other) {
             look_at_save(copy);
@@ -119,7 +122,7 @@ static void look_at_copies(void)
 /* A save that is over has left a valid copy. */
 static void look_whether_whole(void)
 {
-    for (unsigned copy = 0; copy < 2; copy++) {
+    for (unsigned copy = 0; copy < COPIES; copy++) {
         if (memcmp(copy_at(copy), kept.copy[copy], COPY_BYTES) != 0) {
             session_fail("settings are saved whole", "copy %u is damaged", copy);
         }

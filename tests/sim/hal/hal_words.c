@@ -26,7 +26,6 @@
 
 #include <string.h>
 
-static settings_t settings;
 static settings_store_t store;
 static page_store_t pages;
 
@@ -58,18 +57,18 @@ static void say(const char *word, uint32_t a, uint32_t b)
 
 static void load(void)
 {
-    uint8_t status = (uint8_t)settings_load(&store, &settings);
+    uint8_t status = (uint8_t)settings_load(&store);
     say_P(PSTR("load "));
     say_hex(status);
-    say(PSTR(" "), settings.law, settings.approach_deg_s);
+    say(PSTR(" "), store.settings.law, store.settings.approach_deg_s);
 }
 
 static void save(uint8_t law, uint8_t approach)
 {
-    settings.law = law;
-    settings.approach_deg_s = approach;
+    store.settings.law = law;
+    store.settings.approach_deg_s = approach;
     settings_save_start(&store);
-    settings_save_finish(&store, &settings);
+    settings_save_finish(&store);
     say_P(PSTR("saved\n"));
 }
 
@@ -162,7 +161,7 @@ static void obey(uint8_t word)
         hold();
         break;
     case 'a':
-        ASSERT(store.copy > 7);
+        ASSERT(store.newest > 7);
         break;
     case 'w':
         for (;;) {
@@ -192,7 +191,7 @@ int main(void)
     if (system_take_failed_assert(&line, &address)) {
         say(PSTR("assert "), line, address);
     }
-    (void)settings_load(&store, &settings);
+    (void)settings_load(&store);
     for (;;) {
         while (console_get(&word)) {
             obey(word);
