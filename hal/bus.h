@@ -56,7 +56,7 @@ typedef struct {
     uint16_t lengths;
     uint16_t rejected;
     uint16_t retries;
-    uint16_t strays;        /* bytes received when no answer was expected */
+    uint16_t strays;        /* bytes received when no answer was expected; modulo 65536 */
 } bus_counts_t;
 
 /* Sets every register of UART 0 and the direction pins: 1 Mbps, listening. Call before interrupts are enabled. */

@@ -81,7 +81,7 @@ static inline void bus_core_on_byte(bus_core_t *core, uint8_t byte, uint8_t flag
         return;   /* 160 cycles are not enough for both */
     }
     if (core->state != BUS_LISTENING) {
-        core->strays = (uint16_t)(core->strays + (core->strays != 0xFFFFu));
+        core->strays = (uint16_t)(core->strays + 1u);
         return;
     }
     core->heard_flags |= flags;

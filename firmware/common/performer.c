@@ -77,9 +77,10 @@ static performer_status_t somebody_can_move(const performer_t *performer, uint32
     return (performer_usable(performer) & joints) == 0 ? PERFORMER_ERR_RELEASED : PERFORMER_OK;
 }
 
-static void get_ready(performer_t *performer)
+/* The other joints are not asked for, and keep their torque as it is. */
+static void get_ready(performer_t *performer, uint32_t joints)
 {
-    performer->ready_left = performer_usable(performer);
+    performer->ready_left = performer_usable(performer) & joints;
     performer->joints = 0;
     performer->faulty = 0;
     performer->leaving = false;
@@ -125,7 +126,7 @@ performer_status_t performer_start(performer_t *performer, uint8_t page, uint8_t
     call_link(performer, code);
     performer->page = page;
     performer->move_deg_s = 0;
-    get_ready(performer);
+    get_ready(performer, SERVO_LINK_ALL);
     return PERFORMER_OK;
 }
 
@@ -140,8 +141,7 @@ performer_status_t performer_move(performer_t *performer, const uint16_t to_pos[
     memcpy(performer->player.next_pos, to_pos, sizeof performer->player.next_pos);
     performer->page = 0;
     performer->move_deg_s = deg_s;
-    performer->move_joints = joints;
-    get_ready(performer);
+    get_ready(performer, joints);
     return PERFORMER_OK;
 }
 
@@ -376,11 +376,11 @@ static bool ask_one_joint(performer_t *performer)
 static uint32_t take_first_pose(performer_t *performer)
 {
     uint16_t *to_pos = performer->player.next_pos;
-    uint32_t joints = performer->move_joints;
+    uint32_t joints = performer->joints & ~performer_layers_joints(performer);
     if (performer->move_deg_s == 0) {
-        joints = player_first_pose(performer->source, &performer->shape, performer->first_page, to_pos);
+        joints &= player_first_pose(performer->source, &performer->shape, performer->first_page, to_pos);
     }
-    return joints & performer->joints & ~performer_layers_joints(performer);
+    return joints;
 }
 
 /* Plans the approach or move and queues its event. false: there is no approach, or the joints are there already. */

@@ -61,9 +61,8 @@ typedef struct {
     bool is_driven;         /* performer_drive has set the shape */
     bool battery_reported, heat_reported; /* each is reported once per play. Read only for callers */
     uint16_t move_deg_s;        /* a move's speed limit; 0: a play */
-    uint32_t joints;            /* the joints that this play may drive */
+    uint32_t joints;            /* the joints that this play may drive; the goals of a move are in player.next_pos */
     uint32_t ready_left;        /* READY: joints not asked yet */
-    uint32_t move_joints;       /* the joints of a move; its goals are in player.next_pos */
     const page_source_t *source;
     servo_link_t *servos;
     const settings_t *settings;
@@ -89,7 +88,8 @@ void performer_set_source(performer_t *performer, const page_source_t *source);
  * performer_poll do the rest. On an error nothing happens and nothing is queued. */
 MUST_CHECK performer_status_t performer_start(performer_t *performer, uint8_t page, uint8_t code);
 
-/* Moves `joints` to a pose (page coordinates) at up to deg_s degrees/s (1..360), ramped. Leaves absent joints out.
+/* Moves `joints` to a pose (page coordinates) at up to deg_s degrees/s (1..360), ramped. Leaves absent joints out, and all
+ * others as they are: limp, or held by their torque.
  * PERFORMER_ERR_NO_SERVOS: none is present; PERFORMER_ERR_RELEASED: all present ones are switched off. */
 MUST_CHECK performer_status_t performer_move(performer_t *performer, const uint16_t to_pos[PAGE_JOINTS],
                                              uint32_t joints, uint16_t deg_s);

@@ -105,6 +105,7 @@ static bool read_table(servo_link_t *link, uint8_t id, uint8_t table[READ_BYTES]
     const bool heard = bus_call_read(id, READ_FROM, table, READ_BYTES, NULL) == BUS_OK;
     servo_link_put(&link->silent, id, !heard);
     if (!heard) {
+        servo_link_put(&link->outside, id, false); /* nobody knows */
         return false;
     }
     bool on = table[DXL_AT_TORQUE_ENABLE - READ_FROM] != 0 && word_in(table, DXL_AT_TORQUE_LIMIT) != 0;

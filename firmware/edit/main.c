@@ -40,7 +40,7 @@ static NOINLINE void start(void)
     page_service_kind_t service = page_service_init(&receiver);
     journal_result_t recovered = journal_recover(the_session.cells);
     const char *notice_P = recovered == JOURNAL_RESTORED ? TEXT_P("Saved what was cut off")
-                      : recovered == JOURNAL_FAILED ? TEXT_P("Not saved")
+                      : recovered == JOURNAL_FAILED ? TEXT_P("Not saved: flash error")
                       : service == PAGE_SERVICE_MAILBOX ? mail_text_P()
                       : service == PAGE_SERVICE_NONE  ? TEXT_P("No boot loader can write: no SAVE")
                                                       : TEXT_P("Arrows move, HELP explains, EXIT leaves");

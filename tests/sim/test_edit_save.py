@@ -147,7 +147,7 @@ def test_a_start_that_cannot_complete_a_pending_page_says_so():
     with robot(pages={1: OLD}) as r:
         pending(r, worn=True)
         r.line("exit", "y", ms=3000)
-        assert r.message == "Not saved"
+        assert r.message == "Not saved: flash error"
 
 
 def test_the_contents_of_a_pending_page_may_be_saved_elsewhere():

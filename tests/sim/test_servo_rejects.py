@@ -143,6 +143,10 @@ def test_edit_does_not_switch_on_a_joint_outside_its_angle_limits():
         for line in ("on 3", "go 0", "play"):
             r.line(line, ms=1500)
             assert OUTSIDE in r.message and not servo.torque and abs(servo.present - 800) <= 2
+        servo.fault("silent")
+        r.line("on 3", ms=1500)
+        assert "No answer: ID 3" in r.message  # a hand does not help any more
+        servo.clear()
         servo.push_to(580)
         r.line("on 3", ms=1500)
         assert "ID" not in r.message and servo.torque

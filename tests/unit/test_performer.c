@@ -266,5 +266,6 @@ static void test_performer_move_goes_there_and_touches_nobody_else(void)
     reach(PERFORMER_IDLE);
     TEST_ASSERT_EQUAL_UINT16(600, fake_servo_link.goal_pos[2]);
     TEST_ASSERT_EQUAL_UINT16(512, fake_servo_link.pose_pos[1]);
+    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(2), servos.torque);
     TEST_ASSERT_EQUAL_UINT8(PERFORMER_END_THERE, end_reason());
 }
