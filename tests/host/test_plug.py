@@ -98,6 +98,16 @@ def test_while_the_plug_is_out_all_count_as_switched_off(make, files):
     assert "Torque on: none" in robot.ask("status")
 
 
+def test_servos_that_were_not_told_are_not_called_off(make, files):
+    robot = make(motions=files, arguments=["--off"]).run()
+    robot.expect("] ")
+    assert " OK" in robot.ask("on")
+    robot.pull()
+    robot.expect("The servo adapter is gone")
+    assert robot.stop() == 6
+    assert "ended. The adapter is gone: the servos keep their torque" in robot.said.decode() and "is off" not in robot.said.decode()
+
+
 def test_what_is_advised_after_a_search_without_the_plug_helps(make, files):
     robot = make(motions=files).run()
     robot.expect("] ")

@@ -16,7 +16,7 @@
 #include "host.h"
 #include "pc.h"
 
-enum { EXIT_HUNG = 70, EXIT_ASKED_TWICE = 130 };
+enum { EXIT_STILL_ON = 6, EXIT_HUNG = 70, EXIT_ASKED_TWICE = 130 };
 #define MS 2000u
 #define ONE_WISH_MS 100u   /* `timeout` signals twice, a shell a whole group; no person presses Ctrl-C again so fast */
 #define WATCH_SECONDS 1
@@ -161,15 +161,21 @@ bool machine_is_asked_to_end(void)
 
 void machine_end(void)
 {
+    bool is_off = false;
     if (pc_options.off) {
+        (void)port_drain();
         host_torque_off();
-        port_drain();
+        is_off = port_drain();
     }
     host_settle();
     terminal_drain();
     terminal_restore();
-    if (pc_options.off) {
+    if (is_off) {
         machine_tell("ended. The torque of all servos is off");
+    } else if (pc_options.off) {
+        machine_tell(machine_bus_is_there() ? "ended. The adapter takes no packets: the servos keep their torque"
+                                            : "ended. The adapter is gone: the servos keep their torque");
+        exit(EXIT_STILL_ON);
     } else if (host_has_held()) {
         machine_tell("ended. Servos that held their pose go on holding it. To make them limp: --off, or m512 torque off");
     }

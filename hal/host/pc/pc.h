@@ -33,7 +33,8 @@ _Noreturn void pc_fail(int code, const char *format, ...) __attribute__((format(
 /* port.c: the serial port of the adapter */
 void port_open(void);                          /* at the start: the port must exist */
 void port_poll(struct pollfd *entry);          /* what to wait for; tries to reopen a lost port */
-void port_drain(void);                         /* waits until all output has left */
+/* Waits until all output has left. false: it has not, or bytes written since the last call were lost. */
+bool port_drain(void);
 
 /* terminal.c: the console */
 void terminal_open(void);

@@ -26,6 +26,7 @@ enum { EXIT_PORT = 6 };
 static struct {
     int fd;              /* -1: lost */
     bool is_fast;
+    bool has_lost;       /* bytes that were written, since port_drain() */
     uint32_t rate_bps;
     uint64_t try_at;     /* when to try to reopen it */
 } port = {.fd = -1};
@@ -130,11 +131,15 @@ void port_poll(struct pollfd *entry)
     *entry = (struct pollfd){.fd = port.fd, .events = POLLIN};
 }
 
-void port_drain(void)
+bool port_drain(void)
 {
-    if (port.fd >= 0) {
-        (void)ioctl(port.fd, TCSBRK, 1);
-    }
+    int failed;
+    do {
+        failed = ioctl(port.fd, TCSBRK, 1);
+    } while (failed && errno == EINTR);   /* the watchdog's alarm, which ends a wait of seconds */
+    const bool has_left = !failed && !port.has_lost;
+    port.has_lost = false;
+    return has_left;
 }
 
 bool machine_bus_is_there(void)
@@ -156,7 +161,7 @@ uint32_t machine_bus_rate(uint8_t divisor)
 {
     const uint32_t wanted = divisor == BUS_RATE_1M ? pc_options.rate_bps : 2000000u / (divisor + 1u);
     if (port.rate_bps != wanted) {
-        port_drain();
+        (void)port_drain();
         port.rate_bps = wanted;
         if (port.fd >= 0) {
             (void)set_line(port.fd);
@@ -167,7 +172,9 @@ uint32_t machine_bus_rate(uint8_t divisor)
 
 void machine_bus_write(const uint8_t *bytes, uint16_t count)
 {
-    if (port.fd >= 0 && write(port.fd, bytes, count) < 0 && errno != EAGAIN && errno != EINTR) {
+    const ssize_t written = port.fd >= 0 ? write(port.fd, bytes, count) : 0;
+    port.has_lost |= written != (ssize_t)count;
+    if (written < 0 && errno != EAGAIN && errno != EINTR) {
         lose();
     }
 }
