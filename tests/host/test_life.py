@@ -479,7 +479,7 @@ def test_a_signal_ends_edit_at_once(editor, number):
     assert editor.ended() == 0
 
 
-# A program that hangs
+# A computer that that hangs, or has a slow disk
 
 HANG = """
 #include <poll.h>
@@ -488,20 +488,45 @@ HANG = """
 int ppoll(struct pollfd *fds, nfds_t count, const struct timespec *wait, const sigset_t *mask)
 {
     (void)wait; (void)mask;
-    while (access(HANG_FILE, F_OK) == 0) { pause(); }
+    while (access(NOW, F_OK) == 0) { pause(); }
     return poll(fds, count, 1);
 }
 """
+SLOW_DISK = """
+#include <sys/syscall.h>
+#include <time.h>
+#include <unistd.h>
+static int slowly(long call, int file)
+{
+    struct timespec left = {.tv_nsec = 600000000};
+    while (nanosleep(&left, &left) != 0) { }  /* a signal does not interrupt a disk */
+    return (int)syscall(call, file);
+}
+int fsync(int file) { return slowly(SYS_fsync, file); }
+int fdatasync(int file) { return slowly(SYS_fdatasync, file); }
+"""
+
+
+def made(tmp_path, source):
+    """A library that replaces functions of the C library. Its file NOW is tmp_path / "now"."""
+    (tmp_path / "made.c").write_text(source)
+    subprocess.run(["cc", "-shared", "-fPIC", f'-DNOW="{tmp_path / "now"}"', "-o", tmp_path / "made.so", tmp_path / "made.c"], check=True)
+    return str(tmp_path / "made.so")
 
 
 def test_a_program_that_hangs_is_ended_with_a_sentence(make, files, tmp_path, monkeypatch):
-    (tmp_path / "hang.c").write_text(HANG)
-    subprocess.run(["cc", "-shared", "-fPIC", f'-DHANG_FILE="{tmp_path / "hang"}"', "-o", tmp_path / "hang.so", tmp_path / "hang.c"], check=True)
     robot = make(motions=files)
-    monkeypatch.setenv("LD_PRELOAD", str(tmp_path / "hang.so"))
+    monkeypatch.setenv("LD_PRELOAD", made(tmp_path, HANG))
     robot.run().expect("] ")
     monkeypatch.delenv("LD_PRELOAD")
-    (tmp_path / "hang").touch()
+    (tmp_path / "now").touch()
     until(lambda: robot.process.poll() is not None, "it hangs")
     assert robot.process.returncode == 70
     assert b"hung for a second" in robot.said + robot.process.stderr.read()
+
+
+def test_a_disk_that_takes_seconds_for_a_save_is_no_hang(make, files, tmp_path):
+    """The first start makes the files, and the save is six syncs in a row."""
+    slow = dict(os.environ, LD_PRELOAD=made(tmp_path, SLOW_DISK))
+    through_pipe(make(motions=files), "page 100\rinsert 0\rname xyz\rsave\r", "edit", env=slow)
+    assert from_bytes((tmp_path / "robot" / "pages.bin").read_bytes())[100].name == b"xyz"

@@ -84,6 +84,15 @@ static bool write_all(int file, const uint8_t *bytes, uint32_t count, off_t at)
     return true;
 }
 
+/* Calls fsync or fdatasync. A slow disk takes seconds for those of a save or of a new folder, but that is no hang. */
+static bool is_synced(int (*sync)(int), int file)
+{
+    machine_watch();
+    const bool is_done = sync(file) == 0;
+    machine_watch();
+    return is_done;
+}
+
 /* Makes a file of `count` bytes, either complete or not at all. */
 static int make_file(const char *name, const uint8_t *bytes, uint32_t count)
 {
@@ -92,8 +101,8 @@ static int make_file(const char *name, const uint8_t *bytes, uint32_t count)
     snprintf(temporary, sizeof temporary, "%s.new", path);
     const int file = open(temporary, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     const int parent = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (file < 0 || parent < 0 || !write_all(file, bytes, count, 0) || fsync(file) != 0 || rename(temporary, path) != 0
-        || fsync(parent) != 0) {
+    if (file < 0 || parent < 0 || !write_all(file, bytes, count, 0) || !is_synced(fsync, file)
+        || rename(temporary, path) != 0 || !is_synced(fsync, parent)) {
         const int why = errno;
         (void)unlink(temporary);   /* it would fill a full disk */
         pc_fail(EXIT_FILE, "%s: cannot be written: %s", path, strerror(why));
@@ -154,7 +163,7 @@ bool machine_recall(machine_memory_t memory, uint8_t *bytes, uint32_t count)
 bool machine_keep(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uint32_t count, bool now)
 {
     char sentence[PATH_BYTES + 128];
-    if (write_all(files[memory], bytes, count, (off_t)at) && (!now || fdatasync(files[memory]) == 0)) {
+    if (write_all(files[memory], bytes, count, (off_t)at) && (!now || is_synced(fdatasync, files[memory]))) {
         return true;
     }
     snprintf(sentence, sizeof sentence, "%s: not saved: %s", path_of(names[memory]), strerror(errno));
@@ -164,5 +173,5 @@ bool machine_keep(machine_memory_t memory, uint32_t at, const uint8_t *bytes, ui
 
 void machine_settle(machine_memory_t memory)
 {
-    (void)fdatasync(files[memory]);
+    (void)is_synced(fdatasync, files[memory]);
 }
