@@ -21,6 +21,7 @@
 #define PATIENCE_EXTRA (8u * MS)       /* beyond twice the longest answer time */
 #define PATIENCE_ONCE (100u * MS)      /* added for a packet with one try: the health poll, for which nobody waits */
 #define ANSWER_MAX (100u * MS)         /* longer answer times are those of a computer that slept */
+#define SLEPT (10u * 1000u * MS)       /* no answer is awaited for so long, except by a computer that slept */
 #define HELD_MAX (2u * MS)             /* the rest of an echo arrives sooner */
 #define MOVING_HALF_US (250u * MS)
 #define PROBES 3u
@@ -198,6 +199,10 @@ static bus_status_t look(bus_answer_t *answer)
 {
     const bool waited = core.state == BUS_LISTENING;
     host_fetch_bus();
+    if (waited && machine_now() > port.asked_at + SLEPT) {
+        port.asked_at = machine_now();   /* waits anew: the engine's 32 bits hold only 1,000 s */
+        core.since = (bus_time_t)port.asked_at;
+    }
     const bus_status_t status = bus_core_poll(&core, (bus_time_t)machine_now(), answer);
     if (waited && status == BUS_OK) {
         note_answer_time();

@@ -6,8 +6,8 @@
 #include "tick.h"
 
 static uint64_t start;
-static uint16_t taken, missed;
-static uint16_t late;
+static uint32_t taken;
+static uint16_t late, missed;
 
 void tick_init(void)
 {
@@ -29,19 +29,18 @@ uint16_t tick_now16(void)
 
 bool tick_is_due(void)
 {
-    return tick_now16() != taken;
+    return tick_now() != taken;
 }
 
 bool tick_take(void)
 {
-    uint16_t waiting = (uint16_t)(tick_now16() - taken);
+    const uint32_t waiting = tick_now() - taken;   /* more than 16 bits hold, if the computer slept */
     if (waiting == 0) {
         return false;
     }
-    late = (uint16_t)(waiting - 1u);
-    uint32_t sum = (uint32_t)missed + late;
-    missed = sum > UINT16_MAX ? UINT16_MAX : (uint16_t)sum;
-    taken = (uint16_t)(taken + waiting);
+    late = waiting > UINT16_MAX ? UINT16_MAX : (uint16_t)(waiting - 1u);
+    missed = late > UINT16_MAX - missed ? UINT16_MAX : (uint16_t)(missed + late);
+    taken += waiting;
     return true;
 }
 
@@ -57,7 +56,7 @@ uint16_t tick_missed(void)
 
 void tick_forgive(void)
 {
-    taken = tick_now16();
+    taken = tick_now();
 }
 
 uint64_t host_next_tick(void)

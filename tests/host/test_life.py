@@ -16,7 +16,7 @@ import time
 import pytest
 
 from m512.files.image import Image, from_bytes
-from tests.host.pc_robot import SYNC_WRITE, program, until
+from tests.host.pc_robot import SYNC_WRITE, Disturbed, program, until
 from tests.sim.made_page import page
 
 WRITE, REG_WRITE, ACTION, TORQUE, LED = 3, 4, 5, 24, 25
@@ -479,7 +479,7 @@ def test_a_signal_ends_edit_at_once(editor, number):
     assert editor.ended() == 0
 
 
-# A computer that that hangs, or has a slow disk
+# A computer that hangs, sleeps, or has a slow disk
 
 HANG = """
 #include <poll.h>
@@ -490,6 +490,17 @@ int ppoll(struct pollfd *fds, nfds_t count, const struct timespec *wait, const s
     (void)wait; (void)mask;
     while (access(NOW, F_OK) == 0) { pause(); }
     return poll(fds, count, 1);
+}
+"""
+SLEEP = """
+#include <sys/syscall.h>
+#include <time.h>
+#include <unistd.h>
+int clock_gettime(clockid_t which, struct timespec *time)
+{
+    const long result = syscall(SYS_clock_gettime, which, time);
+    time->tv_sec += which == CLOCK_BOOTTIME && access(NOW, F_OK) == 0 ? 3600 : 0;  /* the other clocks do not count sleep */
+    return (int)result;
 }
 """
 SLOW_DISK = """
@@ -530,3 +541,14 @@ def test_a_disk_that_takes_seconds_for_a_save_is_no_hang(make, files, tmp_path):
     slow = dict(os.environ, LD_PRELOAD=made(tmp_path, SLOW_DISK))
     through_pipe(make(motions=files), "page 100\rinsert 0\rname xyz\rsave\r", "edit", env=slow)
     assert from_bytes((tmp_path / "robot" / "pages.bin").read_bytes())[100].name == b"xyz"
+
+
+def test_a_play_is_broken_off_after_a_sleep_of_the_computer(make, files, tmp_path, monkeypatch):
+    robot = make(motions=files)
+    monkeypatch.setenv("LD_PRELOAD", made(tmp_path, SLEEP))
+    robot.run()
+    monkeypatch.delenv("LD_PRELOAD")
+    play(robot)
+    (tmp_path / "now").touch()
+    with pytest.raises(Disturbed, match="0.1 s late"):
+        robot.expect("Stopped")

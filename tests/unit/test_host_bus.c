@@ -8,6 +8,7 @@
 #include "dxl_packet.h"
 #include "fake_machine.h"
 #include "host.h"
+#include "tick.h"
 #include "unity.h"
 
 #define MS 2000u
@@ -183,6 +184,31 @@ static void test_echo_is_found_out_and_dropped(void)
         bus_counts(&counts);
         TEST_ASSERT_EQUAL(20, counts.answers);
         TEST_ASSERT_EQUAL(1, counts.timeouts);
+    }
+}
+
+/* The engine counts in 32 bits: 2,147 s, half of it into the past. */
+static void test_silent_servo_is_given_up_at_once_after_a_sleep_of_the_computer(void)
+{
+    bus_answer_t answer;
+    start(1 * MS, false);
+    TEST_ASSERT_EQUAL(BUS_PENDING, bus_start_read(4, DXL_AT_PRESENT, 2, 1));
+    fake_machine_pass(1200u * 1000u * MS);
+    const uint64_t before = host_next_tick();
+    TEST_ASSERT_EQUAL(BUS_ERR_TIMEOUT, bus_wait(&answer));
+    TEST_ASSERT_TRUE(host_next_tick() - before < 300 * MS);
+}
+
+static void test_tick_is_as_late_as_the_computer_slept(void)
+{
+    static const uint16_t seconds[] = {1, 511, 512, 513, 1024};
+    for (uint8_t i = 0; i < sizeof seconds / sizeof seconds[0]; i++) {
+        tick_init();
+        fake_machine_pass(seconds[i] * 1000u * MS);
+        TEST_ASSERT_TRUE(tick_take());
+        TEST_ASSERT_EQUAL(seconds[i] >= 512 ? 65535 : seconds[i] * TICK_HZ - 1u, tick_late());
+        TEST_ASSERT_EQUAL(tick_late(), tick_missed());
+        TEST_ASSERT_FALSE(tick_take());
     }
 }
 

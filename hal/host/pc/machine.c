@@ -28,11 +28,12 @@ static volatile sig_atomic_t silent_seconds;
 
 /* ---- time ---- */
 
+/* Counts the time in which the computer sleeps, too: a play must not go on when it wakes up. */
 uint64_t machine_now(void)
 {
     static time_t first;
     struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
+    clock_gettime(CLOCK_BOOTTIME, &now);
     if (first == 0) {
         first = now.tv_sec - 1;
     }
