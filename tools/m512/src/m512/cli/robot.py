@@ -250,7 +250,7 @@ Examples:
 def pose(positions: Sequence[str], speed: int, as_text: bool, **options: Any) -> None:
     """Show the pose of the robot, or move joints to positions (0..1023, or 30deg from the centre).
 
-    Moving one joint of a limp robot switches the torque of all joints on: the others hold the pose that they are in.
+    The joints that move get torque. The others stay as they are, limp or holding.
     """
     wanted, failed = positions_of(positions), None
     with robot(options) as client:
@@ -322,7 +322,7 @@ def torque(state: str, ids: list[int], **options: Any) -> None:
     """Switch the torque of all joints, or of some IDs. On holds the pose that the joints are in.
 
     A board moves nothing that was switched off until `torque on`. On -p bus:... each command starts the program anew, so there the next
-    command that moves switches all joints on again.
+    command that moves switches its joints on again.
     """
     from m512.board.bus import is_bus
 
@@ -330,7 +330,7 @@ def torque(state: str, ids: list[int], **options: Any) -> None:
         client.torque(state == "on", ids)
         _report(client, options["as_json"])
     if state == "off" and is_bus(options["port"] or ""):
-        ui.say("note: the next command that moves (play, pose ID:POSITION) switches all joints on again: each command starts the program anew")
+        ui.say("note: the next command that moves (play, pose ID:POSITION) switches its joints on again: each command starts the program anew")
 
 
 @click.command(
