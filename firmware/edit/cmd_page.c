@@ -167,10 +167,10 @@ const char *cmd_page_saved_P(page_save_status_t status)
     TEXT_NAMED(verify, "Not saved: flash error");
     TEXT_NAMED(no_writer, "No boot loader can write: kept in RAM");
     TEXT_NAMED(pending, "Not saved: the next start tries again");
-    TEXT_NAMED(restart, "Not saved: EXIT first, an earlier save is pending");
+    TEXT_NAMED(exit_first, "Not saved: EXIT first, an earlier save is pending");
     static const char *const results[] PROGMEM = {
         [PAGE_SAVE_OK] = ok, [PAGE_SAVE_UNCHANGED] = unchanged, [PAGE_SAVE_ERR_VERIFY] = verify,
-        [PAGE_SAVE_ERR_NO_WRITER] = no_writer, [PAGE_SAVE_ERR_PENDING] = pending, [PAGE_SAVE_ERR_RESTART] = restart,
+        [PAGE_SAVE_ERR_NO_WRITER] = no_writer, [PAGE_SAVE_ERR_PENDING] = pending, [PAGE_SAVE_ERR_RESTART] = exit_first,
     };
     return pgm_read_ptr(&results[status]);
 }
