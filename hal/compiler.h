@@ -10,7 +10,8 @@
 #define STATIC_ASSERT(condition, text) _Static_assert(condition, text)
 
 /* For functions that -Os inlines badly. ALWAYS_INLINE: a few instructions, called hundreds of times per tick. NOINLINE:
- * inlined copies would take 200 bytes or more, or keep bytes on the stack of the main loop. */
+ * inlined copies would take 200 bytes or more, or bytes that Edit does not have, or keep bytes on the stack of the main
+ * loop. */
 #define ALWAYS_INLINE static inline __attribute__((always_inline))
 #define NOINLINE __attribute__((noinline))
 

@@ -41,7 +41,7 @@ export class RobotImages {
     run(image: ImageName): void {
         const { source } = this.state;
         const run = async (): Promise<void> => {
-            if (this.edit !== null) await this.mustHaveNoEdits();
+            if (this.edit !== null) await this.mustHaveNoEdits(); // else it restarts at once
             await this.restart(image);
         };
         void run().catch((error: unknown) => source === this.state.source && this.parts.fail(error));

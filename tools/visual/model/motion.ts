@@ -7,6 +7,8 @@ import * as facts from './facts.ts';
 export const { PAGE_BYTES, PAGE_COUNT } = facts;
 export const JOINTS = facts.PAGE_JOINTS;
 export const TICKS_PER_SECOND = facts.PLAYER_TICKS_PER_SECOND;
+/** The longest part of a play that the player gives at once: 128 s. */
+export const CURVE_TICKS_MOST = facts.MOTION_API_CURVE_TICKS;
 /** Servo positions are 0..POSITION_MAX. */
 export const POSITION_MAX = facts.PAGE_POS_MAX;
 /** Servo position in the middle of its range. */
@@ -250,7 +252,7 @@ export class Motion {
         this.api.motion_api_code(code);
     }
 
-    /** Continues the play for at most this many ticks (MOTION_API_CURVE_TICKS per call). */
+    /** Continues the play for at most this many ticks (CURVE_TICKS_MOST per call). */
     curve(ticks: number): Curve {
         const played = this.api.motion_api_curve(ticks);
         const memory = this.api.memory.buffer;

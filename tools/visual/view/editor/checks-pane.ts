@@ -7,7 +7,7 @@ import type { PageFinding } from '../../model/checks.ts';
 import { imageOf, pageOf } from '../../model/document.ts';
 import type { MotionDocument } from '../../model/document.ts';
 import type { Finding } from '../../model/file-formats.ts';
-import { MARK_BYTES, NOMINAL_VOLTS } from '../../model/motion.ts';
+import { CURVE_TICKS_MOST, MARK_BYTES, NOMINAL_VOLTS } from '../../model/motion.ts';
 import type { Curve, Law } from '../../model/motion.ts';
 import type { Tab } from '../session/session.ts';
 import { define, make, setText } from '../element.ts';
@@ -23,8 +23,6 @@ import './checks-pane.css';
 const WAIT_MS = 400;
 /** 47 s: usually enough for a page's own steps. A motion that loops is played that long each time that it is checked. */
 const CURVE_TICKS = 6000;
-/** 128 s: as much as the player gives at once (MOTION_API_CURVE_TICKS). */
-const LONG_CURVE_TICKS = 16384;
 
 interface Shown {
     readonly page: number;
@@ -110,7 +108,7 @@ export class ChecksPane extends SessionElement {
         const { editor } = this.session;
         const curve = editor.curve(page, { ticks: CURVE_TICKS });
         const isLonger = curve !== null && !curve.ended && curve.marks.every((mark, i) => i % MARK_BYTES > 0 || mark === page);
-        return isLonger ? editor.curve(page, { ticks: LONG_CURVE_TICKS }) : curve;
+        return isLonger ? editor.curve(page, { ticks: CURVE_TICKS_MOST }) : curve;
     }
 
     private shownOf(one: PageFinding): Shown {

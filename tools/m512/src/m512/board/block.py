@@ -242,15 +242,19 @@ class BlockLoader:
     def leave(self, to: int = STAY) -> None:
         """Ends the session."""
         self._ask(LEAVE, to.to_bytes(2, "little"), may_go=to != STAY)
-        if self.rate != BAUD:
+        self._slow_down()
+
+    def _slow_down(self) -> bool:
+        """Sets the usual rate. Returns whether it was another."""
+        was_fast = self.rate != BAUD
+        if was_fast:
             self.link.set_rate(BAUD)
             self.rate = BAUD
+        return was_fast
 
     def _has_gone(self) -> bool:
         """Whether the loader answers no more. An application may listen by now, so the question is that of the beginning."""
-        if self.rate != BAUD:
-            self.link.set_rate(BAUD)
-            self.rate = BAUD
+        if self._slow_down():
             self.link.sleep(BACK_SECONDS)
         self.number = FIRST_NUMBER
         try:

@@ -370,20 +370,21 @@ class Client:
         """Why the motion that this Client has begun, and that has ended, did not come to its end. Empty: it did, or somebody has stopped it."""
         for _ in range(TRIES):
             faulty = int(self.where().get("faulty", "0"), 16)
-            said = self._said_lines()
-            if self.version["image"] != "play" or any(END.fullmatch(line) for line in said):
+            if self.version["image"] != "play" or self._has_said(END):
                 break
             self.link.sleep(0.1)  # Play prints the end soon after its state is idle; Edit does not print that of a program's motion
-        as_asked = any(AS_ASKED.fullmatch(line) for line in said)
-        if not any(BROKEN_OFF.fullmatch(line) for line in said) and (as_asked or not faulty):
+        if not self._has_said(BROKEN_OFF) and (self._has_said(AS_ASKED) or not faulty):
             return ""
-        why = [line for line in said if BROKEN_OFF.fullmatch(line) or CAUSE.fullmatch(line)]
+        why = [line for line in self._said_lines() if BROKEN_OFF.fullmatch(line) or CAUSE.fullmatch(line)]
         if faulty:
             why.append(f"fault of servo {' '.join(str(joint) for joint in range(JOINTS) if faulty >> joint & 1)} (m512 doctor)")
         return "; ".join(why)
 
     def _said_lines(self) -> list[str]:
         return re.split("[\r\n]+", self.said.decode("ascii", "replace"))
+
+    def _has_said(self, sentence: re.Pattern[str]) -> bool:
+        return any(sentence.fullmatch(line) for line in self._said_lines())
 
     def shape(self) -> dict[str, str]:
         """What shapes the motion, as shape_in_words() says it."""
@@ -402,7 +403,7 @@ class Client:
                 self.ask(request, tries=1)
                 return
             except NoAnswerError:
-                if stood and (self.where()["state"] != "idle" or any(END.fullmatch(line) for line in self._said_lines())):
+                if stood and (self.where()["state"] != "idle" or self._has_said(END)):
                     return
         raise NoAnswerError(f"no answer to @{request.split()[0]}. {CHECK}{self.link.remedy}")
 
