@@ -46,9 +46,10 @@ def test_a_folder_in_use_is_called_so(make):
 
 def test_motions_of_a_folder_that_has_its_own_are_not_read_and_it_says_so(make, tmp_path):
     robot = make().run()
+    robot.expect("] ")  # its files are made after "serial port" and before the prompt
     robot.stop()
     robot.run("--motions", tmp_path / "missing.bin")
-    assert "robot has its own motions" in robot.said.decode() and "missing.bin is not read" in robot.said.decode()
+    assert robot.told(r"robot has its own motions: .*missing\.bin is not read")
 
 
 def test_motions_that_cannot_be_read_are_called_so(make, tmp_path):
