@@ -63,7 +63,7 @@ def test_a_plug_pulled_while_nothing_plays_is_named_too(make, files):
     robot.expect("18 servos")
     robot.pull()
     robot.expect("The servo adapter is gone")
-    assert "does not answer" in str(robot.console) or robot.ask("status")
+    robot.ask("status")  # it goes on to answer
     robot.plug()
     robot.told("the servo adapter is back")
     assert goals_since_it_is_back(robot) == []
