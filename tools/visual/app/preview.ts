@@ -14,6 +14,7 @@ import { JOINTS, MARK_BYTES, TICKS_PER_SECOND } from '../model/motion.ts';
 import type { Curve } from '../model/motion.ts';
 import { heading, multiply, rotate, turn } from '../model/space.ts';
 import type { Place } from '../model/space.ts';
+import { wholeCurve } from '../model/whole-curve.ts';
 import { Standing } from '../sim/standing.ts';
 import { isEditing } from '../view/editor/editing.ts';
 import type { SessionState } from '../view/session/session.ts';
@@ -24,7 +25,7 @@ import { Store } from '../view/store.ts';
 /** Ticks between two updates of the feet: 64 updates a second. */
 const STRIDE = 2;
 /** A looping motion is cut here: 32 s. */
-const MOST_TICKS = 32 * TICKS_PER_SECOND;
+const LOOP_TICKS = 32 * TICKS_PER_SECOND;
 const ORIGIN: Place = { pos: [0, 0, 0], quat: [1, 0, 0, 0] };
 
 export interface PreviewParts {
@@ -192,7 +193,7 @@ export class MotionPreview implements Preview {
 
     private take(page: number): boolean {
         const { editor, body, trunk } = this.parts;
-        const curve = editor.curve(page, { ticks: MOST_TICKS });
+        const curve = wholeCurve(ticks => editor.curve(page, { ticks }), LOOP_TICKS);
         if (!curve || curve.ticks === 0) return false;
         this.motion = new ShownMotion(body, curve, trunk() ?? ORIGIN);
         this.state.set({ page, tick: 0, ticks: curve.ticks });

@@ -98,7 +98,7 @@ void motion_api_code(int code);
 
 /* Continues the play for at most `ticks` (up to MOTION_API_CURVE_TICKS) and writes its curve: for each tick (1/128 s)
  * 31 goals and three bytes (page, step, PLAYER_EV_ bits). Returns the ticks played. Fewer than requested: the play ended. */
-#define MOTION_API_CURVE_TICKS 16384
+#define MOTION_API_CURVE_TICKS 76800 /* 10 minutes */
 #define MOTION_API_MARK_BYTES 3
 uint32_t motion_api_curve(uint32_t ticks);
 const uint16_t *motion_api_curve_goals(void);

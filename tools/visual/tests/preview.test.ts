@@ -5,7 +5,7 @@ import { expect, test } from 'vitest';
 import { DocumentEditor } from '../app/editor.ts';
 import { MotionPreview } from '../app/preview.ts';
 import type { Body } from '../model/body.ts';
-import { AS_STORED } from '../model/motion.ts';
+import { AS_STORED, JOINTS } from '../model/motion.ts';
 import type { Where } from '../robot/protocol.ts';
 import type { SessionState } from '../view/session/session.ts';
 import { Store } from '../view/store.ts';
@@ -14,6 +14,7 @@ import { libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
 const body = JSON.parse(await readFile(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
 const { format } = await makeFormat();
 const WAVE = 3;
+const WALK = 20;
 const TRUNK = { pos: [2, 1, 0.3], quat: [Math.SQRT1_2, 0, 0, Math.SQRT1_2] } as const; // turned to the left
 
 async function shown() {
@@ -116,6 +117,22 @@ test('from a step: its first tick; the scrubber stands still where it is put', a
     expect(preview.sinceStep()).toBe(0);
     preview.seek(WAVE, 40);
     expect(preview.state.get()).toMatchObject({ tick: 40, isRunning: false, figure: 'shown' });
+});
+
+test('a motion that is long has its whole length and its last step; one that loops is cut at 32 s', async () => {
+    const { editor, preview } = await shown();
+    const { edits } = editor;
+    const joints = (position: number) => Array.from({ length: JOINTS }, (_, id) => (id === 3 ? position : null));
+    const steps = [400, 420, 440, 460, 480, 500, 520].map(position => ({ positions: joints(position), time: 255, pause: 255 }));
+    const page = 100; // free in the library
+    editor.dispatch(edits.insertSteps(editor.state.get().document, page, 0, steps));
+    editor.dispatch(edits.setHeader(editor.state.get().document, page, { speed: 255 }));
+    preview.start(page, 6);
+    expect(preview.state.get().at).toEqual({ page, step: 7 });
+    // 7 steps of 255 + 255 ticks at nominal speed 32
+    expect(preview.state.get().ticks / ((7 * 510 * 255) / 32)).toBeCloseTo(1, 2);
+    preview.start(WALK);
+    expect(preview.state.get().ticks).toBe(32 * 128);
 });
 
 test('while a robot plays, and behind it, the figure is the robot, until somebody edits or chooses a step', async () => {

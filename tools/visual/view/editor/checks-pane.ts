@@ -7,8 +7,9 @@ import type { PageFinding } from '../../model/checks.ts';
 import { imageOf, pageOf } from '../../model/document.ts';
 import type { MotionDocument } from '../../model/document.ts';
 import type { Finding } from '../../model/file-formats.ts';
-import { CURVE_TICKS_MOST, MARK_BYTES, NOMINAL_VOLTS } from '../../model/motion.ts';
-import type { Curve, Law } from '../../model/motion.ts';
+import { NOMINAL_VOLTS } from '../../model/motion.ts';
+import type { Law } from '../../model/motion.ts';
+import { wholeCurve } from '../../model/whole-curve.ts';
 import type { Tab } from '../session/session.ts';
 import { define, make, setText } from '../element.ts';
 import type { PageTrial } from '../session/trials.ts';
@@ -21,7 +22,7 @@ import { SessionElement } from '../session-element.ts';
 import './checks-pane.css';
 
 const WAIT_MS = 400;
-/** 47 s: usually enough for a page's own steps. A motion that loops is played that long each time that it is checked. */
+/** 47 s: a motion that loops is played that long each time that it is checked. */
 const CURVE_TICKS = 6000;
 
 interface Shown {
@@ -98,17 +99,9 @@ export class ChecksPane extends SessionElement {
             format: editor.format,
             body,
             topSpeed: editor.topSpeed(NOMINAL_VOLTS),
-            curve: (page: number) => this.curve(page),
+            curve: (page: number) => wholeCurve(ticks => editor.curve(page, { ticks }), CURVE_TICKS),
         };
         return [...this.pageChecks.look(document, options), ...checkLinks(editor.format, document)];
-    }
-
-    /** At least one pass of the page, as far as the player gives it at once. */
-    private curve(page: number): Curve | null {
-        const { editor } = this.session;
-        const curve = editor.curve(page, { ticks: CURVE_TICKS });
-        const isLonger = curve !== null && !curve.ended && curve.marks.every((mark, i) => i % MARK_BYTES > 0 || mark === page);
-        return isLonger ? editor.curve(page, { ticks: CURVE_TICKS_MOST }) : curve;
     }
 
     private shownOf(one: PageFinding): Shown {
