@@ -57,9 +57,9 @@ export class DocumentFiles implements Files {
 
     async choose(file: ChosenFile, ...others: readonly ChosenFile[]): Promise<void> {
         const mine = ++this.chosen;
-        if (others.length > 0) return this.state.set({ ...NOTHING, trouble: TEXTS.files.oneOnly(others.length + 1) });
+        this.last = null; // what is still being read is not shown any more
         const end = this.begin(TEXTS.files.reading(file.name));
-        const bytes = await bytesOf(file);
+        const bytes = others.length > 0 ? TEXTS.files.oneOnly(others.length + 1) : await bytesOf(file);
         if (mine !== this.chosen) return;
         if (typeof bytes !== 'string') return this.open(file.name, bytes);
         end();

@@ -141,9 +141,25 @@ test('a file that comes late, as from a network drive, does not take the place o
     expect(files.state.get().opened?.name).toBe('soon.mtn');
 });
 
-test('several files dropped at once: none is opened, and it is said', async () => {
+const lost = { name: 'lost.mtn', size: 0, arrayBuffer: () => Promise.reject(new Error('gone')) };
+
+test.each([
+    ['two files', [lost, lost], TEXTS.files.oneOnly(2)],
+    ['a file that cannot be read', [lost], TEXTS.files.unreadable('lost.mtn')],
+] as const)('%s, dropped while another is being read: the sentence takes its place', async (_, [file, ...others], trouble) => {
     const { files } = await opened(new Map());
-    const one = { name: 'a.mtn', size: 0, arrayBuffer: () => Promise.resolve(new ArrayBuffer(0)) };
-    await files.choose(one, { ...one, name: 'b.mtn' });
-    expect(files.state.get()).toMatchObject({ opened: null, trouble: TEXTS.files.oneOnly(2) });
+    let answer = (_: object): void => undefined;
+    const asked = vi.spyOn(files.formats, 'open').mockImplementation(() => new Promise(resolve => (answer = resolve as typeof answer)));
+    let come = (_: ArrayBuffer): void => undefined;
+    const onItsWay = files.choose({ name: 'slow.mtn', size: 1, arrayBuffer: () => new Promise(resolve => (come = resolve)) });
+    await files.choose(file, ...others);
+    come(new ArrayBuffer(1));
+    await onItsWay;
+    expect(files.state.get()).toMatchObject({ busy: null, opened: null, trouble });
+    const here = files.choose({ name: 'here.mtn', size: 1, arrayBuffer: () => Promise.resolve(new ArrayBuffer(1)) });
+    await vi.waitFor(() => expect(asked).toHaveBeenCalledOnce());
+    await files.choose(file, ...others);
+    answer({ kind: 'opened', image: imageOf(library), notes: [], losses: [] });
+    await here;
+    expect(files.state.get()).toMatchObject({ busy: null, opened: null, trouble });
 });
