@@ -6,6 +6,8 @@ import type { Body } from '../model/body.ts';
 import { pageOf } from '../model/document.ts';
 import { ask, askText } from '../view/editor/ask-dialog.ts';
 import { PageActions } from '../view/editor/page-actions.ts';
+import type { DocumentsState } from '../view/session/documents.ts';
+import { Store } from '../view/store.ts';
 import { libraryDocument, makeFormat, makeMotion, must } from './motion-bench.ts';
 
 vi.mock('../view/editor/ask-dialog.ts', () => ({ ask: vi.fn(), askText: vi.fn() }));
@@ -28,7 +30,8 @@ function open(changed: number) {
         editor.dispatch(editor.edits.replacePages(editor.state.get().document, new Map([[changed, pageOf(library, 2)]])));
         return Promise.resolve(answer);
     };
-    return { editor, refused, replaced, actions: new PageActions(editor) };
+    const documents = { state: new Store({ openId: 'mine' } as DocumentsState) };
+    return { editor, refused, replaced, documents, actions: new PageActions(editor, documents) };
 }
 
 beforeEach(() => void vi.resetAllMocks());
@@ -65,4 +68,15 @@ test.each(ACTIONS)('%s: another motion may change meanwhile', async (_, answer, 
     const { document } = editor.state.get();
     expect(pageOf(document, ELSEWHERE)).toEqual(pageOf(library, 2));
     expect([ONE, OTHER, FREE].some(page => !format.isSame(pageOf(document, page), pageOf(library, page)))).toBe(true);
+});
+
+test('a motion taken by Ctrl+C is put by Ctrl+V, but not into another document, where its number is another motion', async () => {
+    const { documents, actions } = open(ELSEWHERE);
+    actions.take(ONE);
+    documents.state.set({ openId: 'theirs' });
+    await actions.putTaken(FREE);
+    expect(ask).not.toHaveBeenCalled();
+    documents.state.set({ openId: 'mine' });
+    await actions.putTaken(FREE);
+    expect(ask).toHaveBeenCalledOnce();
 });

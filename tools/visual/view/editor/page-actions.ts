@@ -4,6 +4,7 @@
 import { pageOf } from '../../model/document.ts';
 import type { MotionDocument } from '../../model/document.ts';
 import { freePage } from '../../model/page-edits.ts';
+import type { Documents } from '../session/documents.ts';
 import type { Editor } from '../session/editor.ts';
 import { make } from '../element.ts';
 import { ask, askText } from './ask-dialog.ts';
@@ -17,11 +18,13 @@ export const MOTION_NUMBER = '0*([1-9][0-9]?|1[01][0-9]|12[0-7])';
 
 export class PageActions {
     private readonly editor: Editor;
-    /** The page taken by Ctrl+C or Ctrl+X; 0: none. */
-    private taken = 0;
+    private readonly documents: Pick<Documents, 'state'>;
+    /** The page taken by Ctrl+C or Ctrl+X, a motion of that document; 0: none. */
+    private taken = { page: 0, from: '' };
 
-    constructor(editor: Editor) {
+    constructor(editor: Editor, documents: Pick<Documents, 'state'>) {
         this.editor = editor;
+        this.documents = documents;
     }
 
     async rename(page: number): Promise<void> {
@@ -49,11 +52,12 @@ export class PageActions {
     }
 
     take(page: number): void {
-        this.taken = page;
+        this.taken = { page, from: this.documents.state.get().openId };
     }
 
     async putTaken(onto: number): Promise<void> {
-        if (this.taken !== 0) await this.transfer(this.taken, onto);
+        const { page, from } = this.taken;
+        if (page !== 0 && from === this.documents.state.get().openId) await this.transfer(page, onto);
     }
 
     /** Asks for the target page's number, as an alternative to dragging. */

@@ -39,7 +39,7 @@ export class PagesPane extends SessionElement {
     private playing = -1;
 
     connectedCallback(): void {
-        this.actions = new PageActions(this.session.editor);
+        this.actions = new PageActions(this.session.editor, this.session.documents);
         this.makeCards();
         this.replaceChildren(make('p', { class: 'purpose' }, TEXTS.motions.purpose), this.tools(), this.list, this.nothing);
         this.listen();
