@@ -59,20 +59,24 @@ function field(editor: Editor, page: number, link: LinkField): HTMLElement[] {
     const choice = make(
         'select',
         { 'aria-label': TEXTS.links.names[link] },
-        ...targets(editor).map(([value, title]) => make('option', { value, selected: value === target }, title)),
+        ...targets(editor, target).map(([value, title]) => make('option', { value, selected: value === target }, title)),
     );
     onChoice(choice, to => editor.dispatch(editor.edits.setLink(editor.state.get().document, page, link, Number(to))));
     const go = make(
         'button',
-        { disabled: target === 0, 'aria-label': TEXTS.links.show(TEXTS.links.names[link]), onclick: () => editor.select({ page: target }) },
+        {
+            disabled: target === 0 || target >= PAGE_COUNT,
+            'aria-label': TEXTS.links.show(TEXTS.links.names[link]),
+            onclick: () => editor.select({ page: target }),
+        },
         TEXTS.page.show,
     );
     const code = CODE_OF[link];
     return [make('label', {}, TEXTS.links.names[link]), choice, code ? codeField(editor, page, link, code) : make('span'), go];
 }
 
-/** Possible targets. Empty pages come last: they may be filled later. */
-function targets(editor: Editor): [number, string][] {
+/** Possible targets. Empty pages come last: they may be filled later. A robot with 256 pages may link to one that the document lacks. */
+function targets(editor: Editor, now: number): [number, string][] {
     const { document } = editor.state.get();
     const all = Array.from({ length: PAGE_COUNT - 1 }, (_, i) => i + 1);
     const isUsed = (page: number): boolean => !editor.format.isEmpty(document.pages[page] ?? editor.format.empty);
@@ -82,6 +86,7 @@ function targets(editor: Editor): [number, string][] {
             page,
             `${page} ${editor.page(page).name || TEXTS.motion.isEmpty}`,
         ]),
+        ...(now < PAGE_COUNT ? [] : [[now, TEXTS.links.notHere(now)] satisfies [number, string]]),
     ];
 }
 

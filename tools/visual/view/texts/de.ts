@@ -773,6 +773,7 @@ const DE: Texts = {
         show: link => `${link} zeigen`,
         keyOf: link => `Taste von ${link}`,
         noTarget: 'keine',
+        notHere: page => `${page}, nicht im Dokument`,
         noKey: 'keine Taste',
         ask: 'Verknüpfen',
         which: (from, to) => `Welche Verknüpfung von ${from} soll zu ${to} führen?`,

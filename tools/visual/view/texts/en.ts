@@ -852,6 +852,7 @@ export const EN = {
         show: (link: string) => `Show ${link}`,
         keyOf: (link: string) => `Key of ${link}`,
         noTarget: 'none',
+        notHere: (page: number) => `${page}, not in the document`,
         noKey: 'no key',
         ask: 'Link',
         which: (from: string, to: string) => `Which link of ${from} should lead to ${to}?`,

@@ -757,6 +757,7 @@ const ES: Texts = {
         show: link => `Mostrar ${link}`,
         keyOf: link => `Tecla de ${link}`,
         noTarget: 'ninguno',
+        notHere: page => `${page}, no está en el documento`,
         noKey: 'ninguna tecla',
         ask: 'Enlazar',
         which: (from, to) => `¿Qué enlace del ${from} debe llevar al ${to}?`,

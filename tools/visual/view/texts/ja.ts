@@ -762,6 +762,7 @@ const JA: Texts = {
         show: link => `${link}を表示`,
         keyOf: link => `${link}のキー`,
         noTarget: 'なし',
+        notHere: page => `${page}（ドキュメントにない）`,
         noKey: 'キーなし',
         ask: 'リンク',
         which: (from, to) => `${from}のどのリンクを${to}につなぎますか。`,

@@ -732,6 +732,7 @@ const KO: Texts = {
         show: link => `${link} 보기`,
         keyOf: link => `${link}의 키`,
         noTarget: '없음',
+        notHere: page => `${page}(문서에 없음)`,
         noKey: '키 없음',
         ask: '연결',
         which: (from, to) => `${from} → ${to}: 어떤 연결로 이을까요?`,
