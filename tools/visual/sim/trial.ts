@@ -42,6 +42,8 @@ interface Exports {
 class Play {
     readonly positions: Float32Array;
     readonly pages = new Set<number>();
+    /** Ticks since the start, and how many of them are recorded. */
+    passed = 0;
     ticks = 0;
     isOn = false;
     now: TrialMoment;
@@ -138,10 +140,11 @@ export class TrialStand {
         const { api } = this;
         play.isOn = api.trial_api_run(1) !== 0;
         const page = api.trial_api_page();
-        if (page > 0) play.now = { tick: play.ticks, page, step: api.trial_api_step() - 1 };
+        if (page > 0) play.now = { tick: play.passed, page, step: api.trial_api_step() - 1 };
         if (page > 0) play.pages.add(page);
         if (isNoted) this.notePositions(play);
         if (this.physical.upright < FALLEN) play.fell ??= play.now;
+        play.passed++;
     }
 
     private notePositions(play: Play): void {

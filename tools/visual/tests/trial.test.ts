@@ -43,11 +43,14 @@ test('who stands still stands; who leans far over the toes falls there, and stay
     expect(still.ended).toBe(true);
     // Both ankles by 46 degrees: the centre of mass at 0.2 m height moves 0.14 m ahead of soles that reach 0.05 m.
     const lean = { [servoOf('right_ankle_pitch')]: 512 + 160, [servoOf('left_ankle_pitch')]: 512 - 160 };
-    const { kind, at } = verdictOf(played(stand, request(pageOf([step({}), step({}), step(lean, 60), step(lean, 200)]))));
+    const falling = pageOf([step({}), step({}), step(lean, 60), step(lean, 200)]);
+    const { kind, at } = verdictOf(played(stand, request(falling)));
     expect(kind).toBe('falls');
     expect([2, 3]).toContain(at?.step);
     expect(at?.tick).toBeGreaterThan(200); // the first two steps take that long
     expect(at?.tick).toBeLessThan(360);
+    // It is stopped at 150, and falls before it ends.
+    expect(verdictOf(played(stand, request(falling, { ticks: 150 }))).at).toEqual(at);
 });
 
 test('a servo lags behind a steady ramp by slope x speed / top speed (servo_motion.h), and more when it is shaped to go faster', () => {
