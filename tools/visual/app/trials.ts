@@ -5,16 +5,18 @@ import { imageOf, pageOf } from '../model/document.ts';
 import { AS_STORED, NOMINAL_VOLTS, TICKS_PER_SECOND } from '../model/motion.ts';
 import type { Law, Shape } from '../model/motion.ts';
 import { deepestTouches, posesOf, verdictOf } from '../model/trial.ts';
-import type { StepTouch, Touch, TrialRecord, TrialRequest } from '../model/trial.ts';
+import type { Touch, TrialRecord, TrialRequest } from '../model/trial.ts';
+import { wholeCurve } from '../model/whole-curve.ts';
 import type { TrialClient } from '../sim/trial-client.ts';
 import { Store } from '../view/store.ts';
 import type { Trials, TrialsState } from '../view/session/trials.ts';
 import { orAborted } from './aborted.ts';
 import type { DocumentEditor } from './editor.ts';
 
-/** A looping motion is stopped after this: 6 s. */
-const TICKS = 6 * TICKS_PER_SECOND;
-const CURVE_TICKS = 6000;
+/** A looping motion is stopped after 6 s, but not before it begins anew. */
+const LOOP_TICKS = 6 * TICKS_PER_SECOND;
+/** Any motion is stopped after this: 60 s, which take physics some seconds. */
+const MOST_TICKS = 60 * TICKS_PER_SECOND;
 
 /** The law and pages for which a trial is valid. */
 interface Tried {
@@ -80,6 +82,10 @@ export class MotionTrials implements Trials {
         return tried !== undefined && tried.law === law && [...tried.pages].every(([one, bytes]) => pageOf(document, one) === bytes);
     }
 
+    isJudged(page: number): boolean {
+        return this.isFresh(page) && this.state.get().trials.get(page)?.verdict.isWhole === true;
+    }
+
     async follow(page: number, ticks: number, shape: Shape, signal: AbortSignal): Promise<Float32Array | null> {
         if (!this.isPlayable(page) || this.hasFailed) return null;
         const request = { ...this.request(page, shape, ticks), toTheEnd: false };
@@ -107,21 +113,16 @@ export class MotionTrials implements Trials {
     private async tryPage(client: TrialClient, page: number, signal: AbortSignal): Promise<void> {
         const { document, law } = this.editor.state.get();
         const reached = new Map(this.editor.format.reach(document, page).map(one => [one, pageOf(document, one)]));
-        const request = this.request(page, AS_STORED, TICKS);
-        const touches = await this.touchesOf(client, page);
+        const curve = wholeCurve(ticks => this.editor.curve(page, { ticks }), LOOP_TICKS);
+        if (!curve) return;
+        const request = this.request(page, AS_STORED, Math.min(curve.ticks, MOST_TICKS));
+        const { poses, steps } = posesOf(curve, page);
+        const touches = deepestTouches(steps, await client.touching(poses));
         const record = await this.play(client, request, signal);
         signal.throwIfAborted();
+        const verdict = verdictOf(record, curve.ticks > MOST_TICKS);
         this.tried.set(page, { law, pages: reached });
-        this.state.set({
-            trials: new Map([...this.state.get().trials, [page, { verdict: verdictOf(record), pages: record.pages, touches }]]),
-        });
-    }
-
-    private async touchesOf(client: TrialClient, page: number): Promise<StepTouch[]> {
-        const curve = this.editor.curve(page, { ticks: CURVE_TICKS });
-        if (!curve) return [];
-        const { poses, steps } = posesOf(curve, page);
-        return deepestTouches(steps, await client.touching(poses));
+        this.state.set({ trials: new Map([...this.state.get().trials, [page, { verdict, pages: record.pages, touches }]]) });
     }
 
     private play(client: TrialClient, request: TrialRequest, signal: AbortSignal): Promise<TrialRecord> {

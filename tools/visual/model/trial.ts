@@ -64,11 +64,14 @@ export interface Verdict {
     readonly at: TrialMoment | null;
     /** Recorded length. */
     readonly seconds: number;
+    /** false: the motion goes on longer than it was tried, and nobody knows how. */
+    readonly isWhole: boolean;
 }
 
-export function verdictOf({ stood, fell, ended, onFeet, ticks }: TrialRecord): Verdict {
+/** isLonger: the play was stopped before all of it was played once. */
+export function verdictOf({ stood, fell, ended, onFeet, ticks }: TrialRecord, isLonger = false): Verdict {
     const kind = !stood ? 'no-start' : fell ? (onFeet ? 'rises' : 'falls') : onFeet || !ended ? 'stands' : 'low';
-    return { kind, at: fell, seconds: ticks / TICKS_PER_SECOND };
+    return { kind, at: fell, seconds: ticks / TICKS_PER_SECOND, isWhole: ended && !isLonger };
 }
 
 /** Less than this is a light touch: the length of a hand and the bend of a bracket are not known more precisely. Metres. */

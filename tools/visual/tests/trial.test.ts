@@ -116,6 +116,7 @@ test('the verdict: what stood, fell, rose, ended low or could not begin', () => 
     expect(kindOf({ ended: false, onFeet: false })).toBe('stands'); // does not end and has not fallen
     expect(kindOf({ onFeet: false })).toBe('low');
     expect(kindOf({ fell: at })).toBe('rises');
-    expect(verdictOf({ ...record, fell: at, onFeet: false })).toEqual({ kind: 'falls', at, seconds: 2 });
+    expect(verdictOf({ ...record, fell: at, onFeet: false })).toEqual({ kind: 'falls', at, seconds: 2, isWhole: true });
     expect(kindOf({ stood: false, onFeet: false })).toBe('no-start');
+    expect([verdictOf({ ...record, ended: false }).isWhole, verdictOf(record, true).isWhole]).toEqual([false, false]);
 });

@@ -15,6 +15,7 @@ const body = JSON.parse(readFileSync(new URL('../../../build/wasm/body.json', im
 const { format } = await makeFormat();
 const player = await makeMotion();
 const library = await libraryDocument();
+const WALK = 20;
 const STOOD: TrialRecord = { stood: true, ticks: 128, positions: new Float32Array(), pages: [], fell: null, ended: true, onFeet: true };
 
 async function bench(made: () => Promise<Partial<TrialClient>>) {
@@ -25,11 +26,12 @@ async function bench(made: () => Promise<Partial<TrialClient>>) {
 }
 
 /** Physics in which everything stands. Records what it was asked. */
-function standing(asked: number[]): () => Promise<Partial<TrialClient>> {
+function standing(asked: number[], seconds: number[] = []): () => Promise<Partial<TrialClient>> {
     return () =>
         Promise.resolve({
             play: (request: TrialRequest, signal: AbortSignal) => {
                 asked.push(request.page);
+                seconds.push(Math.round(request.ticks / 128));
                 return signal.aborted ? Promise.reject(signal.reason as Error) : Promise.resolve({ ...STOOD, pages: [request.page] });
             },
             touching: () => Promise.resolve([]),
@@ -54,6 +56,21 @@ test('a trial holds until a page that the play reaches is changed, or the law is
     change(2);
     await trials.run([2, 8]);
     expect(asked).toEqual([2, 8, 2]);
+});
+
+test('a motion is tried to its end, one that loops for 6 s and at least once; what goes on for more than 60 s is not judged', async () => {
+    const seconds: number[] = [];
+    const { editor, trials } = await bench(standing([], seconds));
+    const still = { positions: Array.from({ length: 31 }, () => 512), time: 255, pause: 255 };
+    const [once, loops, slow] = [100, 101, 102];
+    for (const [page, header] of [[once, {}] as const, [loops, { next: loops }] as const, [slow, { speed: 255 }] as const]) {
+        editor.dispatch(editor.edits.insertSteps(editor.state.get().document, page, 0, new Array(7).fill(still)));
+        editor.dispatch(editor.edits.setHeader(editor.state.get().document, page, header));
+    }
+    const pages = [WALK, once, loops, slow];
+    await trials.run(pages);
+    expect(seconds).toEqual([6, 28, 28, 60]); // 7 steps of 4 s at nominal speed 32
+    expect(pages.map(page => trials.isJudged(page))).toEqual([true, true, true, false]);
 });
 
 test('another document knows nothing; who stops keeps what is known', async () => {

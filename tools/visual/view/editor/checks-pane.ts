@@ -133,7 +133,7 @@ export class ChecksPane extends SessionElement {
         this.render();
     }
 
-    /** Findings from trials in physics. A robot that stands is no finding. */
+    /** Findings from trials in physics. A robot that stands to the end is no finding. */
     private physicsFindings(): Shown[] {
         const { editor, trials: physics } = this.session;
         const { document } = editor.state.get();
@@ -142,7 +142,7 @@ export class ChecksPane extends SessionElement {
             .filter(([page]) => editor.format.isPlayable(pageOf(document, page)))
             .flatMap(([page, trial]) => {
                 const isFresh = physics.isFresh(page);
-                const verdict = trial.verdict.kind === 'stands' ? [] : [this.verdictShown(page, trial, trials)];
+                const verdict = trial.verdict.kind === 'stands' && trial.verdict.isWhole ? [] : [this.verdictShown(page, trial, trials)];
                 const [deepest] = [...trial.touches].sort((a, b) => b.depthM - a.depthM);
                 const touches = deepest
                     ? [
@@ -185,7 +185,7 @@ export class ChecksPane extends SessionElement {
         if (!this.known) return;
         const { document, note } = this.known;
         const tried = this.session.trials;
-        const guessed = this.known.all.filter(({ page, isGuess }) => !isGuess || !tried.isFresh(page));
+        const guessed = this.known.all.filter(({ page, isGuess }) => !isGuess || !tried.isJudged(page));
         const all = [...guessed, ...this.physicsFindings()];
         const { format } = this.session.editor;
         const used = document.pages.filter((bytes, page) => page > 0 && !format.isEmpty(bytes)).length;

@@ -34,6 +34,8 @@ export interface Trials {
     cancel(): void;
     /** The page was tried, and nothing that its play reaches has changed since. */
     isFresh(page: number): boolean;
+    /** As isFresh(), and it was played to its end. */
+    isJudged(page: number): boolean;
     /** Servo positions in a play of this page, tick by tick (31 servo units by ID; NaN: no such servo). null: it cannot be played, the
      *  robot does not stand in its first pose, or there is no physics. Rejects when aborted. */
     follow(page: number, ticks: number, shape: Shape, signal: AbortSignal): Promise<Float32Array | null>;

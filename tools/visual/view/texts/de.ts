@@ -832,7 +832,7 @@ const DE: Texts = {
         untried: count => `${count} noch nicht geprüft`,
         changed: count => `${count} seit der Prüfung geändert`,
         list: parts => `${parts.join(', ')}.`,
-        stands: seconds => `Steht: ${seconds} s lang abgespielt.`,
+        stands: seconds => `Steht ${seconds} s lang. Die Bewegung geht weiter, wurde aber nicht länger geprüft.`,
         rises: at => `Geht ${fallPlace(at)} zu Boden und steht am Ende wieder.`,
         falls: at =>
             `Stürzt ${fallPlace(at)} und bleibt am Boden. Gib dem Schritt mehr Zeit, oder halte das Gewicht über dem Fuß, der trägt.`,

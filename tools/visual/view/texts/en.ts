@@ -901,7 +901,7 @@ export const EN = {
         untried: (count: number) => `${count} not tried yet`,
         changed: (count: number) => `${count} changed since ${plural(count, 'it was', 'they were')} tried`,
         list: (parts: readonly string[]) => `${parts.join(', ')}.`,
-        stands: (seconds: string) => `Stands: played for ${seconds} s.`,
+        stands: (seconds: string) => `Stands for ${seconds} s. It goes on, but was tried no longer.`,
         rises: (at: FallPlace) => `Goes to the floor ${fallPlace(at)}, and is on its feet in the end.`,
         falls: (at: FallPlace) =>
             `Falls ${fallPlace(at)}, and stays on the floor. Give the step more time, or keep the weight over the foot that carries.`,

@@ -816,7 +816,7 @@ const ES: Texts = {
         untried: count => `${count} sin probar`,
         changed: count => plural(count, '1 cambiado desde que se probó', `${count} cambiados desde que se probaron`),
         list: parts => `${parts.join(', ')}.`,
-        stands: seconds => `Queda de pie: reproducido durante ${seconds} s.`,
+        stands: seconds => `Queda de pie durante ${seconds} s. El movimiento sigue, pero no se probó más.`,
         rises: at => `Va al suelo ${fallPlace(at)}, y al final está de pie.`,
         falls: at => `Se cae ${fallPlace(at)}, y se queda en el suelo. Da más tiempo al paso, o mantén el peso sobre el pie de apoyo.`,
         low: 'Sigue erguido, pero no acaba solo sobre las suelas: está sentado, arrodillado o apoyado en algo.',

@@ -821,7 +821,7 @@ const JA: Texts = {
         untried: count => `まだ試していないもの ${count} 個`,
         changed: count => `試したあとに変わったもの ${count} 個`,
         list: parts => `${parts.join('、')}。`,
-        stands: seconds => `立っています：${seconds} 秒間再生しました。`,
+        stands: seconds => `${seconds} 秒間は立っています。モーションは続きますが、その先は試していません。`,
         rises: at => `${fallPlace(at)}床に体が着きますが、最後は立っています。`,
         falls: at => `${fallPlace(at)}倒れて、そのまま起き上がりません。ステップの時間を延ばすか、体を支える足の上に重心を保ってください。`,
         low: '倒れませんが、最後に足裏だけで立っていません。座るか、ひざをつくか、寄りかかっています。',

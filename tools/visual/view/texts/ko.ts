@@ -790,7 +790,7 @@ const KO: Texts = {
         untried: count => `아직 시험하지 않음 ${count}개`,
         changed: count => `시험한 뒤 바뀜 ${count}개`,
         list: parts => `${parts.join(', ')}.`,
-        stands: seconds => `서 있음: ${seconds}초 동안 재생했습니다.`,
+        stands: seconds => `${seconds}초 동안은 서 있습니다. 동작은 이어지지만 그 뒤는 시험하지 않았습니다.`,
         rises: at => `${fallPlace(at)} 바닥에 몸이 닿지만 끝에는 서 있습니다.`,
         falls: at => `${fallPlace(at)} 넘어져 일어나지 못합니다. 단계의 시간을 늘리거나, 몸을 지탱하는 발 위에 무게 중심을 두세요.`,
         low: '넘어지지 않지만 끝에 발바닥만으로 서 있지 않습니다. 앉거나, 무릎을 꿇거나, 기댑니다.',
