@@ -3,6 +3,7 @@
 // RobotError.
 
 import { pageOf } from '../model/document.ts';
+import type { MotionDocument } from '../model/document.ts';
 import type { Shape } from '../model/motion.ts';
 import type { Connection } from '../robot/connection.ts';
 import { askPageCrcs } from '../robot/page-requests.ts';
@@ -47,11 +48,11 @@ export class RobotPlays {
 
     /** Plays a page as it is in the document. Otherwise like play(). */
     playEdited(page: number): Promise<boolean> {
-        const { format, state } = this.parts.editor;
+        const { document } = this.parts.editor.state.get(); // another one may be opened while this play waits
         const isLast = this.next();
         const done = this.turns.run(async () => {
             if (!isLast()) return false;
-            await this.bringPages(format.reach(state.get().document, page));
+            await this.bringPages(page, document);
             return this.begin(page, isLast);
         });
         return this.orDropped(done);
@@ -120,17 +121,17 @@ export class RobotPlays {
         }
     }
 
-    /** Makes sure that these pages are the same in robot and document. The robot in the page is written. Yours is not: its owner must see
-     *  the changes first. */
-    private async bringPages(pages: readonly number[]): Promise<void> {
+    /** Makes sure that all that a page reaches is the same in robot and document. The robot in the page is written. Yours is not: its owner
+     *  must see the changes first. */
+    private async bringPages(page: number, document: MotionDocument): Promise<void> {
         const { editor, transfer } = this.parts;
-        const differing = await this.differing(pages);
+        const pages = editor.format.reach(document, page);
+        const differing = await this.differing(pages, document);
         if (differing.length === 0) return;
         if (!this.isSimulated) throw new RobotError('pages-differ');
-        const { document } = editor.state.get();
         const damaged = differing.find(page => editor.format.fault(pageOf(document, page)) !== null);
         if (damaged !== undefined) throw new RobotError('damaged-here', String(damaged)); // transfer.write() would skip it
-        const end = await transfer.write(pages);
+        const end = await transfer.write(pages, [], document);
         if (!end.isDone) throw end.error;
     }
 
@@ -139,20 +140,21 @@ export class RobotPlays {
         const { format, state } = this.parts.editor;
         if (page !== null) {
             const mine = this.asked;
-            if ((await this.differing(format.reach(state.get().document, page))).length > 0) throw new RobotError('layer-differs');
+            const { document } = state.get();
+            if ((await this.differing(format.reach(document, page), document)).length > 0) throw new RobotError('layer-differs');
             if (mine !== this.asked) throw new RobotError('cancelled');
         }
         await setLayer(this.requests, page, joints);
     }
 
     /** Pages that differ between robot and document. Asks the robot, because what was read of it may be outdated or missing. */
-    private async differing(pages: readonly number[]): Promise<number[]> {
+    private async differing(pages: readonly number[], document: MotionDocument): Promise<number[]> {
         if (pages.length === 0) return [];
-        const { format, state } = this.parts.editor;
+        const { format } = this.parts.editor;
         const first = Math.min(...pages);
         const differingFrom = (crcs: readonly number[]): number[] =>
             pages.filter(page => {
-                const bytes = pageOf(state.get().document, page);
+                const bytes = pageOf(document, page);
                 const same = format.isEmpty(bytes) ? [format.empty, format.erased] : [bytes];
                 return !same.some(one => format.crc(one) === crcs[page - first]);
             });

@@ -4,7 +4,9 @@ import { expect, onTestFinished, test, vi } from 'vitest';
 import { RobotPlays } from '../app/robot-plays.ts';
 import { RobotTransfer } from '../app/transfer.ts';
 import { DocumentEditor } from '../app/editor.ts';
+import { pageOf } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
+import { NO_HISTORY } from '../model/history.ts';
 import { readPage, writePage } from '../model/page.ts';
 import type { Connection } from '../robot/connection.ts';
 import { RobotError } from '../robot/robot-error.ts';
@@ -63,24 +65,25 @@ async function inPage(document: MotionDocument) {
             .map(bytes => format.crc(bytes).toString(16).padStart(4, '0'))
             .join('');
     };
-    const write = async () => {
+    const write = async (_: readonly number[], __: unknown, shown = editor.state.get().document) => {
         if (isWriting) return { isDone: false, error: new RobotError('transfer-busy') };
         isWriting = true;
         written.begun++;
         await new Promise<void>(resolve => (written.end = resolve));
-        [pages, isWriting] = [document.pages, false];
+        [pages, isWriting] = [shown.pages, false];
         return { isDone: true };
     };
     const body = { joints: [] } as unknown as ConstructorParameters<typeof DocumentEditor>[0];
     const events = { changed: () => undefined, refused: () => undefined, opened: () => undefined };
+    const editor = new DocumentEditor(body, { format, player: await makeMotion(), document }, events);
     const plays = new RobotPlays({
         state: new Store({ source: 'simulated' } as SessionState),
-        editor: new DocumentEditor(body, { format, player: await makeMotion(), document }, events),
+        editor,
         transfer: { write } as unknown as RobotTransfer,
         connection: () => ({ requests: { ask } }) as unknown as Connection,
         prepare: () => Promise.resolve(),
     });
-    return { plays, played, written };
+    return { plays, played, written, editor, robot: () => pages };
 }
 
 function changed(page: number): MotionDocument {
@@ -133,6 +136,18 @@ test('Play pressed again while the pages are being written: it waits for them, t
     written.end();
     expect(await Promise.all(presses)).toEqual([false, true]);
     expect([played, written.begun]).toEqual([[`@play ${WAVE}`], 1]);
+});
+
+test('another document opened while Play waits: what was seen when it was pressed is written and played', async () => {
+    const seen = changed(WAVE);
+    const { plays, played, written, editor, robot } = await inPage(seen);
+    const press = plays.playEdited(WAVE);
+    editor.open({ ...library, pages: library.pages.with(WAVE, pageOf(library, 2)) }, NO_HISTORY);
+    await vi.waitFor(() => expect(written.begun).toBe(1));
+    written.end();
+    await press;
+    expect(robot()[WAVE]).toEqual(pageOf(seen, WAVE));
+    expect(played).toEqual([`@play ${WAVE}`]);
 });
 
 test('a second play takes the place of one that still waits for the robot to stand', async () => {
