@@ -174,11 +174,19 @@ void terminal_drain(void)
 
 /* ---- the client of the socket ---- */
 
-static void take_client(void)
+/* One at a time. Others are told so at once: left waiting, they would be heard when nobody expects it any more. */
+static void take_clients(void)
 {
-    if (console.listener >= 0 && console.in < 0) {
-        console.in = console.out = accept4(console.listener, NULL, NULL, SOCK_CLOEXEC | SOCK_NONBLOCK);
-        console.written_at = machine_now();
+    static const char busy[] = "Somebody else is connected to this robot.\r\n";
+    int client;
+    while (console.listener >= 0 && (client = accept4(console.listener, NULL, NULL, SOCK_CLOEXEC | SOCK_NONBLOCK)) >= 0) {
+        if (console.in < 0) {
+            console.in = console.out = client;
+            console.written_at = machine_now();
+        } else {
+            (void)!write(client, busy, sizeof busy - 1);
+            close(client);
+        }
     }
 }
 
@@ -205,9 +213,9 @@ bool terminal_has_ended(void)
 
 int terminal_poll(struct pollfd *entries)
 {
-    take_client();
+    take_clients();
     entries[0] = (struct pollfd){.fd = console.in, .events = POLLIN};
-    entries[1] = (struct pollfd){.fd = console.in < 0 ? console.listener : -1, .events = POLLIN};
+    entries[1] = (struct pollfd){.fd = console.listener, .events = POLLIN};
     return TERMINAL_FDS;
 }
 
