@@ -134,7 +134,7 @@ export class ServosSource {
         try {
             await this.begin(image, module);
         } catch (error) {
-            this.stop(error instanceof RobotError ? errorText(error) : TEXTS.robot.servosCrashed);
+            this.stop(whyStopped(error));
             throw error;
         }
         if (this.isUsed) this.connect();
@@ -145,6 +145,7 @@ export class ServosSource {
         if (!chosen) throw new RobotError('not-connected');
         const kept = await this.memories();
         const port = await this.place();
+        if (port < 0) throw new RobotError('adapter-out');
         const worker = new Worker(new URL('../servos/worker.ts', import.meta.url), { type: 'module', name: 'servos' });
         let runs = false;
         await new Promise<void>((resolve, reject) => {
@@ -190,7 +191,7 @@ export class ServosSource {
                 this.heard = message.isThere ? '' : null;
                 return this.events.change({ adapter: message.isThere ? 'back' : 'out' });
             case 'ended': // restarts, as a board does
-                return void this.restart(this.image).catch(() => this.stop(TEXTS.robot.servosCrashed));
+                return void this.restart(this.image).catch((error: unknown) => this.stop(whyStopped(error)));
             case 'crashed':
                 return this.stop(`${TEXTS.robot.servosCrashed} (${message.text})`);
             case 'started':
@@ -243,6 +244,11 @@ export class ServosSource {
             return false;
         }
     }
+}
+
+/** A program that did not start has been ended before, so it does not go on, as the text on an image says. */
+function whyStopped(error: unknown): string {
+    return error instanceof RobotError && error.code !== 'no-image' ? errorText(error) : TEXTS.robot.servosCrashed;
 }
 
 async function programOf(image: ImageName): Promise<WebAssembly.Module> {

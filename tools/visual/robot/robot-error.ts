@@ -9,6 +9,7 @@ export type RobotErrorCode =
     | 'no-serial' // this browser has no Web Serial
     | 'old-browser' // no JavaScript Promise Integration, which lets a program in C wait; My servos needs it
     | 'port-busy' // the port cannot be opened: another program has it, or no permission
+    | 'adapter-out' // the servo adapter is unplugged, so no program for My servos can start
     | 'second-tab' // another tab of this page drives My servos
     | 'foreign' // something else answers
     | 'other-board' // a boot loader named another board, which is in `words`

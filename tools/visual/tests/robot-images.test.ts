@@ -23,7 +23,7 @@ function imagesWith(parts: Pick<ImageParts, 'state' | 'robot'> & Partial<ImagePa
 
 test('the adapter is out when another image is to run: the page says that, not that the firmware could not be loaded', async () => {
     const state = new Store({ image: 'play' } as SessionState);
-    const out = new RobotError('port-busy', 'there is no such port');
+    const out = new RobotError('adapter-out');
     const robot = { restart: () => Promise.reject(out), forget: () => Promise.reject(out), prepare: vi.fn(), connection: null };
     const told: unknown[] = [];
     const images = imagesWith({

@@ -4,6 +4,7 @@ import { readFile } from 'node:fs/promises';
 import { afterEach, expect, test, vi } from 'vitest';
 import { ServosSource } from '../app/servos-source.ts';
 import type { Body } from '../model/body.ts';
+import { TEXTS } from '../view/texts/texts.ts';
 
 const LIBRARY = new Uint8Array([0]);
 const browser = vi.hoisted(() => ({ missing: '', reads: true, saves: true, kept: null as readonly Uint8Array[] | null }));
@@ -50,7 +51,7 @@ class Runs {
     static readonly given: unknown[] = [];
     /** The place of the port that each program got. */
     static readonly places: unknown[] = [];
-    static isAdapterOut = false;
+    static isRefused = false;
     static last: Runs;
     onmessage: ((event: { data: object }) => void) | null = null;
 
@@ -63,8 +64,8 @@ class Runs {
         Runs.asked.push(kind);
         if (kind === 'start') Runs.given.push(kept);
         if (kind === 'start') Runs.places.push(port);
-        const answer = { start: Runs.isAdapterOut ? 'refused' : 'started', end: 'ended' }[kind];
-        if (answer) setTimeout(() => this.tell({ kind: answer, text: 'there is no such port' }), 20);
+        const answer = { start: Runs.isRefused || port === -1 ? 'refused' : 'started', end: 'ended' }[kind];
+        if (answer) setTimeout(() => this.tell({ kind: answer, text: 'the port is in use' }), 20);
     }
 
     tell(message: object): void {
@@ -94,7 +95,7 @@ async function runs() {
 afterEach(() => {
     vi.unstubAllGlobals();
     Object.assign(browser, { missing: '', reads: true, saves: true, kept: null });
-    Object.assign(Runs, { made: 0, isAdapterOut: false });
+    Object.assign(Runs, { made: 0, isRefused: false });
     Runs.asked.length = Runs.given.length = Runs.places.length = 0;
 });
 
@@ -147,21 +148,34 @@ test('another image starts on the adapter, wherever it stands among the ports, a
     serial.onconnect(); // while the adapter is there
     await source.restart('edit');
     ports.splice(0, 2, cable);
-    await source.restart('play');
+    await expect(source.restart('play')).rejects.toMatchObject({ code: 'adapter-out' });
     ports.push({ ...port }); // plugged in again, it is another port
     await source.restart('edit');
-    expect(Runs.places).toEqual([0, 1, -1, 1]);
+    expect(Runs.places).toEqual([0, 1, 1]);
     await source.close();
 });
 
-test('the adapter is out when another image starts: the page says so, and does not look for servos for ever', async () => {
-    const { source, events } = await runs();
-    Runs.isAdapterOut = true;
-    await expect(source.restart('edit')).rejects.toMatchObject({ code: 'port-busy' });
-    const stopped = events.change.mock.calls.flatMap(([change]) => ('stopped' in change ? [change.stopped] : []));
-    expect(stopped.at(-1)).toContain('there is no such port');
-    Runs.isAdapterOut = false;
+test.each([
+    ['another image is to run', (source: ServosSource) => void source.restart('edit').catch(() => undefined)],
+    ['the program starts anew', () => Runs.last.tell({ kind: 'ended' })],
+])('the adapter is out when %s: the page says so, and what helps', async (_, starts) => {
+    const { source, events, ports } = await runs();
+    const stopped = () => events.change.mock.calls.flatMap(([change]) => ('stopped' in change ? [change.stopped] : [])).at(-1);
+    const adapter = ports.splice(0, 1);
+    starts(source);
+    await vi.waitFor(() => expect(stopped()).toEqual(expect.any(String)));
+    await new Promise(resolve => setTimeout(resolve, 5)); // a second reason would replace the first
+    expect(stopped()).toBe(TEXTS.robot.errors['adapter-out']);
+    ports.push(...adapter);
     await source.restart('edit'); // once it is back
+    await source.close();
+});
+
+test('another program has the adapter when another image starts: the page says so, and does not look for servos for ever', async () => {
+    const { source, events } = await runs();
+    Runs.isRefused = true;
+    await expect(source.restart('edit')).rejects.toMatchObject({ code: 'port-busy' });
+    expect(events.change.mock.calls.at(-1)?.[0].stopped).toContain('the port is in use');
     await source.close();
 });
 

@@ -196,6 +196,7 @@ const DE: Texts = {
             'port-lost': 'Das Kabel wurde herausgezogen. Stecke es wieder ein; die Seite verbindet sich von selbst.',
             'port-busy':
                 'Der Anschluss lässt sich nicht öffnen. Schließe das andere Programm, das ihn benutzt, und versuche es noch einmal.',
+            'adapter-out': 'Der Servo-Adapter steckt nicht. Stecke ihn ein und wähle noch einmal „Meine Servos …“.',
             'second-tab':
                 'Ein anderer Tab dieser Seite steuert deine Servos. Mach dort weiter, oder schließe ihn und wähle noch einmal „Meine Servos …“.',
             'old-browser': 'Dieser Browser ist zu alt für „Meine Servos …“. Nötig ist Chromium, Chrome oder Edge ab Version 137.',

@@ -45,6 +45,7 @@ const errors: Record<Exclude<RobotErrorCode, 'needs-edit'>, string> = {
     'not-connected': 'No robot is connected. Choose one in the menu.',
     'port-lost': 'The cable was pulled. Plug it in again; the page reconnects by itself.',
     'port-busy': 'The port cannot be opened. Close the other program that uses it, then try again.',
+    'adapter-out': 'The servo adapter is unplugged. Plug it in, then choose "My servos …" again.',
     'second-tab': 'Another tab of this page drives your servos. Go on there, or close it and choose "My servos …" again.',
     'old-browser': 'This browser is too old for My servos. It needs Chromium, Chrome or Edge 137 or later.',
     'no-serial': 'This browser cannot reach a serial port. It needs Web Serial, which Chromium has. The robot in the page works here, too.',

@@ -193,6 +193,7 @@ const ES: Texts = {
             'not-connected': 'No hay ningún robot conectado. Elige uno en el menú.',
             'port-lost': 'Se ha desconectado el cable. Vuelve a conectarlo; la página se reconecta sola.',
             'port-busy': 'No se puede abrir el puerto. Cierra el otro programa que lo usa e inténtalo de nuevo.',
+            'adapter-out': 'El adaptador de servos está desconectado. Conéctalo y elige otra vez «Mis servos …».',
             'second-tab': 'Otra pestaña de esta página mueve tus servos. Sigue allí, o ciérrala y elige otra vez «Mis servos …».',
             'old-browser': 'Este navegador es demasiado antiguo para «Mis servos …». Hace falta Chromium, Chrome o Edge 137 o posterior.',
             'no-serial':
