@@ -3,6 +3,8 @@
 
 import contextlib
 import socket
+import subprocess
+import sys
 
 from m512.files.image import Image
 from tests.host.pc_robot import program, until
@@ -49,5 +51,8 @@ def test_a_second_client_is_refused_by_a_sentence_and_its_line_is_never_carried_
         with connected(port) as second:
             assert heard(second, b"never") == b"Somebody else is connected to this robot.\r\n"
         asked(port, b"play 1\r")
+        m512 = [sys.executable, "-m", "m512", "stop", "--now", "-p", f"socket://127.0.0.1:{port}"]
+        refused = subprocess.run(m512, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False, timeout=60)
+        assert refused.returncode == 6 and "End other programs that are connected to it; then repeat the command" in refused.stderr
     answer = until(lambda: b"state=" in (data := asked(port, b"@where\r")) and data, "@where was not answered")
     assert b"state=idle" in answer and robot.frames() == []

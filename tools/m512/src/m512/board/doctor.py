@@ -104,7 +104,7 @@ def _board(url: str, add: Add, meet: Callable[..., Client]) -> None:
             add("board", WARN, *str(error).split(": ", 1))
             return
         except M512Error as error:
-            add("board", BAD, str(error), "check the cable")
+            add("board", BAD, str(error))
             return
         version = client.version
         add("image", OK, f"{version.get('image', '?')} {version.get('version', '')} on a {version.get('board', '?')}")
