@@ -59,7 +59,6 @@ def entries(folder):
         "dev/check_circles",
         "dev/check_images",
         "motions/gait.py",
-        "visual/bench",
         "visual/build",
         "visual/serve",
         "visual/test",
