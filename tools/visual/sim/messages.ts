@@ -40,7 +40,6 @@ export type ToSim =
     | { readonly kind: 'button'; readonly button: Button; readonly down: boolean }
     | { readonly kind: 'battery'; readonly volts: number }
     | { readonly kind: 'fault'; readonly servo: number; readonly fault: number; readonly answers: number }
-    | { readonly kind: 'turn-servo'; readonly servo: number; readonly position: number }
     /** ticks: releases the grip after this many ticks; without it, at the next grip. */
     | { readonly kind: 'grip'; readonly grip: Grip | null; readonly ticks?: number }
     | { readonly kind: 'hold'; readonly held: boolean }

@@ -77,12 +77,6 @@ export class Simulation {
         this.physical?.setFloor(floor);
     }
 
-    /** Turns a joint by hand. Only without a physical body. */
-    turnServo(servo: number, position: number): void {
-        const index = this.readings.findIndex(reading => reading.id === servo);
-        if (index >= 0 && !this.physical) this.board.pushServo(index, position);
-    }
-
     setFault(servo: number, fault: number, answers: number): void {
         const index = this.readings.findIndex(reading => reading.id === servo);
         if (index >= 0) this.board.setFault(index, fault, answers);

@@ -9,7 +9,9 @@ import { Simulation } from './simulation.ts';
 
 const TURN_MS = 12; // computing time before messages are read again
 const FRAME_MS = 1000 / 60;
-const IDLE_MS = 4;
+/** A tick of the robot takes as long. */
+const IDLE_MS = 8;
+const PAUSED_MS = 50;
 /** Written memories are sent to be kept after this time without further writes. */
 const REST_MS = 300;
 
@@ -71,7 +73,7 @@ function loop(): void {
     const nowMs = performance.now();
     if (isSeen && nowMs - frameAtMs >= FRAME_MS - 1) sendFrame(simulation, nowMs);
     if (isBehind) ready.port2.postMessage(null);
-    else setTimeout(() => guarded(loop), IDLE_MS);
+    else setTimeout(() => guarded(loop), pacer.isPaused ? PAUSED_MS : IDLE_MS);
 }
 
 /** Runs what is due, for at most one turn. true: there is more. */
@@ -140,8 +142,6 @@ function handle(message: ToSim): void {
             return board.setBattery(message.volts);
         case 'fault':
             return simulation.setFault(message.servo, message.fault, message.answers);
-        case 'turn-servo':
-            return simulation.turnServo(message.servo, message.position);
         case 'grip':
             return simulation.setGrip(message.grip, message.ticks);
         case 'hold':
