@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 // A cable that leads to another robot. One that is pulled in a write: pages.test.ts; in live follow: stop.test.ts.
 import { expect, test } from 'vitest';
-import { Visitor } from './page-bench.ts';
-import type { Shell } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
 
 const suite = pageSuite();
 
 test('the cable leads to another robot while the comparison is open: it shows that robot, and after a refused write what was read then', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
+    const person = await suite.come();
     const { page } = person;
     await person.untilStanding();
     await person.open('Motions');
@@ -21,8 +19,7 @@ test('the cable leads to another robot while the comparison is open: it shows th
     const rows = page.getByRole('list', { name: 'Motions that differ' });
     await person.button('Write 1 motion into the robot').waitFor();
     // What the page does when another robot answers: motions 5 and 60 of that one differ.
-    await page.locator('app-shell').evaluate(shell => {
-        const { editor } = (shell as unknown as Shell).session;
+    await person.inPage(({ editor }) => {
         const { robot } = editor.state.get();
         editor.setRobot(robot.map((bytes, at) => (at === 5 || at === 60 ? (robot[8] ?? null) : bytes)));
     });

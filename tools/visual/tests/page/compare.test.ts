@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Opening a file, and comparing with one, that cannot be read or whose reading is cancelled.
 import { expect, test } from 'vitest';
-import { Visitor } from './page-bench.ts';
-import type { Shell } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
 
 const suite = pageSuite();
@@ -13,11 +11,10 @@ const THEIRS = { name: 'theirs.m512', mimeType: '', buffer: Buffer.from('motion5
 
 test('a file to open or to compare with: a reading that does not end is cancelled, by the button and by Close, and one that fails says why', async () => {
     let isOnline = true;
-    const person = await Visitor.come(suite.browser, suite.address, {
-        hasPicture: false,
-        hasPhysics: false,
-        before: page => page.route(PYTHON, route => (isOnline ? undefined : route.abort())), // online, but without an answer
-    });
+    const person = await suite.come({
+        hasPython: true,
+        before: page => page.route(PYTHON, route => (isOnline ? undefined : route.abort())),
+    }); // online, but without an answer
     const { page } = person;
     await person.untilStanding();
     // The dialog is there before there is anything to say: later it would take the keys from a field.
@@ -41,12 +38,10 @@ test('a file to open or to compare with: a reading that does not end is cancelle
     const write = dialog.getByRole('button', { name: /^Write [01] motion/ });
     await write.filter({ hasText: 'Write 1 motion ' }).waitFor();
     // The document changes under the dialog, as by a file that is dropped on it: the list is made anew.
-    const editor = (way: 'undo' | 'redo'): Promise<void> =>
-        page.locator('app-shell').evaluate((shell, way) => (shell as unknown as Shell).session.editor[way](), way);
-    await editor('undo');
+    await person.inPage(({ editor }) => editor.undo());
     await dialog.getByText('Nothing differs.').waitFor();
     expect(await write.isEnabled()).toBe(false);
-    await editor('redo');
+    await person.inPage(({ editor }) => editor.redo());
     await write.filter({ hasText: 'Write 1 motion ' }).waitFor();
 
     await choose();

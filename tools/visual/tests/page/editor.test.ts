@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The editor as a pupil uses it: a motion taught by hand, the tour, the curves. Time-outs are long, because a busy computer is slow.
 import { expect, test } from 'vitest';
-import { Visitor } from './page-bench.ts';
+import type { Visitor } from './page-bench.ts';
 import { SHOTS, pageSuite } from './page-suite.ts';
 
 const PATIENT = { timeout: 240_000 };
@@ -55,7 +55,7 @@ const WAVES = [
 ] as const;
 
 test('a pupil, by the tour: teaches a page by hand, names it, the firmware plays it; undo takes each thing back', async () => {
-    const pupil = await Visitor.come(suite.browser, suite.address, { screen: { width: 1280, height: 800 } });
+    const pupil = await suite.come({ hasPicture: true, hasPhysics: true, screen: { width: 1280, height: 800 } });
     await pupil.untilStanding();
     await pupil.button('Tour').click();
     await said(pupil, 'You will teach the robot to wave.');
@@ -78,7 +78,7 @@ test('a pupil, by the tour: teaches a page by hand, names it, the firmware plays
     await name.press('Enter');
     await said(pupil, 'One wave is not enough');
     const times = pupil.page.getByRole('spinbutton', { name: 'Times', exact: true });
-    await times.fill('3');
+    await times.fill('2');
     await times.press('Enter');
     await pupil.button('Hold').click();
     await pupil.page.getByRole('status', { name: 'Teaching' }).filter({ hasText: 'All joints hold.' }).waitFor(PATIENT);
@@ -88,7 +88,6 @@ test('a pupil, by the tour: teaches a page by hand, names it, the firmware plays
     await pupil.doing.filter({ hasText: /Playing motion \d+ \(hello\)/ }).waitFor(PATIENT);
     const begunS = await robotSeconds(pupil);
     await said(pupil, 'That is your first motion');
-    await pupil.page.screenshot({ path: `${SHOTS}steps.png` });
     await pupil.untilStanding();
     // At most two minutes to the first wave. A person who reads needs 4 s for a click and 8 s for a drag, a name or a number. The rest is
     // robot time since Edit started.

@@ -10,8 +10,7 @@ import { imageOf, withChanges } from '../../model/document.ts';
 import { readPage } from '../../model/page.ts';
 import { libraryDocument, makeFormat, must } from '../motion-bench.ts';
 import { Keyboard } from './keyboard.ts';
-import { Visitor } from './page-bench.ts';
-import { SHOTS, pageSuite } from './page-suite.ts';
+import { pageSuite } from './page-suite.ts';
 
 const ROOT = new URL('../../../../', import.meta.url).pathname;
 const suite = pageSuite();
@@ -80,7 +79,7 @@ function redPixels(page: Page): Promise<number> {
 
 test('a hobbyist opens a RoboPlus file found on the net, sees where it is too fast and where it falls, stretches, mirrors, saves it in every form as m512 does', async () => {
     await foundOnTheNet();
-    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false });
+    const person = await suite.come({ hasPhysics: true, hasPython: true });
     const { page } = person;
     const chooser = page.getByLabel('Motion file');
     const torn = `${'torn'.repeat(40)}.mtn`; // wider than the dialog
@@ -94,7 +93,6 @@ test('a hobbyist opens a RoboPlus file found on the net, sees where it is too fa
     await chooser.setInputFiles(join(folder, 'found.mtn'));
     const dialog = page.getByRole('dialog', { name: 'found.mtn' });
     await dialog.getByText(/^[1-9]\d motions/).waitFor();
-    await page.screenshot({ path: `${SHOTS}opened.png` });
     const isInside = await dialog.evaluate(box => {
         const left = box.getBoundingClientRect().left;
         return [...box.querySelectorAll('button')].every(button => button.getBoundingClientRect().left > left);
@@ -115,7 +113,6 @@ test('a hobbyist opens a RoboPlus file found on the net, sees where it is too fa
     const tooFast = page.getByRole('status', { name: 'Too fast' });
     await tooFast.and(page.locator('[data-tone=bad]')).waitFor();
     await expect.poll(() => redPixels(page), { timeout: 240_000 }).toBeGreaterThan(50);
-    await page.screenshot({ path: `${SHOTS}too-fast.png` });
 
     await person.open('Steps');
     await page.getByRole('spinbutton', { name: 'Time of step 2' }).fill('1.5');
@@ -155,7 +152,7 @@ function noteDoing(): void {
 const doings = (page: Page): Promise<string[]> => page.evaluate(() => (window as unknown as { said: string[] }).said);
 
 test('a teacher sends a motion as a link; for the pupil it opens running, is told as an edit, and is played again by keyboard', async () => {
-    const teacher = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
+    const teacher = await suite.come();
     await teacher.open('Motions');
     await teacher.page.getByRole('option', { name: /^motion 2 bow/ }).click();
     await teacher.open('Steps');
@@ -167,12 +164,7 @@ test('a teacher sends a motion as a link; for the pupil it opens running, is tol
     expect(link.length).toBeLessThan(2000);
     await teacher.leave();
 
-    const pupil = await Visitor.come(suite.browser, link, {
-        isNew: true,
-        hasPicture: false,
-        hasPhysics: false,
-        before: page => page.addInitScript(noteDoing),
-    });
+    const pupil = await suite.come({ isNew: true, before: page => page.addInitScript(noteDoing) }, link);
     const card = pupil.page.getByRole('region', { name: 'A motion for you' });
     await card.getByText('“bow”, a motion for you').waitFor();
     expect(await pupil.button('Walk it').isVisible()).toBe(false);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A first visit: one sentence and three buttons that do what they say, however early they are pressed; two areas and "More".
 import { expect, test } from 'vitest';
-import { Visitor } from './page-bench.ts';
+import type { Visitor } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
 
 const suite = pageSuite();
@@ -10,12 +10,12 @@ const tabs = (person: Visitor) =>
     person.page.getByRole('tab').evaluateAll(all => all.filter(one => one.checkVisibility()).map(one => one.textContent));
 
 test('"Walk it" before the robot stands makes it walk; the buttons do not come back; "More" brings all areas for good', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { isNew: true, hasPicture: false, hasPhysics: false });
+    const person = await suite.come({ isNew: true });
     await first(person).getByText('A humanoid with real firmware, in your browser').waitFor();
     expect(await tabs(person)).toEqual(['Remote', 'Steps']);
     await person.button('Walk it').click();
     await first(person).waitFor({ state: 'hidden' });
-    await person.doing.filter({ hasText: /Playing motion 2[0-2] \(walk/ }).waitFor();
+    await person.untilDoing(/Playing motion 2[0-2] \(walk/);
     await person.button('More').click();
     expect(await tabs(person)).toEqual(['Remote', 'Steps', 'Curves', 'Motions', 'Links', 'Checks', 'Terminal', 'Robot']);
     await person.page.reload();
@@ -26,29 +26,29 @@ test('"Walk it" before the robot stands makes it walk; the buttons do not come b
 });
 
 test('"Push it" pushes the robot over as soon as the hand has let go of it', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { isNew: true, hasPicture: false });
+    const person = await suite.come({ hasPhysics: true, isNew: true });
     await person.button('Push it').click();
     await person.page.getByText('It is pushed as soon as it stands by itself.', { exact: true }).waitFor();
     await person.page.getByText('When it lies, press Get up.', { exact: true }).waitFor(); // now that it was pushed
-    await person.doing.filter({ hasText: /^The robot lies on the floor/ }).waitFor();
+    await person.untilDoing(/^The robot lies on the floor/);
     await person.leave();
 });
 
 test('"Teach it to wave" opens Steps and the Tour where the teaching begins; any click elsewhere puts the buttons away', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { isNew: true, hasPicture: false, hasPhysics: false });
+    const person = await suite.come({ isNew: true });
     await person.button('Teach it to wave').click();
     await person.page.getByRole('status', { name: 'Tour' }).filter({ hasText: 'Press "Right arm"' }).waitFor();
     expect(await person.page.getByRole('tab', { selected: true }).textContent()).toBe('Steps');
+    await person.page.evaluate(() => localStorage.clear());
+    await person.page.reload(); // as for the first time
+    await first(person).waitFor();
+    await person.open('Steps');
+    expect(await first(person).isVisible()).toBe(false);
     await person.leave();
-    const other = await Visitor.come(suite.browser, suite.address, { isNew: true, hasPicture: false, hasPhysics: false });
-    await first(other).waitFor();
-    await other.open('Steps');
-    expect(await first(other).isVisible()).toBe(false);
-    await other.leave();
 });
 
 test('the start page has ten motions with moving pictures, and each of its links is the motion itself, running', async () => {
-    const person = await Visitor.come(suite.browser, `${suite.address}motions.html`, { isNew: true, hasPicture: false, hasPhysics: false });
+    const person = await suite.come({ isNew: true }, `${suite.address}motions.html`);
     const { page } = person;
     const cards = page.getByRole('listitem');
     expect(await cards.count()).toBe(10);
@@ -62,13 +62,13 @@ test('the start page has ten motions with moving pictures, and each of its links
     const bow = await page.getByRole('link', { name: /^Bow/ }).getAttribute('href');
     await page.getByRole('link', { name: /^Wave/ }).click();
     await page.getByRole('region', { name: 'A motion for you' }).getByText('“wave”, a motion for you').waitFor();
-    await person.doing.filter({ hasText: /motion 3 \(wave\)/ }).waitFor(); // the robot already has it, so it is not added
-    await person.doing.filter({ hasText: /^Playing motion 3 \(wave\)/ }).waitFor();
+    await person.untilDoing(/motion 3 \(wave\)/); // the robot already has it, so it is not added
+    await person.untilDoing(/^Playing motion 3 \(wave\)/);
     await person.untilStanding();
     // The browser keeps the open page for this link, because only the part after the # changes.
     await page.evaluate(hash => window.location.replace(hash), new URL(bow ?? '', page.url()).hash);
     await page.getByText('“bow”, a motion for you').waitFor();
-    await person.doing.filter({ hasText: /^Playing motion 2 \(bow\)/ }).waitFor();
+    await person.untilDoing(/^Playing motion 2 \(bow\)/);
     await person.leave();
 });
 
@@ -91,9 +91,9 @@ function lookAt(person: Visitor): Promise<{ width: number; darkest: number; blue
 
 test('before the robot is there the picture is an empty room in the light: not black, and nothing sunk into the floor', async () => {
     let go = (): void => undefined;
-    const person = await Visitor.come(suite.browser, suite.address, {
+    const person = await suite.come({
+        hasPicture: true,
         isNew: true,
-        hasPhysics: false,
         before: page =>
             page.route(/board-[^/]*\.wasm/, async route => {
                 await new Promise<void>(resolve => (go = resolve));

@@ -9,8 +9,8 @@ const suite = pageSuite();
 test('physics that comes late, as over a slow line: the robot plays without it, then a hand holds it until it stands', async () => {
     let arrive = (): void => undefined;
     const arrived = new Promise<void>(resolve => (arrive = resolve));
-    const person = await Visitor.come(suite.browser, suite.address, {
-        hasPicture: false,
+    const person = await suite.come({
+        hasPhysics: true,
         before: page =>
             page.route(PHYSICS, async route => {
                 await arrived;
@@ -19,9 +19,9 @@ test('physics that comes late, as over a slow line: the robot plays without it, 
     });
     await person.untilStanding();
     await person.button('Bow').click();
-    await person.doing.filter({ hasText: 'Playing motion 2 (bow)' }).waitFor();
+    await person.untilDoing('Playing motion 2 (bow)');
     arrive();
-    await person.doing.filter({ hasText: 'A hand holds the robot.' }).waitFor();
+    await person.untilDoing('A hand holds the robot.');
     await person.untilStanding();
     await person.leave();
 });
@@ -33,26 +33,22 @@ function withAdapter(): void {
     Object.assign(serial, { requestPort: () => Promise.resolve(port), getPorts: () => Promise.resolve([port]) });
 }
 
-test.each([
-    ['its program', /servos-play/],
-    ['its worker', /worker/],
-])('My servos whose files cannot be loaded (%s): that is said, and the robot in the page goes on', async (_, file) => {
-    let isLost = false;
-    const person = await Visitor.come(suite.browser, suite.address, {
-        hasPicture: false,
-        hasPhysics: false,
+test('My servos whose files cannot be loaded, its program or its worker: that is said, and the robot in the page goes on', async () => {
+    let lost = /^$/;
+    const person = await suite.come({
         before: async page => {
             await page.addInitScript(withAdapter);
-            await page.route(file, route => (isLost ? route.abort() : route.continue()));
+            await page.route(/servos-play|worker/, route => (lost.test(route.request().url()) ? route.abort() : route.continue()));
         },
     });
     await person.untilStanding();
-    isLost = true;
-    await person.press('My servos …');
-    const said = person.page.getByRole('log', { name: 'Last message' });
-    await said.filter({ hasText: 'The firmware could not be loaded, so the robot goes on as it was.' }).waitFor();
-    await person.button('Bow').click();
-    await person.doing.filter({ hasText: 'Playing motion 2 (bow)' }).waitFor();
+    for (lost of [/servos-play/, /worker/]) {
+        await person.press('My servos …');
+        await person.untilSaid('The firmware could not be loaded, so the robot goes on as it was.');
+        await person.button('Bow').click();
+        await person.untilDoing('Playing motion 2 (bow)');
+        await person.untilStanding();
+    }
     // The console also has the refusals above, and nothing else.
     expect(person.faults.splice(0).filter(fault => !fault.includes('ERR_FAILED'))).toEqual([]);
     await person.leave();
@@ -84,7 +80,7 @@ function coloursOfRow(canvas: HTMLElement | SVGElement, share: number): number {
 }
 
 test('no graphics chip: the page never waits for a picture of a robot that walks, and floor is below and sky above', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { hasPhysics: false });
+    const person = await suite.come({ hasPicture: true });
     await person.untilStanding();
     await suite.browser.startTracing(person.page, { categories: ['gpu'] });
     await person.button('Walk').click();
@@ -94,6 +90,7 @@ test('no graphics chip: the page never waits for a picture of a robot that walks
     expect(all).toBeGreaterThan(0);
     expect(waited).toBe(0);
     const picture = person.page.locator('robot-view canvas');
+    await person.page.screenshot({ path: `${SHOTS}page.png` }); // used in the README
     expect(await picture.evaluate(coloursOfRow, 0)).toBeLessThan(await picture.evaluate(coloursOfRow, 1));
     await person.leave();
 });
@@ -111,30 +108,29 @@ function coveredPlaces(text: HTMLElement | SVGElement): string[] {
     );
 }
 
-test.each([
-    { width: 1280, height: 800 },
-    { width: 390, height: 844, hasTouch: true },
-])('no picture, $width x $height: the sentence that says so can be read, and nobody is told to drag in it', async screen => {
-    const person = await Visitor.come(suite.browser, suite.address, { screen, hasPicture: false, hasPhysics: false });
-    const sentence = person.page.getByText('This browser draws no 3D picture (WebGL is off).');
-    const poses = person.page.locator('pose-bar');
+test('no picture: the sentence that says so can be read, on a phone too, and nobody is told to drag in it', async () => {
+    const person = await suite.come({ screen: { width: 1280, height: 800 } });
+    const { page } = person;
+    const sentence = page.getByText('This browser draws no 3D picture (WebGL is off).');
+    const poses = page.locator('pose-bar');
+    const tools = await page.context().newCDPSession(page);
     await person.untilStanding();
-    for (const area of ['Steps', 'Curves'] as const) {
-        await person.open(area);
+    for (const isPhone of [false, true]) {
+        if (isPhone) await page.setViewportSize({ width: 390, height: 844 });
+        await tools.send('Emulation.setTouchEmulationEnabled', { enabled: isPhone });
+        await person.inPage(({ editor }) => editor.select({ joints: new Set() }));
+        for (const area of ['Steps', 'Curves'] as const) {
+            await person.open(area);
+            await person.untilSeen();
+            expect(await sentence.evaluate(coveredPlaces)).toEqual([]);
+            expect(await poses.getByText(/^Drag a joint/).isVisible()).toBe(false);
+            expect(await poses.getByRole('button', { name: 'Hand' }).isVisible()).toBe(false);
+        }
+        await person.open('Steps');
+        await person.inPage(({ editor }) => editor.select({ joints: new Set([1, 2, 3, 4, 5, 6]) }));
+        await poses.getByRole('spinbutton').first().click({ trial: true }); // the joints' numbers stay, and nothing covers them
         expect(await sentence.evaluate(coveredPlaces)).toEqual([]);
-        expect(await poses.getByText(/^Drag a joint/).isVisible()).toBe(false);
-        expect(await poses.getByRole('button', { name: 'Hand' }).isVisible()).toBe(false);
     }
-    await person.open('Steps');
-    await person.page.evaluate(() => {
-        const { session } = document.querySelector('app-shell') as unknown as {
-            session: { editor: { select(change: { joints: ReadonlySet<number> }): void } };
-        };
-        session.editor.select({ joints: new Set([1, 2, 3, 4, 5, 6]) });
-    });
-    await poses.getByRole('spinbutton').first().click({ trial: true }); // the joints' numbers stay, and nothing covers them
-    expect(await sentence.evaluate(coveredPlaces)).toEqual([]);
-    await person.page.screenshot({ path: `${SHOTS}no-picture-${screen.width}.png` });
     await person.leave();
 });
 
@@ -148,13 +144,12 @@ test('an old machine: no picture, no serial port, no physics', async () => {
             },
         });
         await person.page.getByText('This browser draws no 3D picture (WebGL is off). Everything else works; to see the robot').waitFor();
-        const said = person.page.getByRole('log', { name: 'Last message' });
-        await said.filter({ hasText: 'Physics could not be loaded, so the robot cannot fall.' }).waitFor();
+        await person.untilSaid('Physics could not be loaded, so the robot cannot fall.');
         await person.untilStanding();
         await person.press('Your robot …');
-        await said.filter({ hasText: /^This browser cannot reach a serial port\. It needs Web Serial/ }).waitFor();
+        await person.untilSaid(/^This browser cannot reach a serial port\. It needs Web Serial/);
         await person.button('Walk').click();
-        await person.doing.filter({ hasText: /Playing motion 2[12] \(walk_/ }).waitFor();
+        await person.untilDoing(/Playing motion 2[12] \(walk_/);
         // The console also has the refusals above, and nothing else.
         expect(person.faults.splice(0).filter(fault => !/ERR_FAILED|WebGL/i.test(fault))).toEqual([]);
         await person.leave();

@@ -4,7 +4,6 @@ import { expect, test } from 'vitest';
 import { EN } from '../../view/texts/en.ts';
 import DE from '../../view/texts/de.ts';
 import JA from '../../view/texts/ja.ts';
-import { Visitor } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
 import { comesLater } from './weight.ts';
 
@@ -21,9 +20,7 @@ function withPort(): void {
 
 test('German by the menu, after a new motion; Japanese by the address; each loads its own file and no other', async () => {
     const asked: string[] = [];
-    const person = await Visitor.come(suite.browser, suite.address, {
-        hasPicture: false,
-        hasPhysics: false,
+    const person = await suite.come({
         before: async page => {
             page.on('request', request => asked.push(request.url()));
             await page.addInitScript(withPort);

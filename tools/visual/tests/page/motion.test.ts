@@ -3,8 +3,7 @@
 // another document and a file, aims a joint.
 import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
-import { Visitor } from './page-bench.ts';
-import { SHOTS, pageSuite } from './page-suite.ts';
+import { pageSuite } from './page-suite.ts';
 import { chooseJoints, wayPoint } from './way-point.ts';
 
 /** As in status.ts. */
@@ -27,7 +26,7 @@ async function drag(page: Page, from: { x: number; y: number }, dx: number, dy: 
 }
 
 test('a hobbyist: stretches a step, takes steps to another page as text, drags a way-point, hears from physics where it falls, compares, aims a joint', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { screen: { width: 1280, height: 800 }, hasPicture: false });
+    const person = await suite.come({ hasPhysics: true, hasPython: true, screen: { width: 1280, height: 800 } });
     const { page } = person;
     await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
     await person.untilStanding();
@@ -81,13 +80,11 @@ test('a hobbyist: stretches a step, takes steps to another page as text, drags a
         .getByRole('status', { name: 'Other lines' })
         .filter({ hasText: /behind by up to \d+° \(joint 15\)/ })
         .waitFor(PATIENT);
-    await page.screenshot({ path: `${SHOTS}curves.png` });
 
     await person.open('Checks');
     await button(page, /^Try motion \d+ \(reel\)/).click();
     const falls = verdicts(page).filter({ hasText: /Falls in step 2 after \d\.\d s, and stays on the floor/ });
     await falls.waitFor(PATIENT);
-    await page.screenshot({ path: `${SHOTS}checks-physics.png` });
     await falls.getByRole('button', { name: /^Show motion \d+ \(reel\), step 2/ }).click();
     expect(await button(page, 'Step 2').getAttribute('aria-current')).toBe('true');
     await button(page, 'Delete').click();
@@ -123,7 +120,6 @@ test('a hobbyist: stretches a step, takes steps to another page as text, drags a
     await expect.poll(() => rows.count(), PATIENT).toBe(2); // the bow, and the page that is new here
     await button(page, 'Copy here motion 2 (bow)').click();
     await expect.poll(() => rows.count(), PATIENT).toBe(1);
-    await page.screenshot({ path: `${SHOTS}compare.png` });
     await button(page, 'Close').click();
     for (const name of ['bow', 'wave']) await page.getByRole('option', { name: new RegExp(`^motion \\d+ ${name},`) }).waitFor();
 
@@ -134,7 +130,6 @@ test('a hobbyist: stretches a step, takes steps to another page as text, drags a
     await page.getByText('Layers over the motion').click();
     await button(page, 'Aim').click();
     await beside.filter({ hasText: 'Moved by code: joint 1.' }).waitFor(PATIENT);
-    await page.screenshot({ path: `${SHOTS}layers.png` });
     await button(page, 'Free').click();
     await beside.filter({ hasText: 'No layers.' }).waitFor(PATIENT);
     await person.leave();

@@ -34,7 +34,8 @@ test('from a sub-path, and the second visit with the server stopped', async () =
     const asked: string[] = [];
     const visitor = await Visitor.come(browser, server.address, {
         keepsPage: true,
-        hasPicture: false,
+        hasPhysics: true,
+        hasPython: true,
         before: async page => {
             page.on('request', request => asked.push(request.url()));
         },
@@ -55,7 +56,7 @@ test('from a sub-path, and the second visit with the server stopped', async () =
 test('a release while the page is open: it goes on with its own files, says that there is a new version, and becomes it when asked', async () => {
     const page = await ReleasedPage.make();
     const server = await serve(page.folder);
-    const visitor = await Visitor.come(browser, server.address, { keepsPage: true, hasPicture: false });
+    const visitor = await Visitor.come(browser, server.address, { keepsPage: true, hasPhysics: true, hasPython: true });
     await visitor.untilStanding();
     const caches = (): Promise<string[]> => visitor.page.evaluate(() => window.caches.keys());
     await visitor.page.evaluate(() => navigator.serviceWorker.ready);
@@ -83,7 +84,7 @@ test('a release while the page is open: it goes on with its own files, says that
 
 test('the policy holds: no code from text, in the page', async () => {
     const server = await serve();
-    const visitor = await Visitor.come(browser, server.address, { hasPicture: false, hasPhysics: false });
+    const visitor = await Visitor.come(browser, server.address);
     // Playwright's own scripts may bypass the policy. A text that the page runs later may not.
     const ran = await visitor.page.evaluate(async () => {
         (setTimeout as (code: string) => void)('document.title = "made from text"');

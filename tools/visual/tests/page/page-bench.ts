@@ -7,6 +7,7 @@ import type { ChildProcess } from 'node:child_process';
 import { existsSync } from 'node:fs';
 import { chromium } from 'playwright-core';
 import type { Browser, BrowserContext, ConsoleMessage, Locator, Page } from 'playwright-core';
+import type { Session } from '../../view/session/session.ts';
 
 /** The whole browser, which draws its own window around each page even if nobody sees it. */
 export const BROWSER = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
@@ -41,11 +42,13 @@ export interface Visit {
     /** Screen pixels per CSS pixel. */
     readonly sharpness?: number;
     readonly screen?: Screen;
-    /** false: the browser has no WebGL, as on an old machine (lacking.test.ts). For tests without the picture, because drawing by software
-     *  costs more processor time than everything else. */
+    /** Default: the browser has no WebGL, as on an old machine (lacking.test.ts). Drawing by software doubles what a visit costs. */
     readonly hasPicture?: boolean;
-    /** false: the robot's physics cannot be loaded. It stands without a physical body and is ready three seconds sooner. */
+    /** Default: the robot's physics cannot be loaded. It stands without a physical body and is ready three seconds sooner. Physics doubles
+     *  what a visit costs, too. */
     readonly hasPhysics?: boolean;
+    /** Default: m512, which checks, compares and reads files, never comes. Starting Python costs more than a visit. */
+    readonly hasPython?: boolean;
     /** The browser stores the page for offline use (offline.test.ts), which writes 10 MB. */
     readonly keepsPage?: boolean;
     /** A first visit: the page suggests what to do (first-minute.test.ts). Other visitors are past that. */
@@ -59,6 +62,7 @@ const NO_PICTURE = /^THREE\.WebGLRenderer/;
 const NO_PHYSICS = /ERR_FAILED .*mujoco\.wasm/;
 /** The file with the physics. */
 export const PHYSICS = '**/mujoco.wasm*';
+const PYTHON = /\/(pyodide|python)[^/]*\.(gz|zip)$/;
 
 /** In the browser: disables WebGL. */
 function withoutWebGl(): void {
@@ -77,20 +81,20 @@ const ROBOT_DRAWN = 'robot-drawn';
 /** Default time limit of all waits. A busy computer must not fail a test. While writing tests, set WAIT_MS to a shorter time. */
 const LIMIT_MS = Number(process.env.WAIT_MS ?? 240_000);
 
-/** What is known of the robot's motions. */
-type Pages = readonly (Uint8Array | null)[];
-
-/** The page's own objects, as far as tests reach into them. */
-export type Shell = {
-    session: {
-        state: { set(change: { adapter: 'out' | 'back' | null }): void };
-        /** The cable to the robot in the page. */
-        sources: { simulated: { connection: { port: { deliver(bytes: Uint8Array): void; unplug(): void } } } };
-        editor: { state: { get(): { robot: Pages } }; setRobot(pages: Pages): void; undo(): void; redo(): void };
-        documents: { create(name: string): Promise<void> };
-        sim: { setSpeed(speed: number): void };
+/** The page's own objects, as far as tests reach into them: what the views see, and the cable to the robot in the page. */
+export type InPage = Session & {
+    readonly sources: {
+        readonly simulated: { readonly connection: { readonly port: { deliver(bytes: Uint8Array): void; unplug(): void } } };
     };
+    readonly editor: { setRobot(pages: readonly (Uint8Array | null)[]): void };
 };
+
+/** Runs an action in the page, which sees nothing around it, with the page's own objects. */
+export async function inPage<T, A>(page: Page, action: (session: InPage, argument: A) => T, argument?: A): Promise<Awaited<T>> {
+    await page.locator('app-shell').waitFor();
+    const call = `(${String(action)})(document.querySelector('app-shell').session, ${JSON.stringify(argument)})`;
+    return page.evaluate(call) as Promise<Awaited<T>>;
+}
 
 export class PageServer {
     readonly address: string;
@@ -142,8 +146,9 @@ export class Visitor {
             theme = 'light',
             sharpness = 1,
             screen: { width, height, hasTouch = false } = SCREEN,
-            hasPicture = true,
-            hasPhysics = true,
+            hasPicture = false,
+            hasPhysics = false,
+            hasPython = false,
             keepsPage = false,
             isNew = false,
             before,
@@ -160,6 +165,7 @@ export class Visitor {
         context.setDefaultTimeout(LIMIT_MS);
         if (!hasPicture) await context.addInitScript(withoutWebGl);
         if (!isNew) await context.addInitScript(() => localStorage.setItem('motion512.begun', '1'));
+        if (!hasPython) await context.route(PYTHON, () => undefined);
         if (!hasPhysics) await context.route(PHYSICS, route => route.abort());
         const visitor = new Visitor(context, await context.newPage());
         visitor.watch(new URL(address).origin, [...(hasPicture ? [] : [NO_PICTURE]), ...(hasPhysics ? [] : [NO_PHYSICS])]);
@@ -186,6 +192,21 @@ export class Visitor {
     /** The status text of the robot. */
     get doing() {
         return this.page.getByRole('status', { name: 'What the robot does' });
+    }
+
+    /** Waits until the robot's status says this. */
+    untilDoing(hasText: string | RegExp): Promise<void> {
+        return this.doing.filter({ hasText }).waitFor();
+    }
+
+    /** Waits until this is the last message. */
+    untilSaid(hasText: string | RegExp): Promise<void> {
+        return this.page.getByRole('log', { name: 'Last message' }).filter({ hasText }).waitFor();
+    }
+
+    /** Runs an action with the page's own objects. */
+    inPage<T, A = undefined>(action: (session: InPage, argument: A) => T, argument?: A): Promise<Awaited<T>> {
+        return inPage(this.page, action, argument);
     }
 
     button(name: string) {
@@ -257,45 +278,47 @@ export class Visitor {
             .evaluate((view, name) => (view as unknown as { placeOf(name: string): { x: number; y: number } }).placeOf(name), shape);
     }
 
+    /** The picture stays as it is, which saves what drawing by software costs. */
+    stopDrawing(): Promise<void> {
+        return this.page.locator('robot-view').evaluate(view => {
+            Object.assign((view as unknown as { scene: { renderer: object } }).scene.renderer, { render: () => undefined });
+        });
+    }
+
     /** Waits until the camera is still; it glides on a little after a gesture. */
     async untilStill(): Promise<void> {
         await this.page.waitForFunction(() => (document.querySelector('robot-view') as unknown as { isStill: boolean }).isStill);
     }
 
     /** The positions of these servos in the next picture. */
-    positions(ids: readonly number[]): Promise<number[]> {
-        return this.page.evaluate(
-            wanted =>
-                new Promise<number[]>(resolve => {
-                    type Frame = { servos: { id: number; position: number }[] };
-                    const { session } = document.querySelector('app-shell') as unknown as {
-                        session: { onFrame(l: (s: Frame) => void): () => void };
-                    };
+    async positions(ids: readonly number[]): Promise<number[]> {
+        const servos = await this.inPage(
+            session =>
+                new Promise<readonly { id: number; position: number }[]>(resolve => {
                     const stop = session.onFrame(state => {
                         stop();
-                        resolve(wanted.map(id => state.servos.find(one => one.id === id)?.position ?? 0));
+                        resolve(state.servos);
                     });
                 }),
-            ids,
         );
+        return ids.map(id => servos.find(one => one.id === id)?.position ?? 0);
     }
 
     /** Waits in the robot's own time, which is slower than the clock on a busy computer. */
-    async robotSeconds(seconds: number): Promise<void> {
-        await this.page.evaluate(ticks => {
-            const { session } = document.querySelector('app-shell') as unknown as {
-                session: { onFrame(listener: (state: { ticks: number }) => void): () => void };
-            };
-            return new Promise<void>(resolve => {
-                let first = -1;
-                const end = session.onFrame(state => {
-                    if (first < 0) first = state.ticks;
-                    if (state.ticks - first < ticks) return;
-                    end();
-                    resolve();
-                });
-            });
-        }, seconds * 128);
+    robotSeconds(seconds: number): Promise<void> {
+        return this.inPage(
+            (session, ticks) =>
+                new Promise<void>(resolve => {
+                    let first = -1;
+                    const end = session.onFrame(state => {
+                        if (first < 0) first = state.ticks;
+                        if (state.ticks - first < ticks) return;
+                        end();
+                        resolve();
+                    });
+                }),
+            seconds * 128,
+        );
     }
 
     /** The terminal's screen as text. */

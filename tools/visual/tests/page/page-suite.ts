@@ -4,7 +4,8 @@
 import { mkdir } from 'node:fs/promises';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll } from 'vitest';
-import { PageServer, startBrowser } from './page-bench.ts';
+import { PageServer, Visitor, startBrowser } from './page-bench.ts';
+import type { Visit } from './page-bench.ts';
 
 /** Screenshots: build products. */
 export const SHOTS = new URL('../../../../build/visual-shots/', import.meta.url).pathname;
@@ -13,6 +14,8 @@ export interface PageSuite {
     readonly browser: Browser;
     /** Address of the served page. */
     readonly address: string;
+    /** Somebody opens the page, or another address of the server. */
+    come(visit?: Visit, address?: string): Promise<Visitor>;
 }
 
 const TELL_MS = 20_000;
@@ -68,5 +71,6 @@ export function pageSuite(): PageSuite {
         get address() {
             return begun(suite.server).address;
         },
+        come: (visit, address = begun(suite.server).address) => Visitor.come(begun(suite.browser), address, visit),
     };
 }

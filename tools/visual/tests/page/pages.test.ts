@@ -3,9 +3,9 @@
 // over a cable that is pulled, compare; links and checks; closed tabs.
 import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
-import { Visitor } from './page-bench.ts';
-import type { Shell } from './page-bench.ts';
-import { SHOTS, pageSuite } from './page-suite.ts';
+import { inPage } from './page-bench.ts';
+import type { Visitor } from './page-bench.ts';
+import { pageSuite } from './page-suite.ts';
 
 const suite = pageSuite();
 
@@ -13,9 +13,9 @@ const card = (page: Page, name: RegExp) => page.getByRole('option', { name });
 const button = (page: Page, name: string | RegExp) => page.getByRole('button', { name });
 
 /** Pulls the cable when the second page is being saved. */
-function pullAtSecondSave(page: Page): Promise<void> {
-    return page.locator('app-shell').evaluate(shell => {
-        const { port } = (shell as unknown as Shell).session.sources.simulated.connection;
+function pullAtSecondSave(person: Visitor): Promise<void> {
+    return person.inPage(({ sources }) => {
+        const { port } = sources.simulated.connection;
         const deliver = port.deliver;
         let saves = 0;
         port.deliver = bytes => {
@@ -33,8 +33,7 @@ const answer = async (page: Page, dialog: string, name: string): Promise<void> =
 /** The robot does not answer, because its time stands still: the name is asked for at once, and the page waits in a dialog. */
 async function documentOfTheRobot(page: Page): Promise<void> {
     const title = 'What the robot has, as a document';
-    const setSpeed = (speed: number): Promise<void> =>
-        page.locator('app-shell').evaluate((shell, speed) => (shell as unknown as Shell).session.sim.setSpeed(speed), speed);
+    const setSpeed = (speed: number): Promise<void> => inPage(page, ({ sim }, to) => sim.setSpeed(to), speed);
     const documents = page.getByRole('combobox', { name: 'Document' });
     await setSpeed(0);
     await documents.selectOption('robot');
@@ -58,7 +57,7 @@ async function documentOfTheRobot(page: Page): Promise<void> {
 async function renamedTooLate(page: Page): Promise<void> {
     const documents = page.getByRole('combobox', { name: 'Document' });
     await documents.selectOption('rename');
-    await page.locator('app-shell').evaluate(shell => (shell as unknown as Shell).session.documents.create('other'));
+    await inPage(page, async ({ documents: all }) => void (await all.create('other')));
     await answer(page, 'Rename this document', 'better');
     const message = page.getByRole('log', { name: 'Last message' });
     await message.filter({ hasText: 'theirs was not renamed: another document is open now.' }).waitFor();
@@ -66,12 +65,12 @@ async function renamedTooLate(page: Page): Promise<void> {
 }
 
 test('a hobbyist: renames and copies pages, sees what will change, writes with a backup over a cable that is pulled, takes a page back; a closed tab loses nothing', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
+    const person = await suite.come({ hasPython: true });
     const { page } = person;
     await person.untilStanding();
     await person.open('Robot');
     await person.button('Run Edit').click();
-    await person.doing.filter({ hasText: /^Edit runs:/ }).waitFor();
+    await person.untilDoing(/^Edit runs:/);
     await person.open('Motions');
     await card(page, /^motion 2 bow/).click();
     await button(page, 'Rename …').click();
@@ -98,19 +97,19 @@ test('a hobbyist: renames and copies pages, sees what will change, writes with a
         expect(await inRow.first().getAttribute('aria-selected')).toBe('true');
     }
     await page.getByRole('searchbox', { name: 'Search motions' }).fill('');
-    await page.screenshot({ path: `${SHOTS}pages.png` });
 
     await button(page, 'To the robot (2) …').click();
     const rows = page.getByRole('list', { name: 'Motions that differ' });
     await rows.getByText('name "bow" -> "curtsy"').waitFor(); // m512's words, so Python is loaded
     await rows.getByText('motion 57 (stand)').waitFor();
     expect(await rows.getByRole('button', { name: "Take the robot's motion 2 (curtsy)" }).count()).toBe(1); // the label names the page
-    await page.screenshot({ path: `${SHOTS}to-the-robot.png` });
-    await pullAtSecondSave(page);
+    await pullAtSecondSave(person);
     await button(page, 'Write 2 motions into the robot').click();
     const transfer = page.getByRole('status', { name: 'Transfer' });
-    await transfer.filter({ hasText: 'cable' }).waitFor();
-    const [first, second] = await rows.getByRole('listitem').locator('.account').allTextContents();
+    // In one call, because it soon reconnects by itself and reads the robot anew.
+    const [first, second] = await transfer
+        .filter({ hasText: 'cable' })
+        .evaluate(status => [...(status.closest('dialog')?.querySelectorAll('li .account') ?? [])].map(one => one.textContent));
     expect(first).toBe('✓ written');
     expect(['being saved …', '✓ written']).toContain(second);
     await expect

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The picture of a robot that stands still asks the browser for no frame and draws nothing. Every change that can be seen is drawn.
 import { expect, test } from 'vitest';
-import { Visitor } from './page-bench.ts';
+import type { Visitor } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
 
 const suite = pageSuite();
@@ -32,13 +32,6 @@ function count(): void {
 
 const counted = (person: Visitor): Promise<Count> => person.page.evaluate(() => ({ ...(window as unknown as Counting).picture }));
 
-async function come(): Promise<Visitor> {
-    const person = await Visitor.come(suite.browser, suite.address, { hasPhysics: false, before: page => page.addInitScript(count) });
-    await person.untilStanding();
-    await person.untilStill();
-    return person;
-}
-
 /** What a second of a robot that stands still costs. */
 async function inASecond(person: Visitor): Promise<Count> {
     await person.untilStill();
@@ -58,9 +51,10 @@ async function drawnBy(person: Visitor, action: () => Promise<unknown>): Promise
 
 const NOTHING: Count = { frames: 0, draws: 0 };
 
-test('a robot that stands still costs nothing; what changes is drawn', async () => {
-    const person = await come();
+test('a robot that stands still costs nothing; what changes is drawn; the LEDs on its back blink where the camera sees them', async () => {
+    const person = await suite.come({ hasPicture: true, before: page => page.addInitScript(count) });
     const { page } = person;
+    await person.untilStanding();
     expect(await inASecond(person)).toEqual(NOTHING);
     const canvas = page.locator('robot-view canvas');
     const box = await canvas.boundingBox();
@@ -90,31 +84,18 @@ test('a robot that stands still costs nothing; what changes is drawn', async () 
         if (change === 'forceContextLoss') await force();
         else await drawnBy(person, force);
     }
-    expect(await inASecond(person)).toEqual(NOTHING);
-    await drawnBy(person, () => person.button('Walk').click());
-    person.faults.splice(0); // the lost context is told
-    await person.leave();
-});
-
-test('a step, a joint and an edit are drawn; then the picture rests', async () => {
-    const person = await come();
     await drawnBy(person, async () => {
         await person.open('Steps');
-        await person.page.getByRole('combobox', { name: 'Motion', exact: true }).selectOption('3');
+        await page.getByRole('combobox', { name: 'Motion', exact: true }).selectOption('3');
     });
-    const canvas = person.page.locator('robot-view canvas');
     await drawnBy(person, () => canvas.press('ArrowRight'));
     await drawnBy(person, () => canvas.press('ArrowUp'));
-    await drawnBy(person, () => person.page.getByRole('button', { name: 'Step 3', exact: true }).click());
+    await drawnBy(person, () => page.getByRole('button', { name: 'Step 3', exact: true }).click());
     await drawnBy(person, () => person.open('Remote'));
     expect(await inASecond(person)).toEqual(NOTHING);
-    await person.leave();
-});
-
-test('the LEDs on its back blink in the picture where the camera sees them', async () => {
-    const person = await come();
-    const canvas = person.page.locator('robot-view canvas');
     for (let i = 0; i < 26; i++) await canvas.press('Shift+ArrowRight'); // half round it
     await drawnBy(person, () => Promise.resolve()); // the page asks the robot three times a second
+    await drawnBy(person, () => person.button('Walk').click());
+    person.faults.splice(0); // the lost context is told
     await person.leave();
 });

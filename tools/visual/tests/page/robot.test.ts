@@ -2,8 +2,8 @@
 // What people do with the robot in the page, by mouse and keyboard, with elements found by their labels. Long motions are watched at four
 // times the speed.
 import { expect, test } from 'vitest';
-import { Visitor } from './page-bench.ts';
-import { SHOTS, pageSuite } from './page-suite.ts';
+import type { Visitor } from './page-bench.ts';
+import { pageSuite } from './page-suite.ts';
 
 const LIES = /^The robot lies on the floor\. Press Get up\.$/;
 const PATIENT = { timeout: 240_000 };
@@ -18,43 +18,46 @@ async function gamePad(visitor: Visitor, pressed: number | null): Promise<void> 
     }, pressed);
 }
 
-test('a pupil: it stands, walks while the keys light up, is pushed over, gets up; a game pad drives it, a hand puts it on its feet, too', async () => {
-    const pupil = await Visitor.come(suite.browser, suite.address, { sharpness: 2 }); // high resolution for the README
+test('a pupil: it stands, walks while the keys light up, is pushed over, gets up; a game pad drives it, a hand puts it on its feet, too; a steep floor', async () => {
+    const pupil = await suite.come({ hasPhysics: true });
+    const { page } = pupil;
     await pupil.untilStanding();
     expect(await pupil.button('Get up').isDisabled()).toBe(true); // it is standing
-    await pupil.page.keyboard.down('ArrowUp');
-    await pupil.doing.filter({ hasText: /Playing motion 2[12] \(walk_/ }).waitFor();
-    await pupil.page.keyboard.up('ArrowUp');
-    await pupil.page.getByText(/walk_[rl] plays/).waitFor();
-    await pupil.page.screenshot({ path: `${SHOTS}page.png`, scale: 'css' }); // used in the README
+    await page.keyboard.down('ArrowUp');
+    await pupil.untilDoing(/Playing motion 2[12] \(walk_/);
+    await page.keyboard.up('ArrowUp');
+    await page.getByText(/walk_[rl] plays/).waitFor();
     await pupil.button('Stop').click();
     await pupil.untilStanding();
     await gamePad(pupil, 12);
-    await pupil.doing.filter({ hasText: /Playing motion 2[12] \(walk_/ }).waitFor();
+    await pupil.untilDoing(/Playing motion 2[12] \(walk_/);
     await gamePad(pupil, null); // unplugged while pressed
     await expect.poll(() => pupil.button('U: ahead').getAttribute('aria-pressed')).toBe('false');
     await pupil.button('Stop').click();
     await pupil.untilStanding();
     await pupil.open('Robot');
     await pupil.button('Push ahead').click();
-    await pupil.doing.filter({ hasText: LIES }).waitFor();
+    await pupil.untilDoing(LIES);
     await pupil.button('4×').click();
-    await pupil.button('Get up').click();
+    await pupil.button('Get up').press('Enter');
     await pupil.untilStanding();
+    const focus = page.locator(':focus');
+    expect(await focus.textContent()).toBe(await pupil.button('Stop').textContent()); // a standing robot cannot get up
     await pupil.button('Push back').click();
-    await pupil.doing.filter({ hasText: LIES }).waitFor();
+    await pupil.untilDoing(LIES);
     await pupil.button('Put on its feet').click();
-    await pupil.doing.filter({ hasText: 'A hand holds the robot.' }).waitFor();
+    await pupil.untilDoing('A hand holds the robot.');
     await pupil.doing.filter({ hasNotText: 'lies' }).waitFor();
     await pupil.button('Let go').click();
     await pupil.untilStanding();
+    await page.getByLabel('Slope to the front').fill('15');
+    await pupil.untilDoing(LIES);
     await pupil.leave();
 });
 
 test('somebody leaves the terminal while Edit waits for a name: the robot plays all the same, the name goes on; Stop answers no question, and a key of the remote throws nothing away', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
+    const person = await suite.come();
     const runs = person.doing.filter({ hasText: /^Edit runs/ });
-    const said = person.page.getByRole('log', { name: 'Last message' });
     await person.untilStanding();
     await person.open('Robot');
     await person.button('Run Edit').click();
@@ -66,7 +69,7 @@ test('somebody leaves the terminal while Edit waits for a name: the robot plays 
     await person.type('salu');
     await person.open('Remote');
     await person.button('Bow').click();
-    await person.doing.filter({ hasText: /^Playing motion/ }).waitFor();
+    await person.untilDoing(/^Playing motion/);
     await runs.waitFor();
     await person.open('Terminal');
     await person.untilScreenSays('name:salu');
@@ -85,48 +88,42 @@ test('somebody leaves the terminal while Edit waits for a name: the robot plays 
     await expect.poll(() => person.screen()).not.toContain('Are you sure?');
     await person.open('Remote');
     await person.page.keyboard.press('ArrowUp'); // only Play receives it, and Play would start with an empty RAM
-    await said.filter({ hasText: /^The motion in Edit's memory has edits that are not saved/ }).waitFor();
+    await person.untilSaid(/^The motion in Edit's memory has edits that are not saved/);
     await person.open('Terminal');
     await person.untilScreenSays('salute');
     await person.type('save\r');
     await expect.poll(async () => (await person.screen()).includes('* unsaved')).toBe(false);
     await person.open('Remote');
     await person.page.keyboard.press('ArrowUp'); // it starts Play, which then carries it out
-    await person.doing.filter({ hasText: /^Playing motion 2[012] \(walk/ }).waitFor();
+    await person.untilDoing(/^Playing motion 2[012] \(walk/);
     await person.leave();
 });
-
-/** Finds a part of the robot in the picture by what lights up under the mouse. */
-async function find(visitor: Visitor, title: RegExp): Promise<{ x: number; y: number }> {
-    const box = await visitor.page.getByRole('img', { name: 'The robot' }).boundingBox();
-    const label = visitor.page.locator('robot-view .joint-label');
-    for (let row = 4; box && row < 14; row++) {
-        for (let column = 4; column < 16; column++) {
-            const at = { x: box.x + (box.width * column) / 20, y: box.y + (box.height * row) / 20 };
-            await visitor.page.mouse.move(at.x, at.y);
-            if (title.test((await label.textContent()) ?? '') && (await label.isVisible())) return at;
-        }
-    }
-    throw new Error(`nothing in the picture is called ${title}`);
-}
 
 /** Sum of the distances of the right arm's three joints from 512. */
 async function rightArm(visitor: Visitor): Promise<number> {
     return (await visitor.positions([1, 3, 5])).reduce((sum, position) => sum + Math.abs(position - 512), 0);
 }
 
-test('a hand pulls a stiff arm and lets it go back; time slow, paused, tick by tick', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { theme: 'dark' });
+test('a hand pulls a stiff arm and lets it go back', async () => {
+    const person = await suite.come({ hasPicture: true, hasPhysics: true });
     await person.untilStanding();
-    const arm = await find(person, /right elbow/);
+    const arm = await person.placeOf('right_forearm');
     const rest = await rightArm(person);
+    await person.page.mouse.move(arm.x, arm.y);
+    await person.page
+        .locator('robot-view .joint-label')
+        .filter({ hasText: /right elbow/ })
+        .waitFor();
     await person.page.mouse.down();
     await person.page.mouse.move(arm.x - 90, arm.y - 60, { steps: 8 });
     await expect.poll(async () => Math.abs((await rightArm(person)) - rest), PATIENT).toBeGreaterThan(4);
     await person.page.mouse.up();
     await expect.poll(async () => Math.abs((await rightArm(person)) - rest), PATIENT).toBeLessThan(4);
+    await person.leave();
+});
 
-    await person.open('Robot');
+/** In Robot: time slow, paused, tick by tick. */
+async function timeControl(person: Visitor): Promise<void> {
     const clock = person.page.locator('robot-pane .clock');
     const seconds = async (): Promise<number> => Number.parseFloat(await clock.innerText());
     const facts = person.page.locator('status-bar .facts');
@@ -143,8 +140,7 @@ test('a hand pulls a stiff arm and lets it go back; time slow, paused, tick by t
     await expect.poll(seconds, PATIENT).toBeGreaterThan(stands + 0.25);
     await person.button('real time').click();
     await expect.poll(seconds, PATIENT).toBeGreaterThan(stands + 1);
-    await person.leave();
-});
+}
 
 /** A row of the servo table: goal, position, state. */
 async function servo(visitor: Visitor, id: number): Promise<{ goal: number; position: number; state: string }> {
@@ -157,10 +153,9 @@ async function servo(visitor: Visitor, id: number): Promise<{ goal: number; posi
     return { goal: Number.parseInt(goal, 10), position: Number.parseInt(position, 10), state };
 }
 
-test('somebody who debugs breaks servos, lowers the battery, tilts the floor: the firmware names each, goals stand beside positions', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { theme: 'dark', hasPicture: false });
+test('somebody who debugs breaks servos, lowers the battery, slows time: the firmware names each, goals stand beside positions', async () => {
+    const person = await suite.come();
     const { page } = person;
-    const said = page.getByRole('log', { name: 'Last message' });
     const fault = (id: number, what: string) => page.getByLabel(`Fault of servo ${id}`, { exact: true }).selectOption(what);
     await person.untilStanding();
     await person.open('Robot');
@@ -181,20 +176,18 @@ test('somebody who debugs breaks servos, lowers the battery, tilts the floor: th
         [5, 'does not answer', /servo 5 does not answer/i, 'holds'],
     ] as const) {
         await fault(id, what);
-        await said.filter({ hasText: says }).waitFor();
+        await person.untilSaid(says);
         await expect.poll(async () => (await servo(person, id)).state, PATIENT).toBe(state); // the table is updated ten times a second
-        if (id === 5) await page.screenshot({ path: `${SHOTS}robot-dark.png` });
         await fault(id, 'none');
     }
-    await said.filter({ hasText: 'Servo 5 answers again' }).waitFor();
+    await person.untilSaid('Servo 5 answers again');
     await person.button('Bow').click();
-    await person.doing.filter({ hasText: 'Playing motion 2 (bow)' }).waitFor();
+    await person.untilDoing('Playing motion 2 (bow)');
     await person.untilStanding(); // in working order again
 
     await page.getByLabel('Battery').fill('6.5');
-    await said.filter({ hasText: 'Battery is low: 6.5 V' }).waitFor();
+    await person.untilSaid('Battery is low: 6.5 V');
     await page.locator('status-bar .facts').filter({ hasText: '6.5 V' }).waitFor();
-    await page.getByLabel('Slope to the front').fill('15');
-    await person.doing.filter({ hasText: LIES }).waitFor();
+    await timeControl(person);
     await person.leave();
 });

@@ -4,9 +4,8 @@
 import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
 import { LANGUAGES } from '../../view/texts/languages.ts';
-import { Visitor } from './page-bench.ts';
-import type { Screen } from './page-bench.ts';
-import { SHOTS, pageSuite } from './page-suite.ts';
+import type { Screen, Visitor } from './page-bench.ts';
+import { pageSuite } from './page-suite.ts';
 
 const PHONE = { width: 390, height: 844, hasTouch: true };
 const LYING = { width: 844, height: 390, hasTouch: true };
@@ -15,7 +14,6 @@ const DESKTOP = { width: 1440, height: 900 };
 const DESKTOP_AT_200 = { width: 720, height: 450 };
 /** The picture beside the areas: the narrowest such screen, a tablet and a desktop. */
 const BESIDE = [{ width: 1000, height: 700 }, TABLET, DESKTOP] as const;
-const SCREENS = { PHONE, LYING, TABLET, DESKTOP, DESKTOP_AT_200 };
 const AREAS = ['Remote', 'Steps', 'Curves', 'Motions', 'Links', 'Checks', 'Terminal', 'Robot'] as const;
 /** A row of 40 px buttons for fingers, including its margins. */
 const ROW_PX = 64;
@@ -111,32 +109,53 @@ async function checkArrangement(person: Visitor, screen: Screen): Promise<void> 
     await person.button('Send as link').waitFor({ state: 'hidden' });
 }
 
-test.each(Object.entries(SCREENS))(
-    '%s: one row of head, no word cut, at most five sizes of type and one blue button in every area, letters of 12 px or more in the terminal, which fills the screen',
-    async (name, screen) => {
-        const person = await Visitor.come(suite.browser, suite.address, { screen, hasPicture: false, hasPhysics: false });
-        const { page } = person;
-        await person.untilStanding();
-        expect((await box(page, 'app-shell > header')).height).toBeLessThanOrEqual(ROW_PX);
+/** Turns a screen for fingers to each of these sizes, and checks on each that no text covers these parts of the robot. */
+async function checkInSight(person: Visitor, screens: readonly Screen[], shapes: readonly string[]): Promise<void> {
+    const { page } = person;
+    for (const { width, height } of screens) {
+        await page.setViewportSize({ width, height });
+        await person.untilSeen();
+        for (const shape of shapes)
+            await expect
+                .poll(async () => textsOver(page, await person.placeOf(shape)), { message: `${shape}, ${width} x ${height}` })
+                .toEqual([]);
+    }
+}
+
+/** In an area: nothing is cut, at most one button is blue, and the picture stays when the area is scrolled. Returns its sizes of type. */
+async function checkArea(person: Visitor, screen: Screen, place: string): Promise<readonly number[]> {
+    const { page } = person;
+    const picture = await box(page, '.stage');
+    const found = await page.evaluate(look);
+    expect.soft(found.cut, `${place}: cut`).toEqual([]);
+    expect.soft(found.blue.length, `${place}: blue ${found.blue.join()}`).toBeLessThanOrEqual(1);
+    await page.mouse.move(screen.width - 60, screen.height - 90);
+    await page.mouse.wheel(0, 600);
+    await person.untilSeen();
+    expect.soft((await box(page, '.stage')).y, `${place}: the picture stays`).toBe(picture.y);
+    return found.type;
+}
+
+test('one row of head, no word cut, at most five sizes of type and one blue button in every area, letters of 12 px or more in the terminal, which fills the screen', async () => {
+    const person = await suite.come({ screen: DESKTOP, hasPython: true });
+    const { page } = person;
+    const tools = await page.context().newCDPSession(page);
+    await person.untilStanding();
+    for (const [name, screen] of Object.entries<Screen>({ DESKTOP, DESKTOP_AT_200, PHONE, LYING, TABLET })) {
+        await tools.send('Emulation.setTouchEmulationEnabled', { enabled: screen.hasTouch === true });
+        await page.setViewportSize(screen);
+        await person.untilSeen();
+        expect(await page.evaluate(() => matchMedia('(pointer: coarse)').matches)).toBe(screen.hasTouch === true);
+        expect((await box(page, 'app-shell > header')).height, name).toBeLessThanOrEqual(ROW_PX);
         if (screen === DESKTOP) expect((await box(page, 'action-bar')).height, 'the bar of motions').toBeLessThanOrEqual(ROW_PX);
         await checkArrangement(person, screen);
-        const picture = await box(page, '.stage');
         const type = new Set<number>();
         for (const area of AREAS) {
             await person.open(area);
-            await person.untilSeen();
-            const found = await page.evaluate(look);
-            expect.soft(found.cut, `${area}: cut`).toEqual([]);
-            expect.soft(found.blue.length, `${area}: blue ${found.blue.join()}`).toBeLessThanOrEqual(1);
-            for (const px of found.type) type.add(px);
-            await page.mouse.move(screen.width - 60, screen.height - 90);
-            await page.mouse.wheel(0, 600);
-            await person.untilSeen();
-            expect.soft((await box(page, '.stage')).y, `${area}: the picture stays`).toBe(picture.y);
+            for (const px of await checkArea(person, screen, `${name}, ${area}`)) type.add(px);
         }
-        expect([...type].length, [...type].join()).toBeLessThanOrEqual(5);
-        expect(Math.min(...type)).toBeGreaterThanOrEqual(LEAST_TYPE_PX);
-        await page.screenshot({ path: `${SHOTS}screen-${name.toLowerCase()}.png` });
+        expect([...type].length, `${name}: ${[...type].join()}`).toBeLessThanOrEqual(5);
+        expect(Math.min(...type), name).toBeGreaterThanOrEqual(LEAST_TYPE_PX);
         await person.open('Terminal');
         const letters = page.locator('terminal-pane .xterm-rows');
         await expect
@@ -144,38 +163,64 @@ test.each(Object.entries(SCREENS))(
             .toBeGreaterThanOrEqual(LEAST_TYPE_PX);
         await person.button('Full screen').click();
         await expect.poll(() => box(page, 'terminal-pane')).toEqual({ x: 0, y: 0, width: screen.width, height: screen.height });
-        await person.leave();
-    },
-);
-
-test.each(Object.keys(LANGUAGES))('the tabs of all areas stand in one row, none cut, beside the picture (%s)', async language => {
-    const person = await Visitor.come(suite.browser, `${suite.address}?lang=${language}`, {
-        screen: BESIDE[0],
-        hasPicture: false,
-        hasPhysics: false,
-    });
-    const { page } = person;
-    await page.locator('.more-areas').click();
-    for (const { width, height } of BESIDE) {
-        await page.setViewportSize({ width, height });
-        await person.untilSeen();
-        const tops = await page.getByRole('tab').evaluateAll(tabs => tabs.map(tab => tab.getBoundingClientRect().top));
-        expect.soft([tops.length, new Set(tops).size], `${width} x ${height}`).toEqual([AREAS.length, 1]);
-        expect.soft((await page.evaluate(look)).cut, `${width} x ${height}: cut`).toEqual([]);
+        await page.evaluate(() => document.exitFullscreen());
     }
     await person.leave();
 });
 
-test('on a phone the robot stands above the bar of motions, and the Tour leaves the hand in the picture free', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { screen: PHONE, hasPhysics: false });
+test('in every language the tabs of all areas stand in one row, none cut, beside the picture; on a phone Stop stands beside Play in Steps', async () => {
+    const person = await suite.come({
+        screen: PHONE,
+        before: page => page.addInitScript(() => localStorage.setItem('motion512.all-areas', '1')),
+    });
+    const { page } = person;
+    for (const language of Object.keys(LANGUAGES)) {
+        await page.goto(`${suite.address}?lang=${language}`);
+        await page.locator('#tab-steps').click();
+        for (const { width, height } of BESIDE) {
+            await page.setViewportSize({ width, height });
+            await person.untilSeen();
+            const tops = await page.getByRole('tab').evaluateAll(tabs => tabs.map(tab => tab.getBoundingClientRect().top));
+            expect.soft([tops.length, new Set(tops).size], `${language}, ${width} x ${height}`).toEqual([AREAS.length, 1]);
+            expect.soft((await page.evaluate(look)).cut, `${language}, ${width} x ${height}: cut`).toEqual([]);
+        }
+        await page.setViewportSize(PHONE);
+        const [, play, stop] = await page
+            .locator('#area-steps page-head button')
+            .evaluateAll(all => all.map(one => one.getBoundingClientRect().top));
+        expect.soft(stop, `${language}: Stop`).toBe(play);
+    }
+    await person.leave();
+});
+
+test('on a tablet and a phone: the robot stands as high over the bar of motions when its rows have come as when the screen was turned and back; nothing that is written over the picture covers its face; the Tour leaves the hand free', async () => {
+    const person = await suite.come({ hasPicture: true, screen: TABLET, isNew: true });
     const { page } = person;
     await person.untilStanding();
+    await page.getByText('A humanoid with real firmware').waitFor();
+    await person.untilStill();
+    const { y } = await person.placeOf('right_foot_front');
+    await page.setViewportSize({ width: TABLET.height, height: TABLET.width });
+    await person.untilSeen();
+    await page.setViewportSize(TABLET);
+    await expect.poll(async () => (await person.placeOf('right_foot_front')).y).toBeCloseTo(y, 0);
+
+    const screens = [TABLET, LYING, PHONE];
+    await checkInSight(person, screens, ['face']);
     // Bar and camera keep moving: the sentence about physics comes and goes, which makes the picture lower, and the robot's motions make
     // the bar higher.
     for (const foot of ['right_foot_front', 'left_foot_front']) {
         const aboveBar = async (): Promise<number> => (await box(page, 'action-bar')).y - (await person.placeOf(foot)).y;
         await expect.poll(aboveBar, { message: foot }).toBeGreaterThan(FOOT_PX);
     }
+    await person.open('Steps');
+    await page.getByText(/^Balance: /).waitFor();
+    await checkInSight(person, screens, ['face']);
+    await person.open('Curves');
+    await person.button('Right arm').click(); // nothing covers this button either
+    await page.getByRole('spinbutton', { name: /right elbow/ }).waitFor();
+    await checkInSight(person, screens, ['face']);
+
     await person.button('Tour').click();
     await person.button('Start').click();
     const card = page.getByRole('region', { name: 'Tour' });
@@ -193,50 +238,6 @@ test('on a phone the robot stands above the bar of motions, and the Tour leaves 
         return (await box(page, 'action-bar')).y - ring.y - ring.height;
     };
     await expect.poll(ringAboveBar).toBeGreaterThan(0);
-    await page.screenshot({ path: `${SHOTS}phone-tour.png` });
-    await person.leave();
-});
-
-test('the robot stands as high over the bar of motions when its rows have come as when the screen was turned and back', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { screen: TABLET, hasPhysics: false });
-    const { page } = person;
-    await person.untilStanding();
-    await person.untilStill();
-    const { y } = await person.placeOf('right_foot_front');
-    await page.setViewportSize({ width: TABLET.height, height: TABLET.width });
-    await person.untilSeen();
-    await page.setViewportSize({ width: TABLET.width, height: TABLET.height });
-    await expect.poll(async () => (await person.placeOf('right_foot_front')).y).toBeCloseTo(y, 0);
-    await person.leave();
-});
-
-/** Turns a screen for fingers to each of these sizes, and checks on each that no text covers these parts of the robot. */
-async function checkInSight(person: Visitor, screens: readonly Screen[], shapes: readonly string[]): Promise<void> {
-    const { page } = person;
-    for (const { width, height } of screens) {
-        await page.setViewportSize({ width, height });
-        await person.untilSeen();
-        for (const shape of shapes)
-            await expect
-                .poll(async () => textsOver(page, await person.placeOf(shape)), { message: `${shape}, ${width} x ${height}` })
-                .toEqual([]);
-    }
-}
-
-test('on a phone and a tablet, nothing that is written over the picture covers the face of the robot', async () => {
-    const screens = [TABLET, LYING, PHONE];
-    const person = await Visitor.come(suite.browser, suite.address, { screen: PHONE, isNew: true, hasPhysics: false });
-    const { page } = person;
-    await person.untilStanding();
-    await page.getByText('A humanoid with real firmware').waitFor();
-    await checkInSight(person, screens, ['face']);
-    await person.open('Steps');
-    await page.getByText(/^Balance: /).waitFor();
-    await checkInSight(person, screens, ['face']);
-    await person.open('Curves');
-    await person.button('Right arm').click(); // nothing covers this button either
-    await page.getByRole('spinbutton', { name: /right elbow/ }).waitFor();
-    await checkInSight(person, screens, ['face']);
     await person.leave();
 });
 
@@ -245,30 +246,16 @@ test('the card of a motion that was sent leaves the robot in sight, on small scr
     await bow.goto(`${suite.address}motions.html`);
     const hash = new URL((await bow.getByRole('link', { name: /^Bow/ }).getAttribute('href')) ?? '', suite.address).hash;
     await bow.close();
-    const person = await Visitor.come(suite.browser, `${suite.address}${hash}`, { screen: PHONE, isNew: true, hasPhysics: false });
+    const person = await suite.come({ hasPicture: true, screen: PHONE, isNew: true }, `${suite.address}${hash}`);
     await person.page.getByRole('region', { name: 'A motion for you' }).waitFor();
-    await person.doing.filter({ hasText: /^Playing motion 2 \(bow\)/ }).waitFor();
+    await person.untilDoing(/^Playing motion 2 \(bow\)/);
     await person.untilStanding();
     await checkInSight(person, [DESKTOP_AT_200, LYING, PHONE], ['face', 'chest', 'right_knee', 'left_foot_front']);
     await person.leave();
 });
 
-test.each(['en', 'de', 'ja'])('on a phone Stop stands beside Play in Steps (%s)', async language => {
-    const person = await Visitor.come(suite.browser, `${suite.address}?lang=${language}`, {
-        screen: PHONE,
-        hasPicture: false,
-        hasPhysics: false,
-    });
-    await person.page.locator('#tab-steps').click();
-    const tops = await person.page
-        .locator('#area-steps page-head button')
-        .evaluateAll(all => all.slice(1, 3).map(one => one.getBoundingClientRect().top));
-    expect(tops[0]).toBe(tops[1]);
-    await person.leave();
-});
-
 test('nothing over the picture covers the hand that is dragged, wherever it goes; no ghost stands before it', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { screen: DESKTOP, hasPhysics: false });
+    const person = await suite.come({ hasPicture: true, screen: DESKTOP });
     const { page } = person;
     await person.untilStanding();
     await person.open('Motions');
@@ -296,12 +283,7 @@ test('nothing over the picture covers the hand that is dragged, wherever it goes
         await expect.poll(() => view.evaluate(element => (element as unknown as { hasGhost: boolean }).hasGhost)).toBe(false);
     }
     expect(covering).toEqual([]);
-    const elbow = await page.evaluate(() => {
-        const { session } = document.querySelector('app-shell') as unknown as {
-            session: { editor: { page(number: number): { steps: { positions: number[] }[] } } };
-        };
-        return session.editor.page(2).steps[0]?.positions[5];
-    });
+    const elbow = await person.inPage(({ editor }) => editor.page(2).steps[0]?.positions[5]);
     await page.locator('.joint-label').getByText(`5 right elbow: ${elbow}`, { exact: true }).waitFor(); // not the value before the drag
     await page.mouse.up();
     await person.button('Walk').waitFor(); // everything is back

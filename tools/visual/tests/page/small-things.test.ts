@@ -2,13 +2,12 @@
 // What people expect of a page: Escape or a press beside a menu closes it, Ctrl+A selects all, irreversible actions are confirmed, a key
 // moves the focus to the picture and back, and there is no warning when nothing can be lost.
 import { expect, test } from 'vitest';
-import { Visitor } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
 
 const suite = pageSuite();
 
 test('menus, Ctrl+A, F6, a joint spoken, double clicks on "Add step" and Play, a library page, a question before "Factory fresh"', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { screen: { width: 1280, height: 800 }, hasPhysics: false });
+    const person = await suite.come({ hasPicture: true, screen: { width: 1280, height: 800 } });
     const { page } = person;
     await person.untilStanding();
     await person.open('Steps');
@@ -29,8 +28,8 @@ test('menus, Ctrl+A, F6, a joint spoken, double clicks on "Add step" and Play, a
     expect(await time.inputValue()).toBe(seconds);
 
     await person.button('▶ Play').dblclick(); // plays once, and nothing is refused
-    await person.doing.filter({ hasText: /^(Plays|Going slowly|Playing)/ }).waitFor();
-    await person.doing.filter({ hasText: /^Edit runs/ }).waitFor();
+    await person.untilDoing(/^(Plays|Going slowly|Playing)/);
+    await person.untilDoing(/^Edit runs/);
     expect(await page.locator('status-bar').textContent()).not.toContain('refused');
 
     await page.keyboard.press('Control+a');
@@ -79,7 +78,7 @@ test('menus, Ctrl+A, F6, a joint spoken, double clicks on "Add step" and Play, a
     await speed.fill('150');
     await person.open('Robot');
     await person.button('Power off').click();
-    await person.doing.filter({ hasText: /^The robot is switched off/ }).waitFor();
+    await person.untilDoing(/^The robot is switched off/);
     // A request to a robot that is off is dropped, or the robot would walk when it is switched on.
     await person.button('Walk').click();
     await message.filter({ hasText: 'The robot is switched off' }).waitFor();
@@ -112,7 +111,7 @@ function keepDiskBusy(): Promise<void> {
 }
 
 test('edits that still wait for the disk when the page is left are there the next time, and can be undone', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
+    const person = await suite.come();
     const { page } = person;
     await person.open('Steps');
     const name = page.getByRole('textbox', { name: 'Name of the motion' });
@@ -145,7 +144,7 @@ test('edits that still wait for the disk when the page is left are there the nex
 });
 
 test('the data of the page is deleted in the browser while the page is open: it stores and writes the robot as before', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
+    const person = await suite.come();
     const { page } = person;
     await person.untilStanding();
     await person.open('Steps');
@@ -173,41 +172,37 @@ test('the data of the page is deleted in the browser while the page is open: it 
 });
 
 test('whoever leaves is asked exactly when the browser keeps nothing', async () => {
-    for (const storage of ['works', 'denied', 'hangs'] as const) {
-        const isKept = storage === 'works';
-        const person = await Visitor.come(suite.browser, suite.address, {
-            hasPicture: false,
-            hasPhysics: false,
-            before: async page => {
-                if (storage === 'denied')
-                    await page.addInitScript(() =>
-                        Object.defineProperty(window, 'indexedDB', {
-                            get: () => {
-                                throw new DOMException('denied', 'SecurityError');
-                            },
-                        }),
-                    );
-                if (storage === 'hangs') await page.addInitScript(() => (IDBFactory.prototype.open = () => ({}) as IDBOpenDBRequest));
-            },
-        });
-        await person.page.locator('app-shell').waitFor();
-        const isAsked = await person.page.evaluate(() => !window.dispatchEvent(new Event('beforeunload', { cancelable: true })));
-        expect(isAsked).toBe(!isKept);
-        if (!isKept) {
-            // The warning uses the full width, not only the rest of a row.
-            await person.open('Steps');
-            const warning = await person.page.getByRole('status', { name: 'Autosave' }).boundingBox();
-            const bar = await person.page.getByRole('toolbar', { name: 'Document' }).boundingBox();
-            expect(warning?.width).toBeGreaterThan(0.9 * (bar?.width ?? NaN));
-        }
-        await person.leave();
+    const person = await suite.come();
+    const { page } = person;
+    const isAsked = async (): Promise<boolean> => {
+        await page.locator('app-shell').waitFor();
+        return page.evaluate(() => !window.dispatchEvent(new Event('beforeunload', { cancelable: true })));
+    };
+    expect(await isAsked()).toBe(false);
+    const refuses = (): void => {
+        const get = (): never => {
+            throw new DOMException('denied', 'SecurityError');
+        };
+        Object.defineProperty(window, 'indexedDB', { get });
+    };
+    const hangs = (): void => {
+        IDBFactory.prototype.open = () => ({}) as IDBOpenDBRequest;
+    };
+    for (const storage of [hangs, refuses]) {
+        await page.addInitScript(storage);
+        await page.reload();
+        expect(await isAsked()).toBe(true);
+        // The warning uses the full width, not only the rest of a row.
+        await person.open('Steps');
+        const warning = await page.getByRole('status', { name: 'Autosave' }).boundingBox();
+        const bar = await page.getByRole('toolbar', { name: 'Document' }).boundingBox();
+        expect(warning?.width).toBeGreaterThan(0.9 * (bar?.width ?? NaN));
     }
+    await person.leave();
 });
 
 test('without WebAssembly a sentence says so, and names no other browser', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, {
-        before: page => page.addInitScript(() => Reflect.deleteProperty(globalThis, 'WebAssembly')),
-    });
+    const person = await suite.come({ before: page => page.addInitScript(() => Reflect.deleteProperty(globalThis, 'WebAssembly')) });
     await person.page.getByRole('alert').filter({ hasText: 'This browser lacks WebAssembly, which' }).waitFor();
     await person.leave();
 });
@@ -227,11 +222,7 @@ function countWidths(): void {
 }
 
 test('a terminal that nobody has looked at measures no letters while the robot says what it plays, and shows all of it when it is opened', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, {
-        hasPicture: false,
-        hasPhysics: false,
-        before: page => page.addInitScript(countWidths),
-    });
+    const person = await suite.come({ before: page => page.addInitScript(countWidths) });
     await person.untilStanding();
     await person.button('Walk').click();
     await person.untilScreenSays(/Page 22 step 4.*Page 22 step 4/s);
@@ -243,6 +234,6 @@ test('a terminal that nobody has looked at measures no letters while the robot s
     await person.button('Full screen').click();
     await person.page.keyboard.type('play 2'); // not to the button
     await person.page.keyboard.press('Enter');
-    await person.doing.filter({ hasText: /^Playing motion 2 \(bow\)/ }).waitFor();
+    await person.untilDoing(/^Playing motion 2 \(bow\)/);
     await person.leave();
 });

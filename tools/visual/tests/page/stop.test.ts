@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stop precedes everything that waits, and no key moves the robot by surprise: neither in a dialog nor when released elsewhere.
 import { expect, test } from 'vitest';
-import { Visitor } from './page-bench.ts';
-import type { Shell } from './page-bench.ts';
+import type { Visitor } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
 
 const suite = pageSuite();
@@ -17,31 +16,25 @@ async function listen(person: Visitor): Promise<() => Promise<string[]>> {
     return () => person.page.evaluate(() => (window as unknown as { heard: string[] }).heard);
 }
 
-test('Stop takes back what waits until the robot stands: "Walk it", "Push it", a motion', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { isNew: true, hasPicture: false });
-    await person.button('Walk it').click();
+test('Stop takes back what waits until the robot stands: "Push it", a key to walk, a motion', async () => {
+    const person = await suite.come({ hasPhysics: true, isNew: true });
+    await person.button('Push it').click();
+    expect(await person.button('Stop').isEnabled()).toBe(true); // while the robot starts
+    await person.button('Stop').click();
+    await person.button('U: ahead').click(); // as "Walk it" does
     const heard = await listen(person);
-    await person.doing.filter({ hasText: 'A hand holds the robot.' }).waitFor();
+    await person.untilDoing('A hand holds the robot.');
     await person.button('Bow').click();
     await person.button('Stop').click();
     await person.untilStanding();
     await person.button('Wave').click();
-    await person.doing.filter({ hasText: /^Playing motion 3 \(wave\)/ }).waitFor();
-    expect((await heard()).filter(text => /walk|bow/.test(text))).toEqual([]);
+    await person.untilDoing(/^Playing motion 3 \(wave\), step [2-7]/); // a pushed robot is lying
+    expect((await heard()).filter(text => /walk|bow|lies/.test(text))).toEqual([]);
     await person.leave();
-    const other = await Visitor.come(suite.browser, suite.address, { isNew: true, hasPicture: false });
-    await other.button('Push it').click();
-    expect(await other.button('Stop').isEnabled()).toBe(true); // while the robot starts
-    await other.button('Stop').click();
-    await other.untilStanding();
-    await other.button('Wave').click();
-    await other.doing.filter({ hasText: /^Playing motion 3 \(wave\), step [2-7]/ }).waitFor(); // a pushed robot is lying
-    expect(await other.doing.textContent()).not.toContain('lies');
-    await other.leave();
 });
 
 test('the space bar stops Edit, and Edit goes on; no key drives the robot from a dialog; one that is let go elsewhere is let go', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
+    const person = await suite.come();
     const { page } = person;
     const ahead = person.button('U: ahead');
     const isPressed = (): Promise<string | null> => ahead.getAttribute('aria-pressed');
@@ -62,34 +55,33 @@ test('the space bar stops Edit, and Edit goes on; no key drives the robot from a
 
     await person.open('Robot');
     await person.button('Run Edit').click();
-    await person.doing.filter({ hasText: /^Edit runs/ }).waitFor();
+    await person.untilDoing(/^Edit runs/);
     await person.open('Remote');
     await person.button('Dance').click();
-    await person.doing.filter({ hasText: /^Playing motion \d+ \(dance/ }).waitFor();
+    await person.untilDoing(/^Playing motion \d+ \(dance/);
     expect(await page.getByText('at its end the keys lead on to').isVisible()).toBe(false); // they lead nowhere
     const heard = await listen(person);
     await page.keyboard.press('Space');
-    await person.doing.filter({ hasText: /^Edit runs/ }).waitFor();
+    await person.untilDoing(/^Edit runs/);
     expect((await heard()).filter(text => text.includes('starting'))).toEqual([]);
     await person.leave();
 });
 
 test('Stop ends live follow, and so does a cable or an adapter that is pulled: the robot does not move by itself when it is connected again', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
+    const person = await suite.come();
     const { page } = person;
     await person.untilStanding();
     const follow = await person.follow();
     await page.locator('#area-steps').getByRole('button', { name: 'Stop' }).click();
     await expect.poll(() => follow.isChecked()).toBe(false);
     await follow.check();
-    await page.locator('app-shell').evaluate(shell => (shell as unknown as Shell).session.sources.simulated.connection.port.unplug());
+    await person.inPage(({ sources }) => sources.simulated.connection.port.unplug());
     await expect.poll(() => follow.isChecked()).toBe(false);
     await person.untilStanding(); // it connects again
     expect([await follow.isEnabled(), await follow.isChecked()]).toEqual([true, false]);
     // The adapter of My servos: the program behind it goes on, and so does the connection.
     await follow.check();
-    const adapter = (change: 'out' | 'back'): Promise<void> =>
-        page.locator('app-shell').evaluate((shell, now) => (shell as unknown as Shell).session.state.set({ adapter: now }), change);
+    const adapter = (change: 'out' | 'back'): Promise<void> => person.inPage(({ state }, now) => state.set({ adapter: now }), change);
     await adapter('out');
     expect([await follow.isEnabled(), await follow.isChecked()]).toEqual([false, false]);
     await adapter('back');

@@ -2,14 +2,13 @@
 // Legs that were limp and bent do not carry the robot. The hand keeps holding it after "Hold" until "Let go" or a play. A limb whose release
 // was refused is not shown as limp.
 import { expect, test } from 'vitest';
-import { Visitor } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
 
 const suite = pageSuite();
 const HELD = 'A hand holds the robot.';
 
 test('the hand stays over legs that were let go, and over an arm beside them, until "Let go", and the next time until a play', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false });
+    const person = await suite.come({ hasPhysics: true });
     const { page, doing } = person;
     await person.untilStanding();
     for (const limbs of [['Right leg'], ['Left leg', 'Right arm']]) {

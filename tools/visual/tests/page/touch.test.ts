@@ -4,8 +4,8 @@ import type { Locator, Page } from 'playwright-core';
 import { expect, test } from 'vitest';
 import { Fingers } from './fingers.ts';
 import type { Point } from './fingers.ts';
-import { Visitor } from './page-bench.ts';
-import { SHOTS, pageSuite } from './page-suite.ts';
+import type { Visitor } from './page-bench.ts';
+import { pageSuite } from './page-suite.ts';
 import { chooseJoints, wayPoint } from './way-point.ts';
 
 const LYING = { width: 1024, height: 768, hasTouch: true };
@@ -64,7 +64,7 @@ const takeBack = async (page: Page, what: RegExp): Promise<void> => {
 const position = (page: Page) => page.getByRole('group', { name: 'Chosen joints' }).getByRole('spinbutton').first();
 
 test('lying: the camera by one finger and by two, joints, a hand, steps, times and way-points dragged; nothing too small, nothing scrolls', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { screen: LYING, hasPhysics: false });
+    const person = await suite.come({ hasPicture: true, screen: LYING });
     const { page } = person;
     const fingers = await Fingers.on(page);
     await person.untilStanding();
@@ -100,7 +100,6 @@ test('lying: the camera by one finger and by two, joints, a hand, steps, times a
     const hand = await person.placeOf('right_hand');
     await fingers.drag(await person.placeOf('right_forearm'), 70, -40);
     await expect.poll(() => position(page).inputValue()).not.toBe(rest);
-    await page.screenshot({ path: `${SHOTS}tablet-pose.png` });
     await takeBack(page, /^Undo: pose/);
     await untilAt(person, 'right_hand', hand); // the picture follows the undo at the next drawing, later on a busy computer
     await fingers.drag(hand, -50, -90);
@@ -121,7 +120,6 @@ test('lying: the camera by one finger and by two, joints, a hand, steps, times a
     const at = await wayPoint(page, 15, 1);
     await fingers.drag({ x: at.x + 12, y: at.y + 8 }, 0, -60);
     await takeBack(page, /^Undo: drag/);
-    await page.screenshot({ path: `${SHOTS}tablet-curves.png` });
     const area = page.getByRole('tabpanel', { name: 'Curves' });
     const { x, y, height } = (await canvas.boundingBox()) ?? { x: 0, y: 0, height: 0 };
     await fingers.drag({ x: x + 8, y: y + height - 4 }, 0, -120); // away from all way-points: the area scrolls
@@ -140,14 +138,14 @@ test('lying: the camera by one finger and by two, joints, a hand, steps, times a
     await page.getByRole('tab', { name: 'Remote', exact: true }).tap();
     const ahead = await middle(page.getByRole('button', { name: 'U: ahead' }));
     await fingers.down(ahead);
-    await person.doing.filter({ hasText: /Playing motion 2[12] \(walk_/ }).waitFor();
+    await person.untilDoing(/Playing motion 2[12] \(walk_/);
     await fingers.up();
     expect(await page.evaluate(() => [scrollX, scrollY, visualViewport?.scale])).toEqual([0, 0, 1]);
     await person.leave();
 }, 900_000);
 
 test('on end: a hand is taught by finger, the area scrolls, page and picture stay', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { theme: 'dark', screen: ON_END });
+    const person = await suite.come({ hasPicture: true, hasPhysics: true, theme: 'dark', screen: ON_END });
     const { page } = person;
     const fingers = await Fingers.on(page);
     await person.untilStanding();
@@ -164,7 +162,6 @@ test('on end: a hand is taught by finger, the area scrolls, page and picture sta
     expect(await page.evaluate(() => scrollY)).toBe(0);
     await page.getByRole('button', { name: 'Add step from the robot' }).tap();
     await page.getByRole('button', { name: 'Step 1', exact: true }).waitFor();
-    await page.screenshot({ path: `${SHOTS}tablet-on-end.png` });
     expect(await tooSmall(page)).toEqual([]);
     const area = page.getByRole('tabpanel', { name: 'Steps' });
     await area.evaluate(element => element.scrollTo(0, 0));

@@ -2,7 +2,7 @@
 // Two tabs have one robot each but share one memory in the browser: the second never overwrites what the first has saved.
 import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
-import { PHYSICS, Visitor } from './page-bench.ts';
+import { PHYSICS, type Visitor } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
 
 const suite = pageSuite();
@@ -50,8 +50,8 @@ function isAskedToStay(page: Page): Promise<boolean> {
     return page.evaluate(() => !window.dispatchEvent(new Event('beforeunload', { cancelable: true })));
 }
 
-test('a second tab says that it has a copy; what the first has saved stays, whatever the second saves or forgets, which says so all the time', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
+test('a second tab says that it has a copy; what the first has saved stays, whatever the second saves or forgets, which says so all the time; when the first is closed, the second keeps its robot', async () => {
+    const person = await suite.come();
     await person.untilStanding();
     const second = await openSecond(person);
     expect(await second.getByRole('log', { name: 'Last message' }).textContent()).toMatch(
@@ -86,31 +86,19 @@ test('a second tab says that it has a copy; what the first has saved stays, what
     await person.untilScreenSays(/\] law\s+classic/); // the robot of before
     await saveLaw(person.page, 'exact');
     await expect.poll(() => keptEeprom(person.page)).not.toBe(saved);
-    await person.leave();
-});
 
-test('the first tab is closed: the second keeps its robot from then on, with what it has saved before', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
-    await person.untilStanding();
-    const second = await openSecond(person);
     await saveLaw(second);
     await expect.poll(() => isAskedToStay(second)).toBe(true);
-    const before = await keptEeprom(second);
+    const last = await keptEeprom(second);
     await person.page.close();
-    await second
-        .getByRole('log', { name: 'Last message' })
-        .filter({ hasText: /^The other tab is closed/ })
-        .waitFor();
-    await expect.poll(() => keptEeprom(second)).not.toBe(before);
+    await notice.waitFor({ state: 'detached' });
+    await expect.poll(() => keptEeprom(second)).not.toBe(last);
     await expect.poll(() => isAskedToStay(second)).toBe(false);
-    expect(await second.getByRole('status', { name: "Robot's memory" }).textContent()).toBe('');
     await person.leave();
 });
 
 test('over plain http from another machine, where the browser has no locks: the second tab has a copy, and says that its robot is not kept', async () => {
-    const person = await Visitor.come(suite.browser, suite.address, {
-        hasPicture: false,
-        hasPhysics: false,
+    const person = await suite.come({
         before: page => page.context().addInitScript(() => Reflect.deleteProperty(Navigator.prototype, 'locks')),
     });
     await person.untilStanding();

@@ -6,7 +6,7 @@ const address = process.argv[2];
 if (address === undefined) throw new Error('visit.ts: which ADDRESS?');
 const browser = await startBrowser();
 try {
-    const visitor = await Visitor.come(browser, address);
+    const visitor = await Visitor.come(browser, address, { hasPicture: true, hasPhysics: true });
     await visitor.untilStanding().catch(async () => {
         throw new Error(`the robot does not stand; the page says: ${await visitor.page.locator('body').innerText()}`);
     });

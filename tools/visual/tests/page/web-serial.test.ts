@@ -120,7 +120,7 @@ async function atTheRobot(image: 'play' | 'edit', action: (bench: Bench) => Prom
         args: FLAGS,
     });
     try {
-        const person = await Visitor.come(browser, server.address, { hasPicture: false, hasPhysics: false });
+        const person = await Visitor.come(browser, server.address);
         await person.untilStanding();
         await new Keyboard(person).enter('Menu');
         await new Keyboard(person).enter('Your robot …'); // the policy allows the port, so no chooser opens
@@ -139,13 +139,9 @@ async function atTheRobot(image: 'play' | 'edit', action: (bench: Bench) => Prom
 /** Waits until a servo of the picture is beyond this position. Prints the poses per second of wall-clock time that the picture got; in
  *  robot time it gets more than 20 (live.test.ts). */
 async function untilBeyond(person: Visitor, servo: number, position: number): Promise<void> {
-    const rate = await person.page.evaluate(
-        ([id, beyond, limitMs]) =>
+    const rate = await person.inPage(
+        (session, [id, beyond, limitMs]) =>
             new Promise<number>(resolve => {
-                type Frame = { servos: { id: number; position: number }[] };
-                const { session } = document.querySelector('app-shell') as unknown as {
-                    session: { onFrame(l: (s: Frame) => void): () => void };
-                };
                 const startMs = performance.now();
                 let poses = 0;
                 const end = (result: number): void => {
@@ -174,7 +170,7 @@ test.skipIf(why !== null)(
         await atTheRobot('play', async ({ person, robot, folder }) => {
             await person.untilStanding();
             await person.page.keyboard.press('ArrowUp');
-            await person.doing.filter({ hasText: /Playing motion 2[12] \(walk_/ }).waitFor();
+            await person.untilDoing(/Playing motion 2[12] \(walk_/);
             await person.page.keyboard.press('Space');
             await person.untilStanding();
             await person.button('Bow').click();
@@ -185,16 +181,16 @@ test.skipIf(why !== null)(
             await person.untilScreenSays(/last reset: (?!power-on)/);
             await person.untilStanding();
             await person.button('Wave').click();
-            await person.doing.filter({ hasText: 'Playing motion 3 (wave)' }).waitFor();
+            await person.untilDoing('Playing motion 3 (wave)');
 
             await robot.pull();
-            await person.doing.filter({ hasText: 'The cable is unplugged.' }).waitFor();
+            await person.untilDoing('The cable is unplugged.');
             plugInto(folder, await robot.plugIn());
             await person.untilStanding(); // without pressing anything
             await person.button('Bow').click();
-            await person.doing.filter({ hasText: 'Playing motion 2 (bow)' }).waitFor();
+            await person.untilDoing('Playing motion 2 (bow)');
             await robot.pull();
-            await person.doing.filter({ hasText: 'The cable is unplugged.' }).waitFor();
+            await person.untilDoing('The cable is unplugged.');
             await person.press('Robot in this page');
             await person.untilStanding();
         });
@@ -237,7 +233,7 @@ test.skipIf(why !== null)(
                 await person.open('Terminal');
                 await nameAndSave(person, 'salute');
                 await robot.pull();
-                await person.doing.filter({ hasText: 'The cable is unplugged.' }).waitFor();
+                await person.untilDoing('The cable is unplugged.');
                 const [before, after] = [readFileSync(join(BUILD, 'motions/motions.bin')), readFileSync(robot.flash).subarray(0xe000)];
                 const pageIn = (image: Buffer, at: number): Buffer => image.subarray(512 * at, 512 * at + 512);
                 const differ = Array.from({ length: 128 }, (_, at) => at).filter(at => !pageIn(before, at).equals(pageIn(after, at)));
@@ -362,7 +358,7 @@ async function atTheServos(
     });
     try {
         const before = (page: Page): Promise<unknown> => page.addInitScript(chooseFirst);
-        const person = await Visitor.come(browser, server.address, { hasPicture: false, hasPhysics: false, before });
+        const person = await Visitor.come(browser, server.address, { before });
         await person.untilStanding();
         person.page.setDefaultTimeout(PATIENT_WITH_SERVOS_MS);
         await person.press('My servos …');
@@ -389,11 +385,10 @@ test.skipIf(why !== null)(
     async context => {
         await atTheServos(context, '1-18', async ({ person, servos, folder }) => {
             const startMs = performance.now();
-            const said = person.page.getByRole('log', { name: 'Last message' });
             await untilFound(person, '18 servos answer. Nothing moves before you say so.');
             expect(servos.frames()).toEqual([]);
             await person.button('Wave').click();
-            await person.doing.filter({ hasText: 'Playing motion 3 (wave)' }).waitFor();
+            await person.untilDoing('Playing motion 3 (wave)');
             console.log(`the first wave began ${((performance.now() - startMs) / 1000).toFixed(1)} s after the button`);
             await person.untilStanding();
             const ours = distinct(posesOf(servos.frames()));
@@ -401,28 +396,28 @@ test.skipIf(why !== null)(
             expect(ours).toEqual(board.slice(board.indexOf(ours[0] ?? '')));
 
             await person.button('Walk').click();
-            await person.doing.filter({ hasText: /Playing motion 2[0-9]/ }).waitFor();
+            await person.untilDoing(/Playing motion 2[0-9]/);
             await servos.pull();
-            await person.doing.filter({ hasText: 'The servo adapter is unplugged' }).waitFor();
+            await person.untilDoing('The servo adapter is unplugged');
             const sent = servos.frames().length;
             plugInto(folder, await servos.plugIn());
-            await person.doing.filter({ hasText: 'The servo adapter is back' }).waitFor();
+            await person.untilDoing('The servo adapter is back');
             await person.button('Wave').click();
-            await said.filter({ hasText: /refused/ }).waitFor();
+            await person.untilSaid(/refused/);
             expect(servos.frames().length).toBe(sent);
             await person.open('Terminal');
             await person.type('on\r');
             await person.untilStanding();
             await person.button('Wave').click();
-            await person.doing.filter({ hasText: 'Playing motion 3 (wave)' }).waitFor();
+            await person.untilDoing('Playing motion 3 (wave)');
             await person.untilStanding();
 
             await person.button('Walk').click();
-            await person.doing.filter({ hasText: /Playing motion 2[0-9]/ }).waitFor();
+            await person.untilDoing(/Playing motion 2[0-9]/);
             await person.page.evaluate(hide, true);
             await person.untilStanding();
             await person.page.evaluate(hide, false);
-            await said.filter({ hasText: 'This page was hidden, so the motion was ended softly' }).waitFor();
+            await person.untilSaid('This page was hidden, so the motion was ended softly');
             await person.press('Robot in this page');
             await person.untilStanding();
         });

@@ -3,7 +3,7 @@
 import { readFileSync } from 'node:fs';
 import type { Page } from 'playwright-core';
 import type { Texts } from '../../view/texts/texts.ts';
-import type { Visitor } from './page-bench.ts';
+import type { Screen, Visitor } from './page-bench.ts';
 import { PAGE_BYTES } from '../../model/motion.ts';
 import type { Tab } from '../../view/session/session.ts';
 
@@ -79,18 +79,24 @@ export class Walk {
     private readonly person: Visitor;
     private readonly page: Page;
     private readonly texts: Texts;
-    private readonly found: (place: string, words: Words) => unknown;
+    private readonly screens: readonly Screen[];
+    private readonly found: (place: string, words: Words) => void;
 
-    constructor(person: Visitor, texts: Texts, found: (place: string, words: Words) => unknown) {
+    /** screens: at each place the page is looked at on all of them, from the narrowest on. */
+    constructor(person: Visitor, texts: Texts, screens: readonly Screen[], found: (place: string, words: Words) => void) {
         this.person = person;
+        this.screens = screens;
         this.page = person.page;
         this.texts = texts;
         this.found = found;
     }
 
-    async look(place: string): Promise<void> {
-        await this.person.untilSeen();
-        await this.found(place, await this.page.evaluate(look));
+    private async look(place: string, screens = this.screens): Promise<void> {
+        for (const screen of screens) {
+            await this.page.setViewportSize(screen);
+            await this.person.untilSeen();
+            this.found(`${place}, ${screen.width} px`, await this.page.evaluate(look));
+        }
     }
 
     async open(area: Tab): Promise<void> {
@@ -124,7 +130,7 @@ export class Walk {
         await page.getByRole('button', { name: texts.tour.tour, exact: true }).click();
         const next = page.locator('tour-card .row button:not(.back)').nth(1);
         for (let stop = 1; stop < 14; stop++) {
-            await this.look(`tour ${stop}`);
+            await this.look(`tour ${stop}`, this.screens.slice(0, 1)); // nothing but texts, which wrap
             await next.click();
         }
         await this.look('tour 14');
@@ -185,10 +191,7 @@ export class Walk {
         await page.locator('page-card[data-page="2"]').click();
         await this.person.openMenu();
         await this.dialog('link', () => page.getByRole('button', { name: this.texts.files.send, exact: true }).click());
-        const hash = await page.evaluate(() => {
-            const { session } = document.querySelector('app-shell') as unknown as { session: { files: { link(): Promise<string> } } };
-            return session.files.link();
-        });
+        const hash = await this.person.inPage(({ files }) => files.link());
         const address = page.url();
         await page.goto('about:blank');
         await page.goto(address + hash);
