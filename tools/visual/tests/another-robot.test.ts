@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Another robot is chosen, or the page is hidden, while something for the robot is under way: nothing of it reaches the next robot, and
 // nobody holds a key of a hidden page. The session is real; both robots answer from a script.
-import { readFile } from 'node:fs/promises';
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { RobotSession } from '../app/robot-session.ts';
 import { ServosSource } from '../app/servos-source.ts';
 import { SimulatedSource } from '../app/simulated-source.ts';
-import type { Body } from '../model/body.ts';
 import type { FormatsWorker } from '../model/file-formats.ts';
 import { wallClock } from '../robot/clock.ts';
 import { Connection } from '../robot/connection.ts';
 import { BytePort } from '../sim/byte-port.ts';
 import { PassingStorage } from '../view/document-storage.ts';
 import { TEXTS } from '../view/texts/texts.ts';
-import { libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
+import { BODY, libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
 
 vi.mock('../app/assets.ts', () => ({}));
 
-const BODY = JSON.parse(await readFile(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
 const { format } = await makeFormat();
 const library = await libraryDocument();
 const open: Connection[] = [];

@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The autosave: a tab closed at any moment has kept every finished edit and nothing of an unfinished one.
-import { readFileSync } from 'node:fs';
 import { expect, test, vi } from 'vitest';
 import { KeptDocuments } from '../app/documents.ts';
 import type { Hold } from '../app/documents.ts';
 import { DocumentEditor } from '../app/editor.ts';
-import type { Body } from '../model/body.ts';
 import { copyName, emptyDocument, imageOf, pageOf } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
 import { EMPTY_LOG, advance, restored } from '../model/history-log.ts';
 import type { Transaction } from '../model/transaction.ts';
 import { PassingStorage, sortKept } from '../view/document-storage.ts';
 import type { DocumentStorage } from '../view/document-storage.ts';
-import { libraryDocument, makeFormat, makeMotion, must } from './motion-bench.ts';
+import { BODY as body, libraryDocument, makeFormat, makeMotion, must } from './motion-bench.ts';
 import { randomNumbers, settle } from './robot-bench.ts';
 
-const body = JSON.parse(readFileSync(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
 const { format } = await makeFormat();
 const player = await makeMotion();
 const library = await libraryDocument('My motions');

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The page's body against tools/body/README.md and the public descriptions.
-import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import { jointAngle, placeLinks, servoPosition, soleCorners } from '../model/body.ts';
-import type { Body } from '../model/body.ts';
 import { Standing } from '../sim/standing.ts';
 import { STILL } from '../model/space.ts';
 import type { Place } from '../model/space.ts';
 import { present } from './present.ts';
+import { BODY as body } from './motion-bench.ts';
 
-const body = JSON.parse(readFileSync(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
 const HERE: Place = { pos: [0, 0, 0], quat: STILL };
 const joint = (servo: number) => present(body.joints.find(one => one.servo === servo));
 

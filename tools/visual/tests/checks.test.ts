@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Checks and links: figures from the manufacturers' data sheets and small documents calculated by hand.
-import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
-import type { Body } from '../model/body.ts';
 import { PageChecks, checkLinks, checkPage } from '../model/checks.ts';
 import { emptyDocument, pageOf, withChanges } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
 import { linkGraph } from '../model/links.ts';
 import type { HeaderChange } from '../model/page-edits.ts';
 import type { Step } from '../model/page.ts';
-import { libraryDocument, makeFormat, makeMotion, must } from './motion-bench.ts';
+import { BODY as body, libraryDocument, makeFormat, makeMotion, must } from './motion-bench.ts';
 
-const body = JSON.parse(readFileSync(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
 const { format, edits } = await makeFormat();
 const player = await makeMotion();
 

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Keys on the curves of a motion without steps; two fingers.
-import { readFileSync } from 'node:fs';
 import { expect, test, vi } from 'vitest';
 import { DocumentEditor } from '../app/editor.ts';
-import type { Body } from '../model/body.ts';
 import { emptyDocument } from '../model/document.ts';
 import { JOINTS } from '../model/motion.ts';
 import { CurveHand } from '../view/editor/curve-hand.ts';
 import { easyStep } from '../view/editor/editing.ts';
 import { changeStep } from '../view/editor/joint-edits.ts';
 import type { Session } from '../view/session/session.ts';
-import { makeFormat, makeMotion } from './motion-bench.ts';
-
-const body = JSON.parse(readFileSync(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
+import { BODY as body, makeFormat, makeMotion } from './motion-bench.ts';
 
 async function emptyEditor() {
     const { format } = await makeFormat();

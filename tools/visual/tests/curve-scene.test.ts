@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What Curves draws of a shaped motion: the curve is the shaped one, the way-points stay on the stored values, which are edited.
-import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import { DocumentEditor } from '../app/editor.ts';
-import type { Body } from '../model/body.ts';
 import { AS_STORED, JOINTS, TICKS_PER_SECOND } from '../model/motion.ts';
 import type { Shape } from '../model/motion.ts';
 import { CurveFrame, drawCurves } from '../view/editor/curve-picture.ts';
 import { curveScene } from '../view/editor/curve-scene.ts';
-import { libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
+import { BODY as body, libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
 
-const body = JSON.parse(readFileSync(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
 const { format } = await makeFormat();
 const editor = new DocumentEditor(
     body,

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 // A servo of your robot that does not answer for a moment, as a loose plug makes it. The middle is not its position.
-import { readFile } from 'node:fs/promises';
 import { expect, test, vi } from 'vitest';
 import { FollowedRobot } from '../app/followed-robot.ts';
-import type { Body } from '../model/body.ts';
 import type { RobotState } from '../robot/robot-state.ts';
 import { BytePort } from '../sim/byte-port.ts';
 import { robotPositions } from '../view/editor/editing.ts';
-
-const BODY = JSON.parse(await readFile(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
+import { BODY } from './motion-bench.ts';
 
 test('a servo that does not answer keeps its place in the picture, and is not taught', async () => {
     const nothing = (): void => undefined;

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What Curves says of the servos in physics.
-import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
-import type { Body } from '../model/body.ts';
 import { lagText } from '../view/texts/editor.ts';
+import { BODY as body } from './motion-bench.ts';
 
-const body = JSON.parse(readFileSync(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
 const NOTHING = { chosen: [], lags: new Map<number, number>(), isUnknown: false };
 
 test('physics is said to be asked only while there is a line to ask for', () => {

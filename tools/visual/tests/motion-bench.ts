@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// motion.wasm and the motion library for tests in Node.
+// motion.wasm, the motion library and the robot's body for tests in Node.
 
+import { readFile } from 'node:fs/promises';
+import type { Body } from '../model/body.ts';
 import { makeEdits } from '../model/edit.ts';
 import { documentFrom } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
@@ -9,6 +11,8 @@ import type { MotionExports } from '../model/motion.ts';
 import { PageFormat } from '../model/page-format.ts';
 import type { Result } from '../model/result.ts';
 import { robotImages, wasmModule } from './robot-bench.ts';
+
+export const BODY = JSON.parse(await readFile(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
 
 export async function makeMotion(): Promise<Motion> {
     const instance = await WebAssembly.instantiate(await wasmModule('motion'), {});

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The page over plain http from another machine, as a school may offer it: the browser has no locks, no clipboard and no crypto.randomUUID
 // there.
-import { readFileSync } from 'node:fs';
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { makeDocuments } from '../app/document-parts.ts';
 import { DocumentEditor } from '../app/editor.ts';
 import { holdDocument } from '../app/hold-document.ts';
 import { TabLocks } from '../app/tab-locks.ts';
-import type { Body } from '../model/body.ts';
 import { copyText } from '../view/clipboard.ts';
 import { PassingStorage } from '../view/document-storage.ts';
-import { libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
-
-const body = JSON.parse(readFileSync(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
+import { BODY as body, libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
 
 beforeEach(() => {
     const { crypto } = globalThis;

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Drags in the picture, checked by the resulting places of placeLinks().
-import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import { ORIGIN, trunkOn } from '../model/balance.ts';
 import { angleIn, placeLinks } from '../model/body.ts';
-import type { Angles, Body } from '../model/body.ts';
+import type { Angles } from '../model/body.ts';
 import { dragged, flattened, grab, partOf } from '../model/pose-drag.ts';
 import type { Grab } from '../model/pose-drag.ts';
 import { add, length, rotate, scale, subtract, turn } from '../model/space.ts';
 import type { Place, Vector } from '../model/space.ts';
 import { present } from './present.ts';
 import { randomNumbers } from './robot-bench.ts';
+import { BODY as body } from './motion-bench.ts';
 
-const body = JSON.parse(readFileSync(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
 const READY: Angles = new Map(
     body.joints.map(joint => [joint.servo, { 11: 0.4, 12: 0.4, 13: -0.8, 14: -0.8, 15: 0.4, 16: 0.4 }[joint.servo] ?? 0]),
 );

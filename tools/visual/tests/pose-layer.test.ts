@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What is drawn of the balance is what was computed, however many corners the soles make.
-import { readFile } from 'node:fs/promises';
 import type { LineLoop } from 'three';
 import { expect, test } from 'vitest';
 import type { Point } from '../model/balance.ts';
-import type { Body } from '../model/body.ts';
 import { PoseLayer } from '../view/editor/pose-layer.ts';
-
-const body = JSON.parse(await readFile(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
+import { BODY as body } from './motion-bench.ts';
 
 test('the support polygon has as many corners as the soles, on one foot and on two', () => {
     const layer = new PoseLayer(body);

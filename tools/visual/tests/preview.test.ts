@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Shows a motion in the picture before a robot plays it, and switches the figure between step, motion and robot.
-import { readFile } from 'node:fs/promises';
 import { expect, test } from 'vitest';
 import { DocumentEditor } from '../app/editor.ts';
 import { MotionPreview } from '../app/preview.ts';
-import type { Body } from '../model/body.ts';
 import { AS_STORED, JOINTS } from '../model/motion.ts';
 import type { Where } from '../robot/protocol.ts';
 import type { SessionState } from '../view/session/session.ts';
 import { Store } from '../view/store.ts';
-import { libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
+import { BODY as body, libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
 
-const body = JSON.parse(await readFile(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
 const { format } = await makeFormat();
 const WAVE = 3;
 const WALK = 20;

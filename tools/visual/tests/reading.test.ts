@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: MIT
 // A file that is too large, is unreadable, or whose reading is cancelled.
 import { execFileSync } from 'node:child_process';
-import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import { DocumentEditor } from '../app/editor.ts';
 import { DocumentFiles } from '../app/files.ts';
 import { FormatsClient } from '../files/formats-client.ts';
 import type { FromFiles, ToFiles } from '../files/messages.ts';
-import type { Body } from '../model/body.ts';
 import { MOST_BYTES } from '../model/file-formats.ts';
-import { libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
+import { BODY as body, libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
 import { settle } from './robot-bench.ts';
 
 const ROOT = new URL('../../../', import.meta.url).pathname;
-const body = JSON.parse(readFileSync(`${ROOT}build/wasm/body.json`, 'utf8')) as Body;
 
 /** A worker that receives no messages while it works, like Python. The test decides when it answers. */
 class BusyWorker {

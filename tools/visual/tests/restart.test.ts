@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Restarts of the robot in the page: pressed twice, before it was there, after a crash, without a network. Worker, board and firmware are
 // real; files and the browser's storage are fakes.
-import { readFile } from 'node:fs/promises';
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { SimulatedSource } from '../app/simulated-source.ts';
 import { RobotTransfer } from '../app/transfer.ts';
-import type { Body } from '../model/body.ts';
 import { pageOf } from '../model/document.ts';
 import { MOTIONS_ADDRESS } from '../sim/board.ts';
 import { SimulatedRobot } from '../sim/robot-client.ts';
 import type { ToSim } from '../sim/messages.ts';
 import type { SessionState } from '../view/session/session.ts';
 import type { KeptRobot } from '../view/robot-store.ts';
-import { libraryDocument, makeFormat } from './motion-bench.ts';
+import { BODY, libraryDocument, makeFormat } from './motion-bench.ts';
 import { NodeWorker } from './node-worker.ts';
 import * as bench from './robot-bench.ts';
 
@@ -45,8 +43,6 @@ vi.mock('../view/robot-store.ts', () => {
         },
     };
 });
-
-const BODY = JSON.parse(await readFile(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
 
 beforeEach(() => {
     vi.stubGlobal('Worker', NodeWorker);

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The LEDs on the robot's back are left out of the picture only where the robot itself hides them completely.
-import { readFile } from 'node:fs/promises';
 import { Raycaster, Vector3 } from 'three';
 import type { Mesh } from 'three';
 import { expect, test } from 'vitest';
-import type { Body } from '../model/body.ts';
 import { RobotFigure } from '../view/robot-figure.ts';
+import { BODY } from './motion-bench.ts';
 
-const BODY = JSON.parse(await readFile(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
 /** Of a lamp's 425 points every seventh is looked at. */
 const EVERY = 7;
 /** Nearest and usual distance of the camera. */

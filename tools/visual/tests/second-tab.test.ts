@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The robot of a second tab: the page says that it is not kept, knows what would be lost, and keeps it when the other tab is closed. What
 // the other tab has saved is not lost either. The worker is a script.
-import { readFile } from 'node:fs/promises';
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { robotFreed } from '../app/hold-document.ts';
 import { SimulatedSource } from '../app/simulated-source.ts';
-import type { Body } from '../model/body.ts';
 import { MOTIONS_ADDRESS } from '../sim/board.ts';
 import type { FromSim, ToSim } from '../sim/messages.ts';
 import type { SessionState } from '../view/session/session.ts';
 import type { KeptRobot } from '../view/robot-store.ts';
 import { TEXTS } from '../view/texts/texts.ts';
+import { BODY } from './motion-bench.ts';
 
 const browser = vi.hoisted(() => ({ kept: null as KeptRobot | null, isFull: false }));
 
@@ -30,8 +29,6 @@ vi.mock('../view/robot-store.ts', () => ({
         browser.kept = null;
     },
 }));
-
-const BODY = JSON.parse(await readFile(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
 
 /** Locks as browsers have them, held by other tabs. */
 class Locks {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // My servos, as the page chooses them: what one tab does not use, another one may.
-import { readFile } from 'node:fs/promises';
 import { afterEach, expect, test, vi } from 'vitest';
 import { ServosSource } from '../app/servos-source.ts';
-import type { Body } from '../model/body.ts';
 import { TEXTS } from '../view/texts/texts.ts';
+import { BODY } from './motion-bench.ts';
 
 const LIBRARY = new Uint8Array([0]);
 const browser = vi.hoisted(() => ({ missing: '', reads: true, saves: true, kept: null as readonly Uint8Array[] | null }));
@@ -26,8 +25,6 @@ vi.mock('../view/robot-store.ts', () => ({
         browser.kept = memories;
     },
 }));
-
-const BODY = JSON.parse(await readFile(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
 
 /** A worker whose adapter is in use by another program. */
 class Refused {

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Stop while a hand stands the robot in the page up, and a crash while somebody waits for it. The session is real; the worker is a script.
-import { readFile } from 'node:fs/promises';
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { RobotSession } from '../app/robot-session.ts';
-import type { Body } from '../model/body.ts';
 import type { FormatsWorker } from '../model/file-formats.ts';
 import { remotePacket } from '../robot/remote.ts';
 import type { FromSim, ToSim } from '../sim/messages.ts';
 import { PassingStorage } from '../view/document-storage.ts';
 import { TEXTS } from '../view/texts/texts.ts';
-import { libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
+import { BODY, libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
 
 vi.mock('../app/assets.ts', () => ({
     boardModule: () => Promise.resolve(null),
@@ -22,7 +20,6 @@ vi.mock('../view/robot-store.ts', () => ({
     forgetRobot: () => Promise.resolve(),
 }));
 
-const BODY = JSON.parse(await readFile(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
 const { format } = await makeFormat();
 const library = await libraryDocument();
 const WALK = 20;

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The page's results of trials: what is valid, what a change invalidates, what is skipped, and what happens without physics.
-import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import { DocumentEditor } from '../app/editor.ts';
 import { MotionTrials } from '../app/trials.ts';
 import { NO_HISTORY } from '../model/history.ts';
-import type { Body } from '../model/body.ts';
 import { AS_STORED } from '../model/motion.ts';
 import type { TrialRecord, TrialRequest } from '../model/trial.ts';
 import type { TrialClient } from '../sim/trial-client.ts';
-import { libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
+import { BODY as body, libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
 
-const body = JSON.parse(readFileSync(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
 const { format } = await makeFormat();
 const player = await makeMotion();
 const library = await libraryDocument();

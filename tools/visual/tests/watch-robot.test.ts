@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The pose of one robot is not shown as that of the next: until that has told its own, the picture has no robot, but the edited step.
-import { readFile } from 'node:fs/promises';
 import { expect, test } from 'vitest';
 import { DocumentEditor } from '../app/editor.ts';
-import type { Body } from '../model/body.ts';
 import type { RobotState } from '../robot/robot-state.ts';
 import type { Session, SessionState } from '../view/session/session.ts';
 import { EDITING_START } from '../view/editor/editing.ts';
@@ -11,9 +9,8 @@ import { PoseTool } from '../view/editor/pose-tool.ts';
 import type { RobotScene } from '../view/robot-scene.ts';
 import { Store } from '../view/store.ts';
 import { watchRobot } from '../view/watch-robot.ts';
-import { libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
+import { BODY, libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
 
-const BODY = JSON.parse(await readFile(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
 const ROBOT = { trunk: { pos: [1, 2, 0.3], quat: [1, 0, 0, 0] }, servos: [], leds: 1 } as unknown as RobotState;
 const nothing = (): void => undefined;
 
