@@ -2,6 +2,7 @@
 """Files of the command cm5sim: flash, EEPROM, traces, plots; and its port for avr-gdb."""
 
 import csv
+import shutil
 import signal
 import socket
 import subprocess
@@ -122,6 +123,45 @@ def test_a_full_disk_is_told_with_the_name_of_the_trace(tmp_path):
     for script in (MOVE, "at 10s quit\n"):  # told at the end, and in the middle of the run
         done = play(tmp_path, script, "--trace", "/dev/full")
         assert done.returncode == 4 and b"cm5sim: /dev/full: No space left on device" in done.stderr, done.stderr
+
+
+MEMORIES = {"flash": 0x20000, "eeprom": 0x1000, "servo-eeprom": 3 * 24}
+
+
+def options(tmp_path, *names):
+    return [word for name in names for word in (f"--{name}", tmp_path / name)]
+
+
+@pytest.mark.parametrize("option, file", [("trace", "t.csv"), ("plot", "x.svg"), *((name, f"{name}.new") for name in MEMORIES)])
+def test_a_full_disk_costs_no_other_file(tmp_path, option, file):
+    (tmp_path / file).symlink_to("/dev/full")
+    arguments = [f"--{option}", tmp_path / file] if option not in MEMORIES else []
+    done = play(tmp_path, MOVE, "--servos", "1-3", *options(tmp_path, *MEMORIES), *arguments)
+    assert done.returncode == 4 and done.stderr.decode() == f"cm5sim: {tmp_path / file}: No space left on device\n"
+    for name in MEMORIES.keys() - {option}:
+        assert (tmp_path / name).stat().st_size == MEMORIES[name]
+
+
+def test_a_picture_whose_folder_has_gone_costs_no_other_file(tmp_path):
+    (tmp_path / "pictures").mkdir()
+    with Running(ROBOT, "--tcp", "--no-stdio", "--plot", tmp_path / "pictures" / "x.svg", *options(tmp_path, "flash")) as robot:
+        robot.message("serial port: (tcp)")
+        shutil.rmtree(tmp_path / "pictures")
+        assert robot.stop() == 4
+        assert robot.process.stderr.read().decode().strip() == f"cm5sim: {tmp_path}/pictures/x.svg: No such file or directory"
+    assert (tmp_path / "flash").stat().st_size == MEMORIES["flash"]
+
+
+@pytest.mark.parametrize("time", ["100ms", "3s"])  # told at the end, and in the middle of the run
+def test_a_full_disk_costs_the_bus_no_servo(tmp_path, time):
+    done = run("--bus-pty", "--servos", "1-3", "--time", time, "--trace", "/dev/full", *options(tmp_path, "servo-eeprom"))
+    assert done.returncode == 4 and done.stderr.decode().splitlines()[1:] == ["cm5sim: /dev/full: No space left on device"]
+    assert (tmp_path / "servo-eeprom").stat().st_size == MEMORIES["servo-eeprom"]
+
+
+def test_two_servos_with_one_id_have_a_diagram_each(tmp_path):
+    assert play(tmp_path, MOVE, "--servos", "1-4", "--fault", "3:duplicate", "--plot", tmp_path / "x.svg").returncode == 0
+    assert (tmp_path / "x.svg").read_text().count("<!-- joint 3 -->") == 2
 
 
 def test_a_plot_that_cannot_be_made_is_refused_before_the_run(tmp_path):

@@ -10,9 +10,9 @@ from collections.abc import Callable
 
 from . import library
 from .board import CYCLES_PER_TICK
-from .files import keep_servos, plug_in_servos
+from .files import keep, memories, plug_in_servos
 from .library import CYCLES_PER_MS
-from .options import Options
+from .options import EXIT_FILE, EXIT_GOOD, Options
 from .serial_port import SerialPort
 from .servo import Servos
 from .trace import Trace
@@ -123,19 +123,22 @@ class Bus:
             self.step()
         self._trace_up_to(self._clock())
 
-    def close(self) -> None:
-        """OSError: a file could not be written."""
+    def close(self) -> list[str]:
+        """Returns why files could not be written."""
         self.port.close()
-        try:
-            if self._trace:
-                self._trace.close()
-            keep_servos(self.servos, self._options)
-        finally:
-            self._lib.servo_bus_free(self._bus)
+        failures = keep(memories(self._options, self.servos), self._trace)
+        self._lib.servo_bus_free(self._bus)
+        return failures
 
 
-def main(options: Options, interrupted: Callable[[], bool]) -> None:
+def main(options: Options, interrupted: Callable[[], bool]) -> int:
+    """Returns the exit code. OSError: a file or port cannot be used."""
     bus = Bus(options)
     print(f"cm5sim: servo bus: {bus.port.path}", file=sys.stderr, flush=True)
-    bus.run(interrupted)
-    bus.close()
+    try:
+        bus.run(interrupted)
+    finally:
+        failures = bus.close()
+        for failure in failures:
+            print(f"cm5sim: {failure}", file=sys.stderr)
+    return EXIT_FILE if failures else EXIT_GOOD

@@ -77,8 +77,7 @@ def run(options: Options, stop: Stop) -> int:
             return run_board(options, stop, script)
         from . import bus
 
-        bus.main(options, lambda: stop.asked)
-        return opt.EXIT_GOOD
+        return bus.main(options, lambda: stop.asked)
 
 
 def run_board(options: Options, stop: Stop, script: Script | None) -> int:

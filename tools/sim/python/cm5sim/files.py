@@ -8,11 +8,15 @@ import os
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from fcntl import LOCK_EX, LOCK_NB, flock
-from typing import IO
+from functools import partial
+from typing import IO, TYPE_CHECKING
 
 from .board import LOADER_ADDRESS, MOTIONS_ADDRESS, Board, find_image
 from .options import Options
 from .servo import EEPROM_BYTES, Servos
+
+if TYPE_CHECKING:
+    from .trace import Trace
 
 MOTION_BYTES, MOTION_PAGE_BYTES = 0x10000, 512  # a file of 65,024 bytes has no page 0
 
@@ -87,10 +91,20 @@ def kept_files(options: Options) -> Iterator[None]:
         yield
 
 
+@contextmanager
+def naming(path: str) -> Iterator[None]:
+    """Gives an OSError of writing the name of the file."""
+    try:
+        yield
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, path) from None
+
+
 def write_kept(path: str, data: bytes) -> None:
-    with open(beside(path), "wb") as file:
-        file.write(data)
-    os.replace(beside(path), path)
+    with naming(beside(path)):
+        with open(beside(path), "wb") as file:
+            file.write(data)
+        os.replace(beside(path), path)
 
 
 def load_memories(board: Board, options: Options, say: Callable[[str], None]) -> None:
@@ -124,17 +138,28 @@ def plug_in_servos(servos: Servos, options: Options) -> None:
         servos[number].fault(name)
 
 
-def keep_servos(servos: Servos, options: Options) -> None:
+def memories(options: Options, servos: Servos, board: Board | None = None) -> dict[str, bytes]:
+    """What is to be kept, by the names of the files."""
+    kept = {}
+    if options.flash and board:
+        kept[options.flash] = bytes(board.flash)
+    if options.eeprom and board:
+        kept[options.eeprom] = bytes(board.eeprom)
     if options.servo_eeprom:
-        write_kept(options.servo_eeprom, b"".join(servo.table[:EEPROM_BYTES] for servo in servos))
+        kept[options.servo_eeprom] = b"".join(servo.table[:EEPROM_BYTES] for servo in servos)
+    return kept
 
 
-def keep_memories(board: Board, options: Options) -> None:
-    if options.flash:
-        write_kept(options.flash, bytes(board.flash))
-    if options.eeprom:
-        write_kept(options.eeprom, bytes(board.eeprom))
-    keep_servos(board.servos, options)
+def keep(kept: dict[str, bytes], trace: Trace | None) -> list[str]:
+    """Writes the memories, then closes the trace: each of them, whatever befalls another. Returns why some failed."""
+    failures = []
+    writes: list[Callable[[], None]] = [partial(write_kept, *file) for file in kept.items()]
+    for write in writes + ([trace.close] if trace else []):
+        try:
+            write()
+        except OSError as error:
+            failures.append(reason(error))
+    return failures
 
 
 def reason(error: Exception) -> str:

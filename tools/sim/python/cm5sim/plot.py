@@ -10,22 +10,20 @@ import pathlib
 
 COLUMNS = 3
 DEGREES_PER_UNIT = 300 / 1023
-Joint = tuple[list["float | None"], list[float]]  # goals (None: limp) and present positions
+Joint = tuple[int, list["float | None"], list[float]]  # ID, goals (None: limp) and present positions
 
 
-def read_trace(path: str) -> tuple[list[float], dict[int, Joint]]:
-    """Returns the time in s, and the joints by ID."""
+def read_trace(path: str) -> tuple[list[float], list[Joint]]:
+    """Returns the time in s, and the joints in the order of the columns: two servos may have one ID."""
     times: list[float] = []
     with open(path, newline="", encoding="ascii") as file:
         rows = csv.reader(file)
-        ids = [int(name[len("goal") :]) for name in next(rows) if name.startswith("goal")]
-        joints: dict[int, Joint] = {number: ([], []) for number in ids}
+        joints: list[Joint] = [(int(name[len("goal") :]), [], []) for name in next(rows) if name.startswith("goal")]
         for row in rows:
             times.append(float(row[1]) / 1000)
-            for index, number in enumerate(ids):
-                goal, present = row[2 + 2 * index : 4 + 2 * index]
-                joints[number][0].append(float(goal) if goal else None)
-                joints[number][1].append(float(present))
+            for (_, goals, presents), goal, present in zip(joints, row[2::2], row[3::2]):
+                goals.append(float(goal) if goal else None)
+                presents.append(float(present))
     return times, joints
 
 
@@ -51,14 +49,13 @@ def draw(path: str, out: str) -> None:
     from matplotlib import pyplot
 
     times, joints = read_trace(path)
-    active = [number for number in joints if times and is_active(*joints[number])]
-    still = [number for number in joints if number not in active]
+    active = [(number, goals, presents) for number, goals, presents in joints if times and is_active(goals, presents)]
+    still = [number for number, goals, presents in joints if not (times and is_active(goals, presents))]
     columns = min(COLUMNS, max(1, len(active)))
     rows = max(1, -(-len(active) // columns))
     figure, axes = pyplot.subplots(rows, columns, figsize=(4.2 * columns, 1.7 * rows + 0.9), sharex=True, squeeze=False, layout="constrained")
     cells = list(axes.flat)
-    for axis, number in zip(cells, active):
-        goals, presents = joints[number]
+    for axis, (number, goals, presents) in zip(cells, active):
         axis.plot(times, [float("nan") if goal is None else goal for goal in goals], color="#d95f02", linewidth=0.9, label="goal")
         axis.plot(times, presents, color="#1b6ca8", linewidth=1.3, label="present")
         shown = presents + [goal for goal in goals if goal is not None]

@@ -12,7 +12,7 @@ from . import script as scripts
 from . import terminal
 from .board import CYCLES_PER_TICK, Board, Violation
 from .console import LINE_BPS, Console
-from .files import keep_memories, load_memories, plug_in_servos, reason
+from .files import keep, load_memories, memories, plug_in_servos
 from .library import CYCLES_PER_MS
 from .options import EXIT_EXPECTATION, EXIT_FILE, EXIT_GOOD, EXIT_VIOLATION, NEVER, Options
 from .servo import Servo
@@ -395,11 +395,6 @@ class Session:
             self.board.close()
 
     def _keep(self, opened: bool) -> None:
-        try:
-            if self._trace:
-                self._trace.close()
-            if opened:
-                keep_memories(self.board, self.options)
-        except OSError as error:
-            self.complain(reason(error))
+        for failure in keep(memories(self.options, self.board.servos, self.board) if opened else {}, self._trace):
+            self.complain(failure)
             self.end(EXIT_FILE)

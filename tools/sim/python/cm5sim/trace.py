@@ -6,21 +6,11 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
 
 from . import plot
+from .files import naming
 from .library import CYCLES_PER_MS
 from .servo import Servos
-
-
-@contextmanager
-def naming(path: str) -> Iterator[None]:
-    """Gives an OSError of writing the name of the file."""
-    try:
-        yield
-    except OSError as error:
-        raise OSError(error.errno, error.strerror, path) from None
 
 
 class Trace:
@@ -47,7 +37,13 @@ class Trace:
             with naming(self._file.name):
                 self._file.close()
             if self._picture:
-                plot.draw(self._file.name, self._picture)
+                self._draw(self._picture)
         finally:
             if self._temporary:
                 os.unlink(self._file.name)
+
+    def _draw(self, picture: str) -> None:
+        try:
+            plot.draw(self._file.name, picture)
+        except Exception as error:  # matplotlib raises many kinds
+            raise OSError(f"{picture}: {getattr(error, 'strerror', None) or error}") from error
