@@ -404,6 +404,32 @@ test('whatever is opened quickly, the last is shown and held, and no other, even
     expect([...held]).toEqual([documents.state.get().openId]);
 });
 
+test.each(['readDocument', 'readSteps'] as const)('a document made while others are being opened stays, if %s answers late', async call => {
+    const disk = new PassingStorage();
+    const { held, hold } = makeLocks();
+    const { editor, documents } = await openTab(disk, { hold });
+    const bows = documents.state.get().openId;
+    await documents.create('Dances');
+    const dances = documents.state.get().openId;
+    await documents.create('Kicks');
+    const waiting: (() => void)[] = [];
+    const real = disk[call].bind(disk) as (id: string) => Promise<never>;
+    vi.spyOn(disk, call).mockImplementation(async (id?: string) => {
+        await new Promise<void>(resolve => waiting.push(resolve));
+        return real(id ?? '');
+    });
+    const opened = [documents.open(bows), documents.open(dances)]; // the second waits for the first
+    await settle();
+    const made = documents.create('Waves');
+    const waves = documents.state.get().openId;
+    for (let answers = 0; answers < 4; answers++) {
+        await settle();
+        waiting.shift()?.();
+    }
+    await Promise.all([...opened, made]);
+    expect([now(editor).name, documents.state.get().openId, ...held]).toEqual(['Waves', waves, waves]);
+});
+
 test('an edit that another tab stores just before it closes is in the document that is opened here', async () => {
     const disk = new PassingStorage();
     const first = await openTab(disk);

@@ -159,11 +159,11 @@ test('My servos, chosen while the robot in the page stands up: a key for them do
     press('left');
     press();
     expect(asked()).toBe(2);
+    refuseInPage(new RobotError('no-answer')); // of no concern to them
+    await vi.advanceTimersByTimeAsync(0);
     await becomes({ source: 'servos' });
     await vi.advanceTimersByTimeAsync(500);
     expect(written).toEqual([remotePacket([]), remotePacket(['left']), remotePacket([])]);
-    refuseInPage(new RobotError('no-answer'));
-    await vi.advanceTimersByTimeAsync(0);
     expect([message(), sent]).toEqual([null, [remotePacket([])]]);
 });
 

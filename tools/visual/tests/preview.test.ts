@@ -19,6 +19,7 @@ async function shown() {
     const editor = new DocumentEditor(body, { format, player: await makeMotion(), document: await libraryDocument() }, events);
     const state = new Store<SessionState>({ where: null, shownPage: null, tab: 'steps' } as SessionState);
     const hand = { holds: false };
+    const follow = { isOn: false };
     let frames: ((nowMs: number) => void)[] = [];
     let nowMs = 1000;
     const preview = new MotionPreview({
@@ -26,7 +27,7 @@ async function shown() {
         editor,
         state,
         trunk: () => TRUNK,
-        isFollowing: () => false,
+        isFollowing: () => follow.isOn,
         isStoodUp: () => hand.holds,
         pageChanged: () => undefined,
         nextFrame: call => void frames.push(call),
@@ -38,7 +39,7 @@ async function shown() {
         for (const call of due) call(nowMs);
     };
     const where = (change: Partial<Where>): void => state.set({ where: { state: 'idle', page: 0, step: 0, ...change } as Where });
-    return { editor, state, preview, pass, where, hand };
+    return { editor, state, preview, pass, where, hand, follow };
 }
 
 test("the first pose is there at once, and 0.3 s later the motion is 0.3 s on: the curve of the firmware's own player", async () => {
@@ -164,6 +165,13 @@ test("a robot that begins to play does not take a step out of somebody's hand", 
     where({ state: 'playing', page: 20, step: 1 });
     expect(preview.state.get().figure).toBe('step');
     gesture.cancel();
+});
+
+test('a robot that follows the edited step does not take it out of the picture', async () => {
+    const { preview, where, follow } = await shown();
+    follow.isOn = true;
+    where({ state: 'approach' });
+    expect(preview.state.get().figure).toBe('step');
 });
 
 test('a motion that is shown goes on while a hand stands the robot up, and gives way when the robot plays', async () => {

@@ -59,7 +59,7 @@ async function inPage(document: MotionDocument) {
     let isWriting = false;
     const ask = async (text: string): Promise<string> => {
         const [, first = 0, last = -1] = /^@crcs (\d+) (\d+)/.exec(text) ?? [];
-        if (text.startsWith('@play')) played.push(text);
+        if (/^@(play|layer)/.test(text)) played.push(text);
         return pages
             .slice(Number(first), Number(last) + 1)
             .map(bytes => format.crc(bytes).toString(16).padStart(4, '0'))
@@ -127,6 +127,16 @@ test('a page is laid over a play only as the document has it', async () => {
     const { bench, plays } = await yours('play', changed(WAVE), 65);
     const lay = plays.overlay({ kind: 'layer', page: WAVE, joints: [] });
     await expect(bench.until(lay)).rejects.toMatchObject({ code: 'layer-differs' });
+});
+
+test('Stop, pressed while the page of a layer is being compared: the layer is not sent behind it', async () => {
+    const { plays, played } = await inPage(library);
+    const lay = plays.overlay({ kind: 'layer', page: 2, joints: [] });
+    plays.cancel();
+    await expect(lay).rejects.toMatchObject({ code: 'cancelled' });
+    expect(played).toEqual([]);
+    await plays.overlay({ kind: 'layer', page: 2, joints: [] });
+    expect(played).toEqual(['@layer 2']);
 });
 
 test('Play pressed again while the pages are being written: it waits for them, then plays once', async () => {

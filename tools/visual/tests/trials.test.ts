@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The page's results of trials: what is valid, what a change invalidates, what is skipped, and what happens without physics.
-import { expect, test } from 'vitest';
+import { expect, test, vi } from 'vitest';
 import { DocumentEditor } from '../app/editor.ts';
 import { MotionTrials } from '../app/trials.ts';
 import { NO_HISTORY } from '../model/history.ts';
@@ -114,4 +114,27 @@ test('who stops while physics is being loaded need not wait for the network, and
     arrive();
     await again;
     expect(asked).toEqual([2]);
+});
+
+test('physics that could not be loaded once, and can when a person tries again: collisions and lags are there, too', async () => {
+    let made = 0;
+    const { trials } = await bench(() => (made++ === 0 ? Promise.reject(new Error('no network')) : standing([])()));
+    await trials.run([2]);
+    await trials.run([2]);
+    expect(await trials.follow(2, 100, AS_STORED, new AbortController().signal)).not.toBeNull();
+});
+
+test('a lag that is asked for during a trial waits for it: a new play would end the one before without an answer', async () => {
+    const answers: (() => void)[] = [];
+    const play = () => new Promise<TrialRecord>(resolve => answers.push(() => resolve(STOOD)));
+    const { trials } = await bench(() => Promise.resolve({ play, touching: () => Promise.resolve([]) }));
+    const run = trials.run([2]);
+    await vi.waitFor(() => expect(answers).toHaveLength(1));
+    const lag = trials.follow(2, 100, AS_STORED, new AbortController().signal);
+    await new Promise(resolve => setTimeout(resolve));
+    expect(answers).toHaveLength(1);
+    answers[0]?.();
+    await vi.waitFor(() => expect(answers).toHaveLength(2));
+    answers[1]?.();
+    await Promise.all([run, lag]);
 });
