@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The document: random edits with undo and redo (EDITS=10000: so many), and single edits calculated by hand.
 import { expect, test } from 'vitest';
+import { DocumentEditor } from '../app/editor.ts';
 import { emptyDocument, imageOf, isSamePage, pageOf, withChanges } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
 import * as states from '../model/editor-state.ts';
@@ -10,7 +11,8 @@ import type { PageView, Step } from '../model/page.ts';
 import type { Result } from '../model/result.ts';
 import type { JointPair } from '../model/step-edits.ts';
 import type { Transaction } from '../model/transaction.ts';
-import { libraryDocument, makeFormat, must, refusalOf } from './motion-bench.ts';
+import type { Gesture } from '../view/session/editor.ts';
+import { BODY, libraryDocument, makeFormat, makeMotion, must, refusalOf } from './motion-bench.ts';
 import { randomNumbers } from './robot-bench.ts';
 
 const EDITS = Number(process.env.EDITS ?? 2000);
@@ -111,6 +113,28 @@ test('a gesture is one undo step however often it changed; cancelled, it leaves 
     expect(state.history.done).toHaveLength(1);
     expect(view(state.document, 2).steps[0]?.positions[11]).toBe(300);
     expect(imageOf(states.undoOne(state).document)).toEqual(imageOf(first));
+});
+
+test('a drag ends when another one begins, or when another motion or step is chosen: it changes nothing any more', async () => {
+    const nothing = (): void => undefined;
+    const parts = { format, player: await makeMotion(), document: await libraryDocument() };
+    const editor = new DocumentEditor(BODY, parts, { changed: nothing, refused: nothing, opened: nothing });
+    const drag = (gesture: Gesture, position: number): boolean =>
+        gesture.change(edits.setJoints(gesture.start, 2, [0], new Map([[11, position]])));
+    const positionNow = () => editor.page(2).steps[0]?.positions[11];
+    const first = editor.gesture('drag');
+    drag(first, 500);
+    const second = editor.gesture('drag');
+    expect([drag(first, 400), positionNow()]).toEqual([false, 500]);
+    drag(second, 300);
+    first.cancel();
+    expect(positionNow()).toBe(300);
+    editor.select({ page: 3 });
+    expect([drag(second, 200), positionNow()]).toEqual([false, 300]);
+    const third = editor.gesture('drag');
+    drag(third, 100);
+    editor.select({ page: 3, step: 1 });
+    expect([drag(third, 50), positionNow(), editor.state.get().history.done.length]).toEqual([false, 100, 3]);
 });
 
 test('steps are moved, duplicated, deleted and put in between as one would by hand', () => {
