@@ -51,6 +51,14 @@ def test_servo_eeprom_is_kept(tmp_path):
     assert play(tmp_path, "goal 9 == 512\n", "--servos", "3,7", "--servo-eeprom", kept).returncode == 0
 
 
+@pytest.mark.parametrize("script, fault", [("wait 10ms\n", ["--fault", "3:duplicate"]), ("servo 3 duplicate\nwait 10ms\n", [])])
+def test_the_second_servo_of_a_fault_is_not_kept(tmp_path, script, fault):
+    kept = ["--servos", "3,7", "--servo-eeprom", tmp_path / "servos.bin"]
+    for arguments in (fault, fault, []):
+        assert play(tmp_path, script, *kept, *arguments).returncode == 0
+        assert (tmp_path / "servos.bin").stat().st_size == 2 * 24
+
+
 def test_file_of_another_kind_is_refused(tmp_path):
     wrong = tmp_path / "robot.bin"
     wrong.write_bytes(b"my thesis")

@@ -146,7 +146,8 @@ def memories(options: Options, servos: Servos, board: Board | None = None) -> di
     if options.eeprom and board:
         kept[options.eeprom] = bytes(board.eeprom)
     if options.servo_eeprom:
-        kept[options.servo_eeprom] = b"".join(servo.table[:EEPROM_BYTES] for servo in servos)
+        plugged_in = zip(options.servos, servos)  # the second servo of the fault "duplicate" follows them
+        kept[options.servo_eeprom] = b"".join(servo.table[:EEPROM_BYTES] for _, servo in plugged_in)
     return kept
 
 
