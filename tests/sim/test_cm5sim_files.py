@@ -45,10 +45,44 @@ def test_servo_eeprom_is_kept(tmp_path):
     kept = tmp_path / "servos.bin"
     assert play(tmp_path, "quit\n", "--servos", "3,7", "--servo-eeprom", kept).returncode == 0
     table = bytearray(kept.read_bytes())
-    assert len(table) == 2 * 24 and table[3] == 3 and table[27] == 7
+    assert len(table) == 2 * 25 and table[3] == 3 and table[27] == 7
     table[27] = 9
     kept.write_bytes(table)
     assert play(tmp_path, "goal 9 == 512\n", "--servos", "3,7", "--servo-eeprom", kept).returncode == 0
+
+
+@pytest.mark.parametrize(
+    "made, has, other, says",
+    [
+        ("1-3", "1,2,3", "4-6", "4,5,6"),
+        ("1-3", "1,2,3", "1-4", "1,2,3,4"),
+        ("4-6", "4,5,6", "4,5,6:dx117", "4,5,6:dx117"),
+        ("2,20:dx117", "2,20:dx117", "none", "none"),
+        ("none", "none", "3:ax18", "3:ax18"),
+    ],
+)
+def test_other_servos_than_those_of_the_file_are_refused_by_name(tmp_path, made, has, other, says):
+    kept = tmp_path / "servos.bin"
+    for servos in (made, has):
+        assert play(tmp_path, "quit\n", "--servos", servos, "--servo-eeprom", kept).returncode == 0
+    before = kept.read_bytes()
+    done = play(tmp_path, "quit\n", "--servos", other, "--servo-eeprom", kept)
+    assert done.returncode == 4 and f"servos.bin: has servos {has}, not {says}: give --servos {has}, or" in done.stderr.decode()
+    assert kept.read_bytes() == before
+
+
+def test_a_file_of_servos_without_the_ids_at_its_end_is_read(tmp_path):
+    """Those of an older cm5sim: the EEPROM areas alone."""
+    kept = tmp_path / "servos.bin"
+    assert play(tmp_path, "quit\n", "--servos", "3,7", "--servo-eeprom", kept).returncode == 0
+    old = bytearray(kept.read_bytes()[: 2 * 24])
+    old[17] = 4  # ALARM LED of servo 3
+    kept.write_bytes(old)
+    assert b"has servos 3,7, not 3,8" in play(tmp_path, "quit\n", "--servos", "3,8", "--servo-eeprom", kept).stderr
+    assert play(tmp_path, "register 3 17 == 4\n", "--servos", "3,7", "--servo-eeprom", kept).returncode == 0
+    assert kept.stat().st_size == 2 * 25
+    kept.write_bytes(b"my thesis")
+    assert b"not a file of this kind" in play(tmp_path, "quit\n", "--servos", "3,7", "--servo-eeprom", kept).stderr
 
 
 @pytest.mark.parametrize("script, fault", [("wait 10ms\n", ["--fault", "3:duplicate"]), ("servo 3 duplicate\nwait 10ms\n", [])])
@@ -56,7 +90,7 @@ def test_the_second_servo_of_a_fault_is_not_kept(tmp_path, script, fault):
     kept = ["--servos", "3,7", "--servo-eeprom", tmp_path / "servos.bin"]
     for arguments in (fault, fault, []):
         assert play(tmp_path, script, *kept, *arguments).returncode == 0
-        assert (tmp_path / "servos.bin").stat().st_size == 2 * 24
+        assert (tmp_path / "servos.bin").stat().st_size == 2 * 25
 
 
 def test_file_of_another_kind_is_refused(tmp_path):
@@ -133,7 +167,7 @@ def test_a_full_disk_is_told_with_the_name_of_the_trace(tmp_path):
         assert done.returncode == 4 and b"cm5sim: /dev/full: No space left on device" in done.stderr, done.stderr
 
 
-MEMORIES = {"flash": 0x20000, "eeprom": 0x1000, "servo-eeprom": 3 * 24}
+MEMORIES = {"flash": 0x20000, "eeprom": 0x1000, "servo-eeprom": 3 * 25}
 
 
 def options(tmp_path, *names):

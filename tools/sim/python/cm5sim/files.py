@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import errno
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from fcntl import LOCK_EX, LOCK_NB, flock
 from functools import partial
@@ -13,12 +13,15 @@ from typing import IO, TYPE_CHECKING
 
 from .board import LOADER_ADDRESS, MOTIONS_ADDRESS, Board, find_image
 from .options import Options
-from .servo import EEPROM_BYTES, Servos
+from .servo import EEPROM_BYTES, MODELS, Servo, Servos
 
 if TYPE_CHECKING:
     from .trace import Trace
 
 MOTION_BYTES, MOTION_PAGE_BYTES = 0x10000, 512  # a file of 65,024 bytes has no page 0
+SERVO_FILE_BYTES_MAX = 0x10000
+MODEL_NAMES = {int(name[2:]): name for name in MODELS}  # by the number in the register MODEL
+MODEL, ID = 0, 3  # registers
 
 
 def load_image(board: Board, name: str) -> None:
@@ -125,13 +128,36 @@ def load_memories(board: Board, options: Options, say: Callable[[str], None]) ->
         load_motions(board, options.motions)
 
 
+def listed(servos: Iterable[tuple[int, int]]) -> str:
+    """Servos by ID and model number, as --servos names them."""
+    return ",".join(f"{servo}" if MODEL_NAMES[model] == "ax12" else f"{servo}:{MODEL_NAMES[model]}" for servo, model in servos) or "none"
+
+
+def restore_servos(servos: list[Servo], path: str) -> None:
+    """Gives the servos, just plugged in, what the file keeps of them: the EEPROM area of each, then the ID of each when it was plugged in
+    (which may have changed since). Older files have no such IDs. OSError: the file has other servos."""
+    try:
+        with open(path, "rb") as file:
+            data = file.read(SERVO_FILE_BYTES_MAX + 1)
+    except FileNotFoundError:
+        return
+    count = len(data) // (EEPROM_BYTES if len(data) % (EEPROM_BYTES + 1) else EEPROM_BYTES + 1)
+    areas = [data[EEPROM_BYTES * index :][:EEPROM_BYTES] for index in range(count)]
+    ids = data[EEPROM_BYTES * count :] or bytes(area[ID] for area in areas)
+    if len(ids) != count or any(area[MODEL] not in MODEL_NAMES for area in areas):
+        raise OSError(f"{path}: not a file of this kind: it must have {EEPROM_BYTES + 1} bytes for each servo")
+    has, given = listed(zip(ids, (area[MODEL] for area in areas))), listed((servo.id, servo.model) for servo in servos)
+    if has != given:
+        raise OSError(f"{path}: has servos {has}, not {given}: give --servos {has}, or name another file")
+    for servo, area in zip(servos, areas):
+        servo.restore(area)
+
+
 def plug_in_servos(servos: Servos, options: Options) -> None:
     for plan in options.servos:
         servos.add(*plan)
     if options.servo_eeprom:
-        kept = read_kept(options.servo_eeprom, EEPROM_BYTES * len(servos)) or b""
-        for index, servo in enumerate(servos if kept else ()):
-            servo.restore(kept[EEPROM_BYTES * index :][:EEPROM_BYTES])
+        restore_servos(list(servos), options.servo_eeprom)
     for number, name in options.fault:
         if number not in servos:
             raise OSError("--fault: there is no servo with that ID")
@@ -147,7 +173,7 @@ def memories(options: Options, servos: Servos, board: Board | None = None) -> di
         kept[options.eeprom] = bytes(board.eeprom)
     if options.servo_eeprom:
         plugged_in = zip(options.servos, servos)  # the second servo of the fault "duplicate" follows them
-        kept[options.servo_eeprom] = b"".join(servo.table[:EEPROM_BYTES] for _, servo in plugged_in)
+        kept[options.servo_eeprom] = b"".join(servo.table[:EEPROM_BYTES] for _, servo in plugged_in) + bytes(plan.id for plan in options.servos)
     return kept
 
 
