@@ -123,6 +123,8 @@ def test_script_failure_shows_what_the_robot_said(tmp_path):
     assert 'the robot said: "dy\\r\\n"' in done.stderr.decode()
 
 
+LASTING = ("dead", "duplicate", "overload", "overheating", "low-voltage", "angle-limit", "blocked")  # tools/sim/servo/servo_fault.h
+
 MISTAKES = [
     ("send p", 'a "text" to send is missing here'),
     ('send "p', 'a closing " is missing'),
@@ -138,6 +140,7 @@ MISTAKES = [
     ("rc U+7", "keys are U D L R 1..6"),
     ("servo 3 tired", "what about the servo?"),
     ("servo 3 silent 2", '"times" is missing'),
+    *((f"servo 3 {fault} 2 times", f"{fault} lasts until `servo 3 clear`") for fault in LASTING),
     ("servo 3 push 2000", "a position 0..1023"),
     ("panel NOSE on", "LEDs are POWER"),
     ("power maybe", "on or off"),

@@ -13,7 +13,7 @@ from . import words
 from .board import BUTTONS, LEDS
 from .library import CYCLES_PER_MS
 from .options import EXIT_EXPECTATION, EXIT_GOOD, NEVER
-from .servo import FAULTS
+from .servo import COUNTED_FAULTS, FAULTS
 
 if TYPE_CHECKING:
     from .session import Session
@@ -247,6 +247,8 @@ def _servo(line: Line) -> Meaning:
     if word == "load":
         load = line.real(-1, 1, "a load -1..1 (of stall torque) is missing here")
         return at_once(lambda session: setattr(session.servo(servo), "outside_load", load))
+    if word not in COUNTED_FAULTS and len(line):
+        line.wrong(f"{word} lasts until `servo {servo} clear`; for some times: {' '.join(COUNTED_FAULTS)}")
     times = line.number(1, 1000000, "how many times? (servo 5 silent 3 times)") if len(line) else None
     if times and not line.has("times"):
         line.wrong('"times" is missing at the end')

@@ -36,6 +36,7 @@ FAULTS = (
     "mishears",
     "blocked",
 )
+COUNTED_FAULTS = ("silent", "checksum", "noise", "late", "short", "two-talkers", "mishears")  # for some times; the rest: on or off
 ERROR_NAMES = {1: "voltage", 2: "angle-limit", 4: "overheating", 8: "range", 16: "checksum", 32: "overload", 64: "instruction"}
 COUNTERS = ("packets", "answers", "checksum_errors", "framing_errors", "gaps", "oversize", "deaf")
 _STATES = ("position", "velocity", "output", "outside_load", "ambient", "celsius", "held", "late_us", "torque_nm", "powered")
