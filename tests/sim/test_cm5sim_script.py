@@ -50,6 +50,8 @@ expect "START"
 release START
 rc U+3
 expect "rc 0041"
+press START 20ms
+expect no "rc" for 200ms
 rc L 150ms
 expect "rc 0004"
 expect "rc 0004"

@@ -169,9 +169,9 @@ class Session:
         self._rc_next = self._traffic + RC_REPEAT_CYCLES
 
     def rc_once(self, word: int) -> None:
-        """Sends one packet, without holding or repetition."""
-        self._rc_send(word)
-        self._rc_next = 0
+        """Sends one packet, without holding, repetition or release."""
+        self.board.rc(word)
+        self._traffic = self.board.now_cycles
 
     def rc_hold(self, keys: int, cycles: int) -> None:
         """Holds keys of the remote for a while. Further keys join the chord."""
