@@ -31,6 +31,23 @@ def test_flash_and_eeprom_are_kept(tmp_path):
     assert (tmp_path / "robot.bin").stat().st_size == 0x20000
 
 
+@pytest.mark.parametrize("name", ["M.HEX", "m.ihex"])
+def test_intel_hex_is_known_by_its_suffix_in_any_case(tmp_path, name):
+    raw, motions, image = tmp_path / "m.bin", tmp_path / name, tmp_path / name.replace("m", "r").replace("M", "R")
+    raw.write_bytes(bytes([0x42]) + bytes(65535))
+    shutil.copy(ROBOT, image)
+    subprocess.run(["avr-objcopy", "-I", "binary", "-O", "ihex", "--change-addresses", "0xE000", raw, motions], check=True)
+    assert run(image, "--motions", motions, stdin=b"w").stdout == b"ready\r\nflash 42\r\n"
+
+
+@pytest.mark.parametrize("arguments", [["{}"], [ROBOT, "--motions", "{}"]])
+@pytest.mark.parametrize("name", ["folder", "folder.hex", "folder.elf"])
+def test_a_folder_in_place_of_a_file_is_told(tmp_path, name, arguments):
+    (tmp_path / name).mkdir()
+    done = run(*(str(word).format(tmp_path / name) for word in arguments), "--time", "10ms")
+    assert done.returncode == 4 and done.stderr.decode() == f"cm5sim: {tmp_path / name}: Is a directory\n"
+
+
 def test_a_kept_flash_starts_in_its_boot_loader(tmp_path):
     """START held at a reset opens the loader, which no image of the second run brings."""
     kept = ["--flash", tmp_path / "robot.bin"]

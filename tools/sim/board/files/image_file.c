@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "elf_image.h"
 #include "intel_hex.h"
@@ -23,7 +24,7 @@ static image_status_t read_binary(FILE *file, uint32_t address, image_t *image)
 static bool ends_in(const char *path, const char *suffix)
 {
     size_t length = strlen(path), tail = strlen(suffix);
-    return length > tail && strcmp(path + length - tail, suffix) == 0;
+    return length > tail && strcasecmp(path + length - tail, suffix) == 0;
 }
 
 image_status_t image_file_read(const char *path, uint32_t address, image_t *image)
@@ -33,7 +34,8 @@ image_status_t image_file_read(const char *path, uint32_t address, image_t *imag
     if (!file) {
         return IMAGE_NO_FILE;
     }
-    image_status_t status = ends_in(path, ".hex")   ? intel_hex_read(file, image)
+    bool hex = ends_in(path, ".hex") || ends_in(path, ".ihex");
+    image_status_t status = hex                     ? intel_hex_read(file, image)
                             : ends_in(path, ".elf") ? elf_image_read(file, image)
                                                     : read_binary(file, address, image);
     fclose(file);

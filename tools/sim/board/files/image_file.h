@@ -5,7 +5,7 @@
 
 #include "image.h"
 
-/* Reads path; the suffix selects *.hex, *.elf, or binary at address. Clears used[] first. */
+/* Reads path; the suffix, in any case, selects *.hex or *.ihex, *.elf, or binary at address. Clears used[] first. */
 image_status_t image_file_read(const char *path, uint32_t address, image_t *image);
 
 #endif

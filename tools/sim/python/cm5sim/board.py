@@ -128,6 +128,8 @@ class Board(Inside, Wear):
     def load(self, image: str | pathlib.Path, address: int = 0) -> None:
         """Loads a HEX, ELF or binary file (a path, or a name below build/firmware) with its symbols."""
         path = find_image(image)
+        with open(path, "rb"):  # the system's own words if it cannot be read: a folder, no permission
+            pass
         if not self._lib.board_load(self._pointer, str(path).encode(), address):
             raise FileNotFoundError(self._lib.board_error(self._pointer).decode())
 

@@ -31,7 +31,7 @@ def load_image(board: Board, name: str) -> None:
 
 
 def load_motions(board: Board, path: str) -> None:
-    if path.endswith(".hex"):
+    if path.lower().endswith((".hex", ".ihex")):
         board.load(path)
         return
     with open(path, "rb") as file:
