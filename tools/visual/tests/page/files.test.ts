@@ -79,7 +79,7 @@ function redPixels(page: Page): Promise<number> {
 
 test('a hobbyist opens a RoboPlus file found on the net, sees where it is too fast and where it falls, stretches, mirrors, saves it in every form as m512 does', async () => {
     await foundOnTheNet();
-    const person = await suite.come({ hasPhysics: true, hasPython: true });
+    const person = await suite.come({ hasPhysics: 'later', hasPython: true });
     const { page } = person;
     const chooser = page.getByLabel('Motion file');
     const torn = `${'torn'.repeat(40)}.mtn`; // wider than the dialog

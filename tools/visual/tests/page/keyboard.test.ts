@@ -207,7 +207,7 @@ test('a hobbyist: opens a file, goes where it is faulty, renames, copies and cle
 }, 900_000);
 
 test('from the chart of links to the first motion; trying motions, stopping it, and trying the only one', async () => {
-    const person = await suite.come({ hasPhysics: true, screen: WIDE });
+    const person = await suite.come({ hasPhysics: 'later', screen: WIDE });
     const keys = new Keyboard(person);
     await person.untilStanding();
     await keys.open('Links');

@@ -26,7 +26,7 @@ async function drag(page: Page, from: { x: number; y: number }, dx: number, dy: 
 }
 
 test('a hobbyist: stretches a step, takes steps to another page as text, drags a way-point, hears from physics where it falls, compares, aims a joint', async () => {
-    const person = await suite.come({ hasPhysics: true, hasPython: true, screen: { width: 1280, height: 800 } });
+    const person = await suite.come({ hasPhysics: 'later', hasPython: true, screen: { width: 1280, height: 800 } });
     const { page } = person;
     await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
     await person.untilStanding();

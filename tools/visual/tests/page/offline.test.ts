@@ -29,35 +29,22 @@ test('the first load is at most 1 MB, compressed, with both images; physics, Pyt
     expect(languages).toBeGreaterThan(40_000);
 });
 
-test('from a sub-path, and the second visit with the server stopped', async () => {
-    const server = await serve('--under', '/some/where');
+test('a release while the page is open, under a sub-path: it goes on with its own files, says that there is a new version, becomes it when asked, and needs no server on the next visit', async () => {
+    const page = await ReleasedPage.make();
+    const server = await serve(page.folder, '--under', '/some/where');
     const asked: string[] = [];
     const visitor = await Visitor.come(browser, server.address, {
         keepsPage: true,
         hasPhysics: true,
         hasPython: true,
-        before: async page => {
-            page.on('request', request => asked.push(request.url()));
+        before: async empty => {
+            empty.on('request', request => asked.push(request.url()));
         },
     });
     await visitor.untilStanding();
     // The requests so far are the first load: no Python, My servos or other language, and every file is there.
     expect(asked.filter(url => ['python', 'servos', 'languages'].includes(comesLater(url, '') ?? ''))).toEqual([]);
     expect(asked.every(url => url.startsWith(server.address))).toBe(true);
-    await visitor.page.evaluate(async () => {
-        await navigator.serviceWorker.ready;
-    });
-    await server.stop();
-    await visitor.page.reload();
-    await visitor.untilStanding();
-    await visitor.leave();
-});
-
-test('a release while the page is open: it goes on with its own files, says that there is a new version, and becomes it when asked', async () => {
-    const page = await ReleasedPage.make();
-    const server = await serve(page.folder);
-    const visitor = await Visitor.come(browser, server.address, { keepsPage: true, hasPhysics: true, hasPython: true });
-    await visitor.untilStanding();
     const caches = (): Promise<string[]> => visitor.page.evaluate(() => window.caches.keys());
     await visitor.page.evaluate(() => navigator.serviceWorker.ready);
     const [old] = await caches();
@@ -73,6 +60,7 @@ test('a release while the page is open: it goes on with its own files, says that
     await dialog.waitFor();
     expect(await dialog.textContent()).not.toMatch(/could not be loaded/); // Python, 5 MB, came from the old version
     await visitor.page.keyboard.press('Escape');
+    await server.stop();
     await reload.click();
     await visitor.page.waitForEvent('load');
     await visitor.untilStanding();

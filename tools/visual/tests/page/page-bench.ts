@@ -45,8 +45,8 @@ export interface Visit {
     /** Default: the browser has no WebGL, as on an old machine (lacking.test.ts). Drawing by software doubles what a visit costs. */
     readonly hasPicture?: boolean;
     /** Default: the robot's physics cannot be loaded. It stands without a physical body and is ready three seconds sooner. Physics doubles
-     *  what a visit costs, too. */
-    readonly hasPhysics?: boolean;
+     *  what a visit costs, too. 'later': the first robot lacks it, what is tried has it. */
+    readonly hasPhysics?: boolean | 'later';
     /** Default: m512, which checks, compares and reads files, never comes. Starting Python costs more than a visit. */
     readonly hasPython?: boolean;
     /** The browser stores the page for offline use (offline.test.ts), which writes 10 MB. */
@@ -166,9 +166,14 @@ export class Visitor {
         if (!hasPicture) await context.addInitScript(withoutWebGl);
         if (!isNew) await context.addInitScript(() => localStorage.setItem('motion512.begun', '1'));
         if (!hasPython) await context.route(PYTHON, () => undefined);
-        if (!hasPhysics) await context.route(PHYSICS, route => route.abort());
+        let isRefused = hasPhysics !== true;
+        await context.route(PHYSICS, route => {
+            const refuses = isRefused;
+            isRefused = !hasPhysics;
+            return refuses ? route.abort() : route.continue();
+        });
         const visitor = new Visitor(context, await context.newPage());
-        visitor.watch(new URL(address).origin, [...(hasPicture ? [] : [NO_PICTURE]), ...(hasPhysics ? [] : [NO_PHYSICS])]);
+        visitor.watch(new URL(address).origin, [...(hasPicture ? [] : [NO_PICTURE]), ...(hasPhysics === true ? [] : [NO_PHYSICS])]);
         await before?.(visitor.page);
         await visitor.page.goto(address);
         return visitor;

@@ -18,7 +18,7 @@ const figure = (visitor: Visitor) =>
     });
 
 test('Play after an edit: within 0.3 s the solid figure moves, no ghost is seen while anything plays, and the robot follows by itself', async () => {
-    const person = await suite.come({ hasPicture: true, screen: { width: 1280, height: 800 } });
+    const person = await suite.come({ hasPicture: true });
     await person.untilStanding();
     await person.open('Motions');
     await person.page.getByRole('option', { name: /^motion 3 wave/ }).dblclick();
@@ -49,8 +49,28 @@ test('Play after an edit: within 0.3 s the solid figure moves, no ghost is seen 
     await person.leave();
 });
 
+/** In Steps: Escape or a press beside it closes a menu; a key moves the focus to the picture and back; the chosen joint is spoken. */
+async function menuAndKeys({ page }: Visitor): Promise<void> {
+    const menu = page.locator('pose-bar details');
+    const view = menu.locator('summary');
+    await view.click();
+    await page.keyboard.press('Escape');
+    expect(await menu.getAttribute('open')).toBeNull();
+    await view.click();
+    await page.getByRole('tab', { name: 'Steps' }).click();
+    expect(await menu.getAttribute('open')).toBeNull();
+
+    await page.keyboard.press('F6');
+    expect(await page.evaluate(() => document.activeElement?.tagName)).toBe('CANVAS');
+    await page.keyboard.press('ArrowRight');
+    await page.keyboard.press('ArrowUp');
+    await expect.poll(() => page.getByRole('status', { name: 'Chosen joint' }).textContent()).toMatch(/^right shoulder .*: \d+/);
+    await page.keyboard.press('F6');
+    expect(await page.evaluate(() => document.activeElement?.getAttribute('role'))).toBe('tab');
+}
+
 test('the scrubber, a step and the loop move the picture, and the robot hears nothing', async () => {
-    const person = await suite.come({ hasPicture: true, screen: { width: 1280, height: 800 } });
+    const person = await suite.come({ hasPicture: true });
     await person.untilStanding();
     await person.open('Motions');
     await person.page.getByRole('option', { name: /^motion 3 wave/ }).dblclick();
@@ -73,5 +93,6 @@ test('the scrubber, a step and the loop move the picture, and the robot hears no
     expect(await person.page.locator('step-row li.playing .number').first().textContent()).toBe('2');
     expect(await person.page.locator('time-line .head').isVisible()).toBe(true);
     expect(await person.inPage(({ state }) => state.get().where?.state)).toBe('idle');
+    await menuAndKeys(person);
     await person.leave();
 });
