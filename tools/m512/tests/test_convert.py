@@ -189,6 +189,17 @@ def test_an_image_that_may_have_either_resolution_is_not_scaled_by_guess(m512, t
         assert (f"positions scaled from {bits} to {scale} bits" in done.stderr) == (bits != scale)
 
 
+def test_what_is_on_page_0_leaves_the_resolution_of_the_motions_clear(m512, tmp_path):
+    """Page 0 is no motion: a robot takes a trim from it, and programs leave anything there."""
+    image = image_of(10, 3)
+    image[0].steps = 3
+    image[0].set_word(0, 7, 2004)
+    image[0].seal()
+    formats.save(tmp_path / "x.bin", image)
+    done = m512("convert", tmp_path / "x.bin", tmp_path / "y.bin", "--scale", "12")
+    assert done.exit_code == 0 and "positions scaled from 10 to 12 bits" in done.stderr, done.stderr
+
+
 @pytest.mark.parametrize("bits", [10, 12])
 def test_a_scale_that_changes_nothing_says_so(m512, tmp_path, bits):
     image = image_of(bits, 3)
@@ -345,15 +356,18 @@ def test_a_mtn_holds_the_joints_that_a_step_leaves_alone(m512, tmp_path):
         "page 2 off\n repeat 0\n next end\n step 1s | 2:999\n"
         "page 9 end\n next end\n step 1s | 1:330\n step 1s | 2:650\n step 1s | 1:340\n"
         "page 5 alone\n step 1s | 1:350\n"
+        "page 20 broken\n exit out\n step 1s | 1:360 2:701 3:445\n"
+        "page 21 out\n step 1s | 1:370\n"
     )
     wrote = m512("convert", tmp_path / "a.m512", tmp_path / "a.mtn")
     assert wrote.exit_code == 0
     image = mtn.read((tmp_path / "a.mtn").read_bytes())
-    assert {n: [[image[n].word(k, j) for j in (1, 2, 3)] for k in range(image[n].steps)] for n in (4, 7, 9, 5)} == {
+    assert {n: [[image[n].word(k, j) for j in (1, 2, 3)] for k in range(image[n].steps)] for n in (4, 7, 9, 5, 21)} == {
         4: [[300, 700, 444], [310, 700, 444]],
         7: [[320, 700, 444]],
         9: [[330, 700, 444], [330, 650, 444], [340, 650, 444]],
         5: [[350, 512, 512]],
+        21: [[370, 701, 445]],
     }
     held = next(line for line in wrote.stderr.splitlines() if "held there at their last position" in line)
     assert "4: IDs 2 at 700, IDs 3 at 444" in held and '"alone"' not in held

@@ -208,6 +208,14 @@ def test_a_long_page_that_is_never_played_keeps_its_links():
     assert "never played" in image.notes[0]
 
 
+@pytest.mark.parametrize("last", [Block("wave"), Block(steps=[step()])], ids=["name", "steps"])
+def test_a_page_beyond_255_is_refused_unless_it_is_empty(last):
+    with pytest.raises(FileError, match="page 256 has no place: there are 255 pages"):
+        mtn.read(made([Block()] * 255 + [last]))
+    blocks = [Block("far", steps=[step()])] * 255
+    assert pages_of(mtn.read(made([*blocks, Block()]))) == expected(blocks)
+
+
 # Pages beyond the board
 
 

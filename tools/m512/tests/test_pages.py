@@ -380,6 +380,15 @@ def test_pages_retime_and_time(m512, lib):
     assert out["pages"][1]["seconds"] == pytest.approx(2 * 180 / 128, abs=0.01)
 
 
+@pytest.mark.parametrize("accel, factor, after", [(1, "0.3", 1), (4, "0.1", 1), (4, "0.5", 2), (0, "3", 0)])
+def test_pages_retime_leaves_no_page_without_its_ramp(m512, tmp_path, accel, factor, after):
+    """With a ramp of 0 the joints start at full speed. That is for the user to say."""
+    path = tmp_path / "x.bin"
+    path.write_bytes(read_text(f"motion512 1\npage 1 x\n accel {accel}\n step 50 | 1:300\n step 50 | 1:700\n").to_bytes())
+    assert m512("pages", path, "retime", "1", factor, "--in-place").exit_code == 0
+    assert image(path)[1].accel == after
+
+
 def test_pages_time_ends_where_no_page_follows(m512, tmp_path):
     """Also in a complete image, which has a page 0."""
     path = tmp_path / "fast.bin"
