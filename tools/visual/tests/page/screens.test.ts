@@ -20,6 +20,8 @@ const ROW_PX = 64;
 const TOUR_PX = 64;
 /** From the middle of a foot to its tip in a phone's picture. */
 const FOOT_PX = 10;
+/** A short word in a list to choose from. */
+const WORD_PX = 60;
 const LEAST_TYPE_PX = 12;
 const suite = pageSuite();
 
@@ -136,6 +138,13 @@ async function checkArea(person: Visitor, screen: Screen, place: string): Promis
     return found.type;
 }
 
+/** In Links: the list can be scrolled to, and shows where each link leads. */
+async function checkLinkList(person: Visitor): Promise<void> {
+    const links = person.page.locator('links-pane .fields select');
+    for (const link of [links.first(), links.last()]) await link.click({ trial: true });
+    expect.soft((await box(person.page, 'links-pane .fields select')).width, 'link').toBeGreaterThan(WORD_PX);
+}
+
 test('one row of head, no word cut, at most five sizes of type and one blue button in every area, letters of 12 px or more in the terminal, which fills the screen', async () => {
     const person = await suite.come({ screen: DESKTOP, hasPython: true });
     const { page } = person;
@@ -153,6 +162,7 @@ test('one row of head, no word cut, at most five sizes of type and one blue butt
         for (const area of AREAS) {
             await person.open(area);
             for (const px of await checkArea(person, screen, `${name}, ${area}`)) type.add(px);
+            if (area === 'Links') await checkLinkList(person);
         }
         expect([...type].length, `${name}: ${[...type].join()}`).toBeLessThanOrEqual(5);
         expect(Math.min(...type), name).toBeGreaterThanOrEqual(LEAST_TYPE_PX);

@@ -72,7 +72,7 @@ function field(editor: Editor, page: number, link: LinkField): HTMLElement[] {
         TEXTS.page.show,
     );
     const code = CODE_OF[link];
-    return [make('label', {}, TEXTS.links.names[link]), choice, code ? codeField(editor, page, link, code) : make('span'), go];
+    return [make('label', {}, TEXTS.links.names[link]), choice, ...(code ? [codeField(editor, page, link, code)] : []), go];
 }
 
 /** Possible targets. Empty pages come last: they may be filled later. A robot with 256 pages may link to one that the document lacks. */
