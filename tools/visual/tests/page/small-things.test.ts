@@ -1,9 +1,32 @@
 // SPDX-License-Identifier: MIT
 // What people expect of a page: Ctrl+A selects all, irreversible actions are confirmed, and there is no warning when nothing can be lost.
+import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
 import { pageSuite } from './page-suite.ts';
 
 const suite = pageSuite();
+
+/** Ctrl+Z or Escape while a step is dragged before the first one: nothing is moved, and what was undone can be redone. */
+async function endDragsOfStep(page: Page): Promise<void> {
+    const times = (): Promise<string[]> =>
+        page.getByLabel(/^Time of step \d$/).evaluateAll(fields => fields.map(field => (field as HTMLInputElement).value));
+    await page.getByRole('button', { name: 'Step 2', exact: true }).click(); // it alone
+    const time = page.getByLabel('Time of step 2', { exact: true });
+    await time.fill('0.50');
+    await time.press('Enter');
+    const before = await times();
+    const redo = page.getByRole('button', { name: /^Redo: / });
+    for (const key of ['Control+z', 'Escape']) {
+        await page.getByRole('button', { name: 'Step 2', exact: true }).hover();
+        await page.mouse.down();
+        await page.getByRole('button', { name: 'Step 1', exact: true }).hover({ position: { x: 2, y: 20 } });
+        await page.locator('.drop-before').waitFor();
+        await page.keyboard.press(key);
+        await page.mouse.up();
+        if (key === 'Control+z') await redo.click();
+        expect(await times()).toEqual(before);
+    }
+}
 
 test('Ctrl+A, double clicks on "Add step" and Play, a library page, a question before "Factory fresh"', async () => {
     const person = await suite.come({ screen: { width: 1280, height: 800 } });
@@ -33,6 +56,7 @@ test('Ctrl+A, double clicks on "Add step" and Play, a library page, a question b
 
     await page.keyboard.press('Control+a');
     expect(await page.locator('step-row .pick[aria-pressed="true"]').count()).toBe(2);
+    await endDragsOfStep(page);
 
     const last = await page.getByRole('combobox', { name: 'Motion', exact: true }).inputValue();
     const name = page.getByRole('textbox', { name: 'Name of the motion' });

@@ -3,6 +3,7 @@
 // Arrow keys choose, with Shift several; with Alt they move the steps.
 
 import { anglesOf } from '../../model/body.ts';
+import type { EditorState } from '../../model/editor-state.ts';
 import type { Step } from '../../model/page.ts';
 import { define, handOver, isTyping, make, withoutMenu } from '../element.ts';
 import { keyOf } from '../key-of.ts';
@@ -36,7 +37,8 @@ export class StepRow extends SessionElement {
     /** The field in which the user is typing. */
     private typing: HTMLInputElement | null = null;
     private readonly shownFor = new ShownFor();
-    private drag: { readonly from: number; readonly startX: number; to: number | null } | null = null;
+    /** began: an undo or another motion meanwhile ends it, because the steps are no longer those that were taken hold of. */
+    private drag: { readonly from: number; readonly startX: number; readonly began: EditorState; to: number | null } | null = null;
 
     connectedCallback(): void {
         const titles = make(
@@ -46,8 +48,13 @@ export class StepRow extends SessionElement {
             make('span', {}, TEXTS.steps.pause),
         );
         this.replaceChildren(titles, this.list, this.empty);
+        this.listenTo(window, 'keydown', event => event.key === 'Escape' && this.endDrag());
         this.disposals.push(
-            this.session.editor.state.watch(() => this.render()),
+            this.session.editor.state.watch(({ document, page }) => {
+                const began = this.drag?.began;
+                if (began && (began.document !== document || began.page !== page)) this.endDrag();
+                this.render();
+            }),
             this.session.state.watch(({ tab }) => {
                 if (tab === 'steps' && this.isBehind) this.render();
                 this.markPlaying();
@@ -215,7 +222,7 @@ export class StepRow extends SessionElement {
         if (!this.session.editor.state.get().steps.has(index) || event.shiftKey || event.ctrlKey || event.metaKey)
             this.choose(index, event);
         pick.setPointerCapture(event.pointerId);
-        this.drag = { from: index, startX: event.clientX, to: null };
+        this.drag = { from: index, startX: event.clientX, began: this.session.editor.state.get(), to: null };
     }
 
     private moveDrag(event: PointerEvent): void {
