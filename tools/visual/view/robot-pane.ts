@@ -60,6 +60,7 @@ export class RobotPane extends SessionElement {
 
     private render(state: SessionState): void {
         const isOff = state.source !== 'simulated';
+        if (isOff !== this.classList.contains('off')) this.onTilt(isOff ? 0 : this.floor.tiltFront, isOff ? 0 : this.floor.tiltLeft);
         this.classList.toggle('off', isOff);
         for (const section of this.querySelectorAll<HTMLElement>('.sections > section')) section.inert = isOff; // for the keyboard, too
         for (const [speed, button] of this.speeds) button.setAttribute('aria-pressed', String(speed === state.speed));

@@ -2,6 +2,7 @@
 // What people expect of a page: Ctrl+A selects all, irreversible actions are confirmed, and there is no warning when nothing can be lost.
 import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
+import type { Visitor } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
 
 const suite = pageSuite();
@@ -26,6 +27,25 @@ async function endDragsOfStep(page: Page): Promise<void> {
         if (key === 'Control+z') await redo.click();
         expect(await times()).toEqual(before);
     }
+}
+
+/** In the browser: a port to choose, whose robot never answers. */
+function withSilentPort(): void {
+    const port = { getInfo: () => ({}), open: () => new Promise(() => undefined) };
+    Object.assign((navigator as unknown as { serial: object }).serial, { requestPort: () => Promise.resolve(port) });
+}
+
+/** Another robot, which has not answered yet: the floor of the one before is not taken for its own. */
+async function chooseSilentRobot(person: Visitor): Promise<void> {
+    const { page } = person;
+    const tilts = page.locator('robot-view');
+    await tilts.evaluate(view => Object.assign(view, { tilt: (front: number) => (view.dataset.tilt = front.toFixed(2)) })); // no picture
+    await person.open('Robot');
+    await page.getByLabel('Slope to the front').fill('12');
+    expect(await tilts.getAttribute('data-tilt')).toBe('0.21');
+    await page.evaluate(withSilentPort);
+    await person.press('Your robot …');
+    await expect.poll(() => tilts.getAttribute('data-tilt')).toBe('0.00');
 }
 
 test('Ctrl+A, double clicks on "Add step" and Play, a library page, a question before "Factory fresh"', async () => {
@@ -100,6 +120,7 @@ test('Ctrl+A, double clicks on "Add step" and Play, a library page, a question b
     await page.getByRole('slider', { name: 'Size' }).fill('80');
     await person.robotSeconds(1); // four reports
     expect(await speed.inputValue()).toBe('130');
+    await chooseSilentRobot(person);
     await person.leave();
 });
 
