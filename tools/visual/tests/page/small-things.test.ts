@@ -35,7 +35,7 @@ function withSilentPort(): void {
     Object.assign((navigator as unknown as { serial: object }).serial, { requestPort: () => Promise.resolve(port) });
 }
 
-/** Another robot, which has not answered yet: the floor of the one before is not taken for its own. */
+/** Another robot, which has not answered yet: neither the floor nor the pose of the one before is taken for its own. */
 async function chooseSilentRobot(person: Visitor): Promise<void> {
     const { page } = person;
     const tilts = page.locator('robot-view');
@@ -46,6 +46,15 @@ async function chooseSilentRobot(person: Visitor): Promise<void> {
     await page.evaluate(withSilentPort);
     await person.press('Your robot …');
     await expect.poll(() => tilts.getAttribute('data-tilt')).toBe('0.00');
+    await person.open('Steps');
+    await person.button('New motion').click();
+    await person.open('Curves');
+    await person.button('Right arm').click();
+    const elbow = page.getByRole('spinbutton', { name: /right elbow/ });
+    await elbow.fill('300');
+    await elbow.press('Enter');
+    const steps = await person.inPage(({ editor }) => editor.page(editor.state.get().page).steps);
+    expect(steps.map(({ positions }) => positions.filter(position => position !== null))).toEqual([[300]]);
 }
 
 test('Ctrl+A, double clicks on "Add step" and Play, a library page, a question before "Factory fresh"', async () => {

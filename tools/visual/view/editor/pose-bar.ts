@@ -15,6 +15,7 @@ import { jointTitle } from '../texts/robot.ts';
 import { TEXTS } from '../texts/texts.ts';
 import { touchesText } from '../texts/trials.ts';
 import { SessionElement } from '../session-element.ts';
+import { watchRobot } from '../watch-robot.ts';
 import './pose-bar.css';
 
 const OPTIONS = ['soleFlat', 'onionSkin', 'balance'] as const;
@@ -50,7 +51,7 @@ export class PoseBar extends SessionElement {
         this.replaceChildren(make('div', { class: 'row' }, group, this.options()), this.hint, this.joints, this.balance, this.touch);
         this.watch(() => this.render(), this.editing, this.session.state, this.session.editor.state);
         this.disposals.push(
-            this.session.onFrame(robot => {
+            watchRobot(this.session, robot => {
                 this.robot = robot;
                 this.showBalance();
                 this.showTouches();
