@@ -145,6 +145,23 @@ async function checkLinkList(person: Visitor): Promise<void> {
     expect.soft((await box(person.page, 'links-pane .fields select')).width, 'link').toBeGreaterThan(WORD_PX);
 }
 
+/** On a screen as low as a phone that lies under its browser's bars, or a page at 400 %: nothing is out of reach. */
+async function checkLow(person: Visitor): Promise<void> {
+    const { page } = person;
+    for (const area of ['Steps', 'Links'] as const) {
+        await person.open(area);
+        for (const [width, height] of [
+            [640, 290],
+            [480, 270],
+            [320, 256],
+        ] as const) {
+            await page.setViewportSize({ width, height });
+            expect.soft((await box(page, '.area:not([hidden])')).height, `${area}, ${width} x ${height}`).toBeGreaterThan(ROW_PX);
+            await page.locator('action-bar').getByRole('button', { name: 'Stop' }).click({ trial: true });
+        }
+    }
+}
+
 test('one row of head, no word cut, at most five sizes of type and one blue button in every area, letters of 12 px or more in the terminal, which fills the screen', async () => {
     const person = await suite.come({ screen: DESKTOP, hasPython: true });
     const { page } = person;
@@ -174,6 +191,7 @@ test('one row of head, no word cut, at most five sizes of type and one blue butt
         await person.button('Full screen').click();
         await expect.poll(() => box(page, 'terminal-pane')).toEqual({ x: 0, y: 0, width: screen.width, height: screen.height });
         await page.evaluate(() => document.exitFullscreen());
+        if (screen === DESKTOP_AT_200) await checkLow(person);
     }
     await person.leave();
 });
