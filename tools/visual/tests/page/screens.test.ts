@@ -248,6 +248,12 @@ test('on a tablet and a phone: the robot stands as high over the bar of motions 
     await person.button('Right arm').click(); // nothing covers this button either
     await page.getByRole('spinbutton', { name: /right elbow/ }).waitFor();
     await checkInSight(person, screens, ['face']);
+    await page.setViewportSize({ width: 360, height: 640 });
+    await person.button('Right leg').click();
+    const fields = page.locator('pose-bar').getByRole('spinbutton');
+    expect(await fields.count()).toBe(6);
+    for (const field of await fields.all()) await field.click({ trial: true }); // not under the bar of motions
+    await page.setViewportSize(PHONE);
 
     await person.button('Tour').click();
     await person.button('Start').click();
