@@ -11,12 +11,10 @@
 #include <stddef.h>
 #include <string.h>
 
-/* The factory loader 1.31, boot/ORIGINAL.md section 7b. Two CRCs and a sum, because one CRC-16 is too weak a proof before a
+/* The factory loader 1.31, boot/ORIGINAL.md section 7b. A CRC and a sum, because one CRC-16 is too weak a proof before a
  * jump into foreign code. The CRC-32 of the spec would need code that nothing else uses. */
-#define FACTORY_CRC_ALL 0xD53Eu
-#define FACTORY_CRC_USED 0x7406u
-#define FACTORY_SUM_ALL 0x000F9AF0ul
-#define FACTORY_USED_END 0x1FB90ul
+#define FACTORY_CRC 0xD53Eu
+#define FACTORY_SUM 0x000F9AF0ul
 
 #define BOOT_MODE_APPLICATION 0x11u /* EEPROM FFF: start the application */
 #define MAIL_POSTED 0xAAu
@@ -40,13 +38,10 @@ static bool is_ours(void)
 static page_service_kind_t recognise(void)
 {
     uint8_t piece[16];
-    uint16_t crc = CRC16_START, crc_used = 0;
+    uint16_t crc = CRC16_START;
     uint32_t sum = 0;
     uint8_t all = 0xFF;
     for (uint32_t addr = MEM_BOOT_START; addr < MEM_BOOT_END; addr += sizeof piece) {
-        if (addr == FACTORY_USED_END) {
-            crc_used = crc;
-        }
         flash_read(addr, piece, sizeof piece);
         for (uint8_t i = 0; i < sizeof piece; i++) {
             crc = crc16_byte(crc, piece[i]);
@@ -57,8 +52,7 @@ static page_service_kind_t recognise(void)
     if (all == 0xFF) {
         return PAGE_SERVICE_NONE;
     }
-    bool factory = crc == FACTORY_CRC_ALL && crc_used == FACTORY_CRC_USED && sum == FACTORY_SUM_ALL;
-    return factory ? PAGE_SERVICE_FACTORY : PAGE_SERVICE_MAILBOX;
+    return crc == FACTORY_CRC && sum == FACTORY_SUM ? PAGE_SERVICE_FACTORY : PAGE_SERVICE_MAILBOX;
 }
 
 page_service_kind_t page_service_init(const boot_rx_t *rx)

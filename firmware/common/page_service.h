@@ -2,7 +2,7 @@
  * page_service.h - finds out which program can write flash here, and implements the writing half of flash.h with it.
  *
  *   PAGE_SERVICE_OURS     our loader: call table at 0x1FFE0 (boot_api.h)
- *   PAGE_SERVICE_FACTORY  factory loader 1.31, identified by two CRCs and the sum of its 8 KiB: its routine at 0x1F238
+ *   PAGE_SERVICE_FACTORY  factory loader 1.31, identified by CRC and sum of its 8 KiB: its routine at 0x1F238
  *                         (boot/ORIGINAL.md, 7b)
  *   PAGE_SERVICE_MAILBOX  another loader: at the next start it may write a page left in EEPROM (7a).
  *                         flash_write returns FLASH_ERR_NO_WRITER; call page_service_post and restart
