@@ -258,6 +258,20 @@ def test_flash_that_does_not_take_the_data_is_tried_ten_times_and_is_an_error(bo
     assert bytes(board.flash[0x2000:0x2300]) == b"\xff" * 0x300
 
 
+def test_bytes_that_are_lost_while_weak_flash_takes_several_tries_are_an_error(board):
+    """Each try takes 10 ms, and the ring has 256 bytes. The sum is right all the same: the bytes are zeros."""
+    tries = []
+
+    def spoil():
+        if board.operation(board.operations) == ("write", 0x2000) and len(tries) < 9:
+            tries.append(0x2000)
+            board.flash[0x2000] = 1
+
+    board.on_operation(spoil)
+    result, rewrites, size, _, _ = load(board, 0x2000, bytes(900))
+    assert rewrites == 9 and size < 901 and board.flash[0x2000] == 0 and result == "Error"
+
+
 @pytest.mark.parametrize("word", ["load", "ld", "l", "down", "dn", "LOAD"])
 def test_every_name_of_load(board, word):
     board.send(f"{word} 2000\r")

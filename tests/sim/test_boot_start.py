@@ -203,8 +203,9 @@ def test_validity_of_the_application(image, stays, word):
     assert say(board, "id").endswith(f"app={word}")
 
 
-@pytest.mark.parametrize("address", [0x00, 0x8C + 4, 0x8C + 15, 0x3FF])
+@pytest.mark.parametrize("address", [0x00, 0x8C, 0x8C + 4, 0x8C + 15, 0x3FF])
 def test_one_changed_bit_keeps_the_application_from_starting(address):
+    """At 0x8C it is a bit that a half erased magic has too much."""
     image = bytearray(application())
     image[address] ^= 0x10
     board = board_with(bytes(image))
