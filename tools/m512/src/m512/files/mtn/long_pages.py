@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from typing import Any, Callable
 
 from m512.errors import FileError
-from m512.files.image import BOARD_PAGES, Image
+from m512.files.image import Image
 from m512.files.page import NAME_BYTES, STEPS, Page
 from m512.files.wording import pages_text
 
@@ -23,7 +23,6 @@ def place_long_pages(image: Image, blocks: Sequence[Any], fill: Callable[[Page, 
     block at its own number. FileError: not enough room."""
     targets = {link for block in blocks for link in (block.page.next, block.page.exit)}
     free = [number for number, page in image.items() if number and page.is_empty and number not in targets]
-    free.sort(key=lambda number: number >= BOARD_PAGES)
     for number, block in enumerate(blocks, 1):
         if len(block.steps) > STEPS:
             _spread(image, number, block, free, fill, where)
