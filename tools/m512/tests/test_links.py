@@ -136,22 +136,33 @@ def test_open_download_below_the_reserve_survives_a_minute_of_knocking():
     assert set(bench.changed()) <= {(LAST_START - 256) // 256}
 
 
+@pytest.mark.parametrize("fault", ["a pause", "a line end that comes twice"])
 @pytest.mark.parametrize("seed", range(8))
-def test_pause_anywhere_in_a_page_that_reads_like_commands(seed):
-    """After the pause the loader takes the rest of the data as typed text."""
+def test_fault_anywhere_in_a_page_that_reads_like_commands(seed, fault):
+    """After the pause the loader takes the rest of the data as typed text; all of the data, if the end of `load` comes twice and they come
+    late."""
     chance = random.Random(seed)
     pages = {0x30 + k: runs.contents(chance, 256) for k in range(6)}
     bench = Bench()
     loader, write = FactoryLoader(bench.line), bench.line.write
 
+    def hold():
+        bench.wires[0].sent_until = bench.board.now + 0.5
+
     def paused(data, wait=True):
         at = chance.randrange(len(data)) if bench.loader.where == "ready" and chance.random() < 0.3 else 0
         write(data[:at], wait)
         if at:
-            bench.wires[0].sent_until = bench.board.now + 0.25
+            hold()
         write(data[at:], wait)
 
-    bench.line.write = paused
+    def twice(data, wait=True):
+        is_end = data == b"\r" and chance.random() < 0.3
+        write(data * 2 if is_end else data, wait)
+        if is_end:
+            hold()
+
+    bench.line.write = paused if fault == "a pause" else twice
     try:
         loader.write(pages)
     except M512Error:

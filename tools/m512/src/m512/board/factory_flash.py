@@ -10,8 +10,9 @@ program has died.
 * A download has at most 256 bytes. If they are doubled, they end in the next page, which must be one that this command writes.
   The last page is written by a download of a single byte. Its other 255 bytes are left in the buffer by the download before,
   which went to the page below. Only a single byte that arrives with 256 extra ones could write past the last page.
-* Data is cut into segments that do no harm if a pause turns them into typed text (typed.py). The last segment is sent first,
-  after NULs, which the loader drops when they are typed. The segments before it then overwrite the NULs.
+* Data is cut into segments that do no harm if a pause turns them into typed text (typed.py), or a line end that arrives twice and
+  ends the download before it began. The last segment is sent first, after NULs, which the loader drops when they are typed. The
+  segments before it then overwrite the NULs.
 * No download starts in the RESERVE below the loader. This program sends up to BLIND_MOST bytes without knowing who listens (the
   knock and the '#' of loaders.py). Even if each is doubled and a download is open, they end below the loader. The pages in the
   RESERVE go through the mailbox (mailbox.py).
@@ -94,9 +95,6 @@ def _download(loader: FactoryLine, address: int, data: bytes) -> str:
         raise Unsure(loader.how_it_stands())
     if b"Write Address : %08X" % address not in answer:
         raise Unsure(WRONG_ADDRESS + loader.link.remedy)
-    if _OVER.search(loader.link.drain(0)):  # the end of the line arrived twice: the download ended before it began
-        loader.open_at = None
-        return "the line doubles bytes"
     loader.link.write(data)
     report, ended = loader.link.look_for(b"\r\n - ", loader.patience(len(data) + REPORT_BYTES) + REPORT_SECONDS)
     if not _OVER.search(report):
