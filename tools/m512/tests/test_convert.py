@@ -301,6 +301,7 @@ def test_mtn_decimal_commas_and_version_100():
     "change, says",
     [
         (lambda p: p.update(param="0 0 1 0 32"), "rate 0 gives no page speed"),
+        (lambda p: p.update(param="0 0 1 0.125 32"), "rate 0.125 gives no page speed"),
         (lambda p: p.update(param="0 0 1 1.0"), "play_param has 4 values, not 5"),
         (lambda p: p.update(param="0 0 256 1.0 32"), "repeat 256 is not a number 0..255"),
         (lambda p: p.update(steps=["0 2.5"]), "time 2.5 s is not 0..2.04 s"),

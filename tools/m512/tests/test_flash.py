@@ -11,16 +11,16 @@ import re
 from types import SimpleNamespace
 
 import pytest
-from block_peer import BlockPeer, BlockPtyPeer
+from block_peer import SLOW, BlockPeer, BlockPtyPeer
 from conftest import REPO
 from factory_peer import APP as RUNS
-from factory_peer import PROMPTED, FactoryPeer, FactoryPtyPeer
+from factory_peer import OFF_S, PROMPTED, FactoryPeer, FactoryPtyPeer
 from hex_files import hex_file
 from virtual_peer import VirtualLink
 
 from m512 import ui
 from m512.board import backup, factory_flash, kept, memory
-from m512.board.block import LEAVE, frame
+from m512.board.block import LEAVE, WRITE, frame
 from m512.board.client import Client
 from m512.board.factory import FactoryLoader
 from m512.board.factory_flash import LAST_START
@@ -274,7 +274,7 @@ def board_with_two_motions(started, kind):
         edit = started("boot-cm5.hex", "edit-cm5.hex", text=TWO_MOTIONS, applied=True)
         return edit, edit.board.flash
     flash = old_flash()[:0xE000] + read_text(TWO_MOTIONS).to_bytes() + old_flash()[0x1E000:]
-    peer = (BlockPeer if kind == "ours" else FactoryPeer)(flash)
+    peer = BlockPeer(flash) if kind == "ours" else FactoryPeer(flash, says=b"\r\n\n SYSTEM O.K.")  # without the board's name
     return peer, peer.flash
 
 
@@ -405,6 +405,8 @@ def test_without_a_file_that_keeps_them_no_pages_are_changed(m512, started, monk
 
 # Our loader
 
+KEYS = {0x08, 0x09, 0x0A, 0x0D, 0x1B, *range(0x20, 0x80)}  # an Edit that has been started takes them for a person's
+
 
 @pytest.mark.parametrize("loses", ["_answer", "_request"])
 @pytest.mark.parametrize("words, state, to", [("run", PROMPTED, 1), ("backup b1", RUNS, 2), ("restore b0 --yes", RUNS, 2)])
@@ -425,6 +427,7 @@ def test_a_loader_that_has_left_and_whose_answer_is_lost_is_no_failure(m512, tmp
         setattr(board, loses, lose)
         result = m512(*words.split(), "-p", board.path, "--wait", "5")
         assert result.exit_code == 0 and board.left == [to] and lost, result.stderr
+        assert len(board.app_heard) == 6 * (loses == "_answer") and not KEYS & set(board.app_heard), board.app_heard.hex(" ")
 
 
 def test_only_a_transfer_that_broke_off_goes_on_where_it_stopped(m512, motions):
@@ -461,25 +464,54 @@ def test_crc16_known_answer_and_frame_of_the_description():
     assert frame(1, 1, b"") == bytes.fromhex("a5010100c89d") and frame(3, 2, b"\xff\x01") == bytes.fromhex("a5030201ff013658")
 
 
-def test_block_line_with_noise_repeats_and_arrives(m512, motions):
+def with_noise(peer):
     noise = random.Random(3)
+    peer.garble = lambda _, index, byte: byte if index < 60 or noise.random() > 0.0002 else noise.choice([None, byte ^ 0x10])
+
+
+def that_spoils_the_fast_rate(peer):
+    peer.garble = lambda _, index, byte: byte if peer.pc_rate == SLOW else byte ^ 0x40
+
+
+def that_repeats_the_answer_to_a_write(peer):
+    answer, repeated = peer._answer, []
+
+    def twice(command, *rest):
+        answer(command, *rest)
+        if command == WRITE and not repeated:
+            repeated.append(answer(command, *rest))
+
+    peer._answer = twice
+
+
+@pytest.mark.parametrize(
+    "fault, says",
+    [
+        (with_noise, "repetitions"),
+        (that_spoils_the_fast_rate, "the fast rate does not work here; going on at 57,600"),
+        (that_repeats_the_answer_to_a_write, "written and read back"),
+    ],
+)
+def test_block_pages_arrive_over_a_bad_line(m512, motions, fault, says):
     with BlockPeer(old_flash()) as peer:
-        peer.garble = lambda _, index, byte: byte if index < 60 or noise.random() > 0.0002 else noise.choice([None, byte ^ 0x10])
-        result = m512("flash", motions, "-p", peer.path)
+        fault(peer)
+        result = m512("flash", motions, "-p", peer.path, *["--fast"] * (fault is that_spoils_the_fast_rate))
         assert result.exit_code == 0, result.stderr
-        assert peer.flash[0xE200:0x1E000] == motion_area()[512:] and "repetitions" in result.stderr
+        assert peer.flash[0xE200:0x1E000] == motion_area()[512:] and says in result.stderr
 
 
-@pytest.mark.parametrize("lost", [0x69, 0x64])
-def test_block_loader_is_not_taken_for_the_factorys_when_a_letter_is_lost(m512, motions, lost):
-    """The lost letter is of the command `id`: our loader then answers that it does not know the command, as the factory's does."""
+@pytest.mark.parametrize("letter, before", [(b"i", None), (b"d", None), (b"i", b"x")])
+def test_block_loader_is_not_taken_for_the_factorys_when_a_letter_is_lost(m512, motions, letter, before):
+    """The letter is of the command `id`: our loader then answers that it does not know the command, as the factory's does. before: a
+    letter that noise has put into the loader's line, whose echo is lost; so the echo of `id` is right."""
     with BlockPeer(old_flash()) as peer:
         gone = []
 
         def lose(direction, _, byte):
-            if direction == "->" and byte == lost and not gone:
+            if direction == "->" and byte == letter[0] and not gone:
                 gone.append(byte)
-                return None
+                peer.line += before or b""
+                return byte if before else None
             return byte
 
         peer.garble = lose
@@ -545,21 +577,22 @@ def test_factory_lost_bytes_are_found_by_size_and_sent_again(m512, motions):
         assert peer.flash[0xE200:0x1E000] == motion_area()[512:]
 
 
-@pytest.mark.parametrize("lost", [None, 20, 700])
-def test_factory_dumps_begin_anywhere_and_are_asked_for_again_when_damaged(lost):
+@pytest.mark.parametrize("way, at, becomes", [("", 0, None), ("<-", 20, None), ("<-", 700, None), ("->", 9, ord("3"))])
+def test_factory_dumps_begin_anywhere_and_are_asked_for_again_when_damaged(way, at, becomes):
+    """The last row: `flash 11200` arrives as `flash 11300`, and a good dump of other memory comes."""
     with FactoryPeer(bytearray(old_flash())) as peer:
-        answered = []
+        passed = []
 
-        def lose(direction, _, byte):
-            if direction == "<-":
-                answered.append(byte)
-            return None if direction == "<-" and len(answered) == lost else byte
+        def harm(direction, _, byte):
+            if direction == way:
+                passed.append(byte)
+            return becomes if direction == way and len(passed) == at else byte
 
         with VirtualLink(peer.path) as link:
             loader = FactoryLoader(link)
-            peer.garble = lose
+            peer.garble = harm
             assert loader.read(0x11234, 0x11333) == bytes(peer.flash[0x11234:0x11333])
-            assert loader.retries == (lost is not None)
+            assert loader.retries == bool(way)
 
 
 @pytest.mark.parametrize("page", [LAST_START // 256, LAST_START // 256 + 1, 0x1DE, 0x1E0, 0x1FE])
@@ -583,18 +616,33 @@ class WornEeprom(bytearray):
         super().__setitem__(0x810, 5)
 
 
+class WeakEeprom(bytearray):
+    """The mark that starts the copy changes the number of the page into that of a page of the loader."""
+
+    def __setitem__(self, at, value):
+        super().__setitem__(at, value)
+        if (at, value) == (0xFF4, 0xAA):
+            super().__setitem__(0xFF5, 0x88)
+
+
 STAYS = "the controller stays in it at every start"
 
 
-def test_factory_mailbox_that_fails_says_that_the_controller_stays_in_its_loader(m512, tmp_path):
+@pytest.mark.parametrize(
+    "eeprom, says", [(WornEeprom, "the EEPROM does not take the page"), (WeakEeprom, "has changed by itself; nothing was written")]
+)
+def test_factory_mailbox_that_fails_says_that_the_controller_stays_in_its_loader(m512, tmp_path, eeprom, says):
     """m512 has typed `sys` by then: EEPROM FFF is FF (boot/ORIGINAL.md)."""
     path = tmp_path / "x.m512"
     path.write_text("motion512 1\npage 120 end\n  step 50 | 1..18:600\n")
     with FactoryPeer(bytes(0xE000) + EMPTY * 128 + b"\xff" * 0x2000) as peer:
-        peer.eeprom = WornEeprom(peer.eeprom)
+        peer.eeprom = eeprom(peer.eeprom)
         result = m512("flash", path, "-p", peer.path, "--board", "cm5")
-        assert result.exit_code == 8 and "the EEPROM does not take the page" in result.stderr and peer.eeprom[0xFFF] == 0xFF
+        assert result.exit_code == 8 and says in result.stderr and peer.eeprom[0xFFF] == 0xFF
         assert STAYS in result.stderr and "repeat the command" in result.stderr, result.stderr
+        peer.press_mode()
+        peer.pass_time(OFF_S)
+        assert bytes(peer.flash) == peer.before
 
 
 def test_factory_flash_that_is_worn_out_says_that_the_controller_stays_in_its_loader(m512, app_hex):
@@ -733,6 +781,7 @@ def test_a_page_that_an_interrupted_command_left_in_the_mailbox_is_not_copied_la
         result = m512(*words, "-p", peer.path, "--yes", "--board", "cm5", "--wait", "5")
         assert result.exit_code == 0, result.stderr
         peer.press_mode()
+        peer.pass_time(OFF_S)  # it copies when it starts
         assert bytes(peer.flash) == flash
 
 
@@ -771,20 +820,41 @@ def other_eeprom(m512, tmp_path):
     return make
 
 
-def test_an_eeprom_byte_that_arrives_wrong_is_written_again(m512, other_eeprom):
+@pytest.mark.parametrize("fault", ["a byte changes", "the last digit of the count is doubled"])
+def test_eeprom_bytes_that_arrive_wrong_are_written_again(m512, other_eeprom, fault):
     with FactoryPeer() as peer:
-        folder, changed = other_eeprom(peer), []
+        folder, typed, done, wanted = other_eeprom(peer), bytearray(), [], bytes(peer.eeprom)
 
         def garble(direction, _, byte):
-            if direction == "->" and peer.state == "eep_dn" and not changed:
-                changed.append(byte)
-                return byte ^ 1
+            if direction == "->" and not done:
+                typed.append(byte)
+                if fault == "a byte changes" and peer.state == "eep_dn":
+                    done.append(byte)
+                    return byte ^ 1
+                if fault != "a byte changes" and typed.endswith(b"eep_dn 20 20"):
+                    done.append(byte)
+                    peer.on_byte(byte)
             return byte
 
         peer.garble = garble
         result = m512("restore", folder, "-p", peer.path, "--yes", "--board", "cm5")
-        assert changed and result.exit_code == 0 and "32 EEPROM cells written and read back" in result.stderr, result.stderr
-        assert peer.eeprom[0x20:0x40] == b"\xff" * 32
+        assert done and result.exit_code == 0 and "32 EEPROM cells written and read back" in result.stderr, result.stderr
+        assert peer.eeprom == wanted[:0x20] + b"\xff" * 32 + wanted[0x40:]
+
+
+def test_eeprom_bytes_are_not_sent_to_an_address_that_changed_on_the_line(m512, other_eeprom):
+    """The digit is changed on its way there, and again in its echo."""
+    with FactoryPeer() as peer:
+        folder, before, passed = other_eeprom(peer), bytes(peer.eeprom), {"->": bytearray(), "<-": bytearray()}
+
+        def garble(direction, _, byte):
+            passed[direction].append(byte)
+            return byte ^ 4 if passed[direction].endswith((b"eep_dn 2", b"eep_dn 6")) else byte
+
+        peer.garble = garble
+        result = m512("restore", folder, "-p", peer.path, "--yes", "--board", "cm5")
+        assert result.exit_code == 8 and "took another address than it was given" in result.stderr, result.stderr
+        assert passed["->"].endswith(b"eep_dn 20 20\r") and bytes(peer.eeprom) == before
 
 
 @pytest.mark.parametrize(

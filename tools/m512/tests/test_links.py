@@ -94,6 +94,23 @@ def test_page_below_the_reserve_takes_255_bytes_too_many():
     assert set(bench.changed()) <= set(pages)
 
 
+def test_a_page_that_doubled_bytes_have_changed_is_read_back_though_it_needed_no_writing():
+    bench, pages = Bench(), motion_pages(3)
+    first, second = sorted(pages)
+    bench.loader.flash[second * 256 : second * 256 + 256] = pages[second]
+    loader, write, doubled = FactoryLoader(bench.line), bench.line.write, []
+
+    def double(data, wait=True):
+        is_data = bench.loader.where == "ready" and not doubled
+        write(data * 2 if is_data else data, wait)
+        if is_data:
+            doubled.append(data)
+
+    bench.line.write = double
+    loader.write({first: pages[first]}, around=pages)
+    assert doubled and bench.loader.flash[first * 256 : second * 256 + 256] == pages[first] + pages[second]
+
+
 @pytest.mark.parametrize(
     "text, expected",
     [
@@ -114,7 +131,7 @@ def test_typed_text_is_cut_before_the_line_end_that_would_do_harm(text, expected
 
 
 def test_what_is_sent_blindly_cannot_reach_the_loader():
-    """Nobody answers for a minute, neither an application nor a loader. Each byte may be doubled, after a page of a download that
+    """Nobody answers for two minutes, neither an application nor a loader. Each byte may be doubled, after a page of a download that
     somebody else left open."""
     bench = Bench()
     bench.loader.eeprom[0xFFF] = 0x11
@@ -124,7 +141,7 @@ def test_what_is_sent_blindly_cannot_reach_the_loader():
     with pytest.raises(NoAnswerError):
         Client(bench.line)
     with pytest.raises(NoAnswerError, match="no boot loader answered"):
-        loaders.enter(bench.line, lambda text: None, 60.0)
+        loaders.enter(bench.line, lambda text: None, 120.0)
     sent = bench.line.sent - before
     assert 1000 < sent <= BLIND_MOST and LAST_START + 2 * (256 + sent) <= 0x1E000
 

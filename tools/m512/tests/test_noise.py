@@ -8,6 +8,7 @@ from virtual_peer import VirtualLink
 
 from m512.board.block import BlockLoader, frame
 from m512.board.client import Client
+from m512.crc16 import crc16
 from m512.errors import M512Error
 from m512.files.text import read_text
 from tests.campaigns.noise import NoisyLink, survives
@@ -114,6 +115,15 @@ def test_a_request_that_the_board_refuses_because_bytes_were_lost_is_sent_again(
     link_client = Client.__new__(Client)
     link_client.link, link_client.version, link_client.slack, link_client.said = link, {}, 0.0, b""
     assert link_client.ask("torque on") == ""
+
+
+def test_a_late_second_answer_is_not_taken_for_the_next_page():
+    """A line that stalled: m512 has asked twice, and the robot has answered twice."""
+    pages = read_text("motion512 1\npage 4 four\n  step 50 | 1..18:500\npage 5 five\n  step 50 | 1..18:500\n")
+    four, five = (b"\x1e@page %d %s %04X OK\r\n" % (n, pages[n].data.hex().encode(), crc16(pages[n].data)) for n in (4, 5))
+    client = Client.__new__(Client)
+    client.link, client.slack, client.said = NoisyLink(four + four + five), 0.0, b""
+    assert [client.page(4), client.page(5)] == [pages[4], pages[5]]
 
 
 GOOD = b"\x1e@where state=playing page=2 step=1 repetition=2 code=0 dv=96 missed=0 faulty=00000000 OK\r\n"
