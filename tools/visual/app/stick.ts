@@ -4,6 +4,8 @@
 
 import type { Connection } from '../robot/connection.ts';
 import { command, drive, play } from '../robot/protocol.ts';
+import type { Requests } from '../robot/requests.ts';
+import { RobotError } from '../robot/robot-error.ts';
 
 const EVERY_MS = 100;
 const AMPLITUDE = { least: 40, most: 120 };
@@ -57,10 +59,12 @@ export class StickDrive {
         try {
             const { requests } = this.connection();
             await play(requests, page);
-            while (this.stick) {
-                const { blend, rate, amplitude } = shapeOf(this.stick);
-                await drive(requests, blend, rate, amplitude);
-                await new Promise(resolve => setTimeout(resolve, EVERY_MS));
+            try {
+                await this.steer(requests);
+            } catch (error) {
+                // The robot itself limits only a walk that was steered once. What it does not answer is followed by a stop anyway.
+                if (error instanceof RobotError && error.number !== 0) void command(requests, 'stop').catch(this.fail);
+                throw error;
             }
             await command(requests, 'stop');
         } catch (error) {
@@ -68,6 +72,14 @@ export class StickDrive {
             this.fail(error);
         } finally {
             this.isRunning = false;
+        }
+    }
+
+    private async steer(requests: Requests): Promise<void> {
+        while (this.stick) {
+            const { blend, rate, amplitude } = shapeOf(this.stick);
+            await drive(requests, blend, rate, amplitude);
+            await new Promise(resolve => setTimeout(resolve, EVERY_MS));
         }
     }
 }

@@ -134,7 +134,7 @@ export class Requests {
         if (this.stopDue === 'later' && refusal?.[1] !== ERR_LINE) this.stopDue = request.moves || request.stops ? 'no' : 'now';
         if (refusal?.[1] === ERR_LINE) {
             if (this.isRepeated(request)) return this.next();
-            request.reject(new RobotError('no-answer', request.text)); // it was not executed
+            request.reject(new RobotError('no-answer', request.text, { number: Number(ERR_LINE) })); // it was not executed
         } else if (refusal) request.reject(new RobotError('refused', refusal[2] ?? '', { number: Number(refusal[1]) }));
         else request.resolve(line.slice(word.length, -' OK'.length).trim());
         this.next();

@@ -39,7 +39,7 @@ export type RobotErrorCode =
 export class RobotError extends Error {
     readonly code: RobotErrorCode;
     readonly words: string;
-    /** The ERR number of a refusal, else 0. */
+    /** The ERR number, if the robot has answered with one, else 0. */
     readonly number: number;
 
     constructor(code: RobotErrorCode, words = '', options: { cause?: unknown; number?: number } = {}) {

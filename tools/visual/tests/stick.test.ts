@@ -2,7 +2,9 @@
 // The stick of a gamepad: a stick that is pushed all the time must not start a walk again.
 import { afterEach, expect, test, vi } from 'vitest';
 import { StickDrive } from '../app/stick.ts';
+import { wallClock } from '../robot/clock.ts';
 import type { Connection } from '../robot/connection.ts';
+import { Requests } from '../robot/requests.ts';
 import { RobotError } from '../robot/robot-error.ts';
 
 const PUSHED = { x: 0, y: 1 };
@@ -63,4 +65,37 @@ test('a robot that refuses is asked once for each push, not at every picture', a
     stick.set(null);
     await hold(60);
     expect(fail).toHaveBeenCalledTimes(2);
+});
+
+/** A robot behind the real Requests. answers: to the first `@drive`; null: none comes. */
+function answering(answer: string | null) {
+    vi.useFakeTimers();
+    const sent: string[] = [];
+    const write = async (bytes: Uint8Array): Promise<void> => {
+        const word = /@\w+/.exec(String.fromCharCode(...bytes))?.[0] ?? '';
+        const isFirst = word === '@drive' && !sent.includes(word);
+        sent.push(word);
+        const line = isFirst ? answer : `${word} OK`;
+        if (line !== null) setTimeout(() => requests.take(line), 5);
+    };
+    const requests = new Requests({ write }, wallClock);
+    const fail = vi.fn();
+    const stick = new StickDrive(
+        () => ({ requests }) as unknown as Connection,
+        () => WALK,
+        fail,
+    );
+    return { stick, sent, fail };
+}
+
+test.each([
+    ['the line has damaged', '@drive ERR 15 Bytes were lost', 'no-answer'],
+    ['is refused', '@drive ERR 3 Out of range', 'refused'],
+    ['is not answered, which the requests stop by themselves', null, 'no-answer'],
+] as const)('a walk whose first @drive %s is stopped once: two stops within a second would break it off', async (_, answer, code) => {
+    const { stick, sent, fail } = answering(answer);
+    stick.set(PUSHED);
+    await vi.advanceTimersByTimeAsync(3000);
+    expect(sent).toEqual(['@play', '@drive', '@stop']);
+    expect(fail.mock.calls).toEqual([[expect.objectContaining({ code })]]);
 });
