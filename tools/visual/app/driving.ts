@@ -55,10 +55,10 @@ export class Driving {
         return this.wish !== null;
     }
 
-    /** Drops a key press that still waits for the robot, and stops a walk by the stick. */
-    forget(): void {
+    /** Drops a key press that still waits for the robot, and stops a walk by the stick. isStopped: the robot is told to stop anyway. */
+    forget(isStopped = false): void {
         this.wish = null;
-        this.stick.stop();
+        this.stick.stop(isStopped);
     }
 
     /** As if the person had let go of all keys and of the stick. */

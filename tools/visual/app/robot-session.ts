@@ -164,7 +164,7 @@ export class RobotSession implements Session {
         });
         this.sim = new SimulatorControls(this.state, simulated, {
             restarts: () => this.dropForRestart(),
-            pressed: () => this.dropWaiting(),
+            pressed: button => (button === 'start' ? this.dropForStop() : this.dropWaiting()),
         });
         this.plays = new RobotPlays({
             state: this.state,
@@ -320,7 +320,7 @@ export class RobotSession implements Session {
 
     async command(what: Command): Promise<void> {
         const stops = what === 'stop' || what === 'break';
-        if (stops) this.dropWaiting();
+        if (stops) this.dropForStop();
         const { isPowered, connection } = this.state.get();
         const isStarting = this.isSimulated && isPowered && connection !== 'ready';
         await this.act(async () => {
@@ -352,7 +352,7 @@ export class RobotSession implements Session {
     /** Edit ignores the remote, and an unknown board gets none of it, but Stop must work there as well. */
     remote(held: ReadonlySet<RemoteButton>): void {
         const stops = held.has('b6');
-        if (stops) this.dropWaiting();
+        if (stops) this.dropForStop();
         else if (held.size > 0) this.stops.tell();
         const { connection, version } = this.state.get();
         if (stops && !(connection === 'ready' && version?.image === 'play')) void this.command('stop');
@@ -415,6 +415,12 @@ export class RobotSession implements Session {
         this.preview.pause();
         this.sources.dropText();
         this.dropMoves('stop');
+    }
+
+    /** A stop goes to the robot. */
+    private dropForStop(): void {
+        this.dropWaiting();
+        this.driving.forget(true);
     }
 
     /** A person stops the robot or takes it over, so the page moves it no more with what was asked before. */

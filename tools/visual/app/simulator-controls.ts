@@ -12,7 +12,7 @@ export interface SimulatorEvents {
     /** The robot is switched off or reset, and does not go on with anything. */
     restarts(): void;
     /** Another button of its panel is pressed: Start stops a play, the others begin or steer one. */
-    pressed(): void;
+    pressed(button: PanelButton): void;
 }
 
 export class SimulatorControls implements SimControls {
@@ -43,7 +43,8 @@ export class SimulatorControls implements SimControls {
     }
 
     press(button: PanelButton, down: boolean): void {
-        if (down) this.events[button === 'mode' ? 'restarts' : 'pressed']();
+        if (down && button === 'mode') this.events.restarts();
+        else if (down) this.events.pressed(button);
         this.robot.post({ kind: 'button', button, down });
     }
 

@@ -33,6 +33,8 @@ export class StickDrive {
     private isRunning = false;
     /** Set until the stick is let go: a gamepad is read at every picture, and would start the walk again at once. */
     private mustRest = false;
+    /** The walk is stopped by somebody else: a second stop within a second would break it off in mid step. */
+    private isStopped = false;
 
     constructor(connection: () => Connection, walkPage: () => number | null, fail: (error: unknown) => void) {
         this.connection = connection;
@@ -46,16 +48,18 @@ export class StickDrive {
         if (this.stick && !this.isRunning) void this.run();
     }
 
-    /** Stops the walk. A stick that is pushed drives again only when it was let go. */
-    stop(): void {
+    /** Stops the walk. A stick that is pushed drives again only when it was let go. isStopped: the robot is told to stop anyway. */
+    stop(isStopped = false): void {
         this.mustRest ||= this.stick !== null;
         this.stick = null;
+        this.isStopped = isStopped;
     }
 
     private async run(): Promise<void> {
         const page = this.walkPage();
         if (page === null) return;
         this.isRunning = true;
+        this.isStopped = false;
         try {
             const { requests } = this.connection();
             await play(requests, page);
@@ -66,7 +70,7 @@ export class StickDrive {
                 if (error instanceof RobotError && error.number !== 0) void command(requests, 'stop').catch(this.fail);
                 throw error;
             }
-            await command(requests, 'stop');
+            if (!this.isStopped) await command(requests, 'stop');
         } catch (error) {
             this.stop();
             this.fail(error);
@@ -76,7 +80,7 @@ export class StickDrive {
     }
 
     private async steer(requests: Requests): Promise<void> {
-        while (this.stick) {
+        while (this.stick && !this.isStopped) {
             const { blend, rate, amplitude } = shapeOf(this.stick);
             await drive(requests, blend, rate, amplitude);
             await new Promise(resolve => setTimeout(resolve, EVERY_MS));

@@ -285,6 +285,28 @@ test('a port that another program has is said to be busy; one whose cable was pu
     expect(session.state.get().message?.text ?? '').not.toMatch(/other program/);
 });
 
+/** Yours walks by the stick; `stop` ends it. Resolves to the words that it got from then on, but questions. */
+async function walked(stop: (session: RobotSession) => unknown): Promise<string[]> {
+    const { session, yours, connect } = await page('play');
+    await connect();
+    await vi.waitFor(() => expect(session.state.get().pages).toHaveLength(1));
+    session.drive({ x: 0, y: 1 });
+    await vi.waitFor(() => expect(yours.sent).toContain('@drive'));
+    const before = yours.sent.length;
+    void stop(session);
+    await soon();
+    return yours.sent.slice(before).filter(word => !['@where', '@pose', '@crcs', '@drive'].includes(word));
+}
+
+test.each([
+    ['Stop', (session: RobotSession) => session.command('stop'), ['@stop']],
+    ['Break', (session: RobotSession) => session.command('break'), ['@break']],
+    ['torque off', (session: RobotSession) => session.setTorque(false), ['@torque', '@stop']],
+    ['the stick, let go', (session: RobotSession) => session.drive(null), ['@stop']],
+] as const)('a walk by the stick, ended by %s: it is stopped once, or it would be broken off in mid step', async (_, stop, words) => {
+    expect(await walked(stop)).toEqual(words);
+});
+
 test('motions were written to yours: its list is asked for again', async () => {
     const { session, yours, connect } = await page('edit');
     await connect();
