@@ -167,7 +167,7 @@ export class Driving {
     }
 
     private async write(held: ReadonlySet<RemoteButton>): Promise<void> {
-        await this.parts.connection().requests.packet(remotePacket(held), { moves: held.size > 0 && !held.has(STOP) });
+        await this.parts.connection().requests.packet(remotePacket(held), { moves: held.size > 0 });
     }
 
     private get isYoursWithEdit(): boolean {

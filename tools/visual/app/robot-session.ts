@@ -89,6 +89,8 @@ export class RobotSession implements Session {
     private readonly texts = new Listeners<Uint8Array>();
     private readonly stops = new Listeners<void>();
     private lastFrame: RobotState | null = null;
+    /** Buttons that were down together with button 6. They count again when they were let go. */
+    private heldWithStop: ReadonlySet<RemoteButton> = new Set();
     /** Shows the asked motion if the robot has not begun in time. */
     private late: ReturnType<typeof setTimeout> | undefined;
     /** Counts run() and Stop. A motion that waits for the robot does not begin behind either. */
@@ -349,14 +351,17 @@ export class RobotSession implements Session {
         else this.messages.say(message);
     }
 
-    /** Edit ignores the remote, and an unknown board gets none of it, but Stop must work there as well. */
+    /** A packet of the remote may be lost on a line, Edit ignores it, and an unknown board gets none: there button 6 is a request. */
     remote(held: ReadonlySet<RemoteButton>): void {
         const stops = held.has('b6');
         if (stops) this.dropForStop();
         else if (held.size > 0) this.stops.tell();
         const { connection, version } = this.state.get();
-        if (stops && !(connection === 'ready' && version?.image === 'play')) void this.command('stop');
-        else this.driving.remote(held);
+        if (this.isSimulated && connection === 'ready' && version?.image === 'play') return this.driving.remote(held);
+        const isPressed = stops && !this.heldWithStop.has('b6');
+        this.heldWithStop = new Set([...held].filter(button => stops || this.heldWithStop.has(button)));
+        if (isPressed) void this.command('stop');
+        this.driving.remote(new Set([...held].filter(button => !this.heldWithStop.has(button))));
     }
 
     drive(stick: Stick | null): void {

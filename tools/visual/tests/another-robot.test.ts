@@ -8,6 +8,8 @@ import { SimulatedSource } from '../app/simulated-source.ts';
 import type { FormatsWorker } from '../model/file-formats.ts';
 import { wallClock } from '../robot/clock.ts';
 import { Connection } from '../robot/connection.ts';
+import { remotePacket } from '../robot/remote.ts';
+import type { RemoteButton } from '../robot/remote.ts';
 import { BytePort } from '../sim/byte-port.ts';
 import { PassingStorage } from '../view/document-storage.ts';
 import { TEXTS } from '../view/texts/texts.ts';
@@ -24,9 +26,11 @@ const tab = {
     addEventListener: (_: string, look: () => void) => void tab.looks.push(look),
 };
 
-/** A robot whose flash has no motions. sent: the words of all requests, and `remote` for a packet of the remote. aim, state: as in `@where`. */
+/** A robot whose flash has no motions. sent: the words of all requests, and `remote` for a packet of the remote, which packets has. aim,
+ *  state: as in `@where`. */
 function scripted(image: 'play' | 'edit', aim = '00000000', state = 'idle') {
     const sent: string[] = [];
+    const packets: string[] = [];
     const crc = format.crc(format.empty).toString(16).padStart(4, '0');
     const answers: Record<string, string> = {
         '@ver': `image=${image} version=1.0.0 board=cm5 protocol=1 can=list,page${image === 'edit' ? ',save' : ''}`,
@@ -41,9 +45,10 @@ function scripted(image: 'play' | 'edit', aim = '00000000', state = 'idle') {
         const words = word === '@crcs' ? crc.repeat(Number(last) - Number(first) + 1) : (answers[word] ?? '');
         sent.push(word);
         const answer = new TextEncoder().encode(`\x1e${word} ${words}${words && ' '}OK\r\n`);
-        if (word !== 'remote') setTimeout(() => port.push(answer), 5);
+        if (word === 'remote') packets.push(bytes.join());
+        else setTimeout(() => port.push(answer), 5);
     });
-    return { port, sent };
+    return { port, sent, packets };
 }
 
 beforeEach(() => {
@@ -305,6 +310,28 @@ test.each([
     ['the stick, let go', (session: RobotSession) => session.drive(null), ['@stop']],
 ] as const)('a walk by the stick, ended by %s: it is stopped once, or it would be broken off in mid step', async (_, stop, words) => {
     expect(await walked(stop)).toEqual(words);
+});
+
+test('button 6 for a robot on a line is a Stop that is answered, once; a key that was down with it counts again when it was let go', async () => {
+    const { session, yours, connect } = await page('play');
+    await connect();
+    await soon();
+    const stops = (): number => yours.sent.filter(word => word === '@stop').length;
+    const presses = (): number => yours.packets.filter(packet => packet !== remotePacket([]).join()).length;
+    const hold = async (...held: RemoteButton[]): Promise<void> => {
+        session.remote(new Set(held));
+        await new Promise(resolve => setTimeout(resolve, 250)); // a key that is held is repeated
+    };
+    for (const held of [['b6'], ['b6', 'up'], ['up'], []] as const) await hold(...held);
+    expect([stops(), presses()]).toEqual([1, 0]);
+    await hold('up');
+    const pressed = presses();
+    expect(pressed).toBeGreaterThan(1);
+    for (const held of [['up', 'b6'], ['up']] as const) await hold(...held);
+    expect([stops(), presses()]).toEqual([2, pressed]);
+    await hold();
+    await hold('up');
+    expect(presses()).toBeGreaterThan(pressed);
 });
 
 test('motions were written to yours: its list is asked for again', async () => {
