@@ -369,8 +369,8 @@ void editor_byte(uint8_t byte)
     if (end_of_cr || is_left_over(byte, quiet_ticks)) {
         return;
     }
-    if (the_dialog.mode != DIALOG_PLAY && !performer_is_idle(&the_performer) && (byte == ' ' || byte == KEY_CTRL_C) &&
-        the_dialog.mode != DIALOG_PROGRAM) {
+    if (the_dialog.mode != DIALOG_PLAY && !performer_is_idle(&the_performer) &&
+        (byte == KEY_CTRL_C || (byte == ' ' && the_dialog.mode != DIALOG_PROGRAM))) {
         performer_break(&the_performer);
         return;
     }

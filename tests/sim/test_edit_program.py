@@ -88,16 +88,20 @@ def test_open_does_not_drop_edits():
         assert ask(r, "@page 128").startswith("@page ERR 3 ")
 
 
-def test_play_misses_no_tick_and_space_breaks_it():
+@pytest.mark.parametrize("keys", [b" ", b"\x03", b"pag\x03", b"@wh\x03"])
+def test_play_misses_no_tick_and_a_key_breaks_it(keys):
     with robot(pages=PAGES) as r:
         assert ask(r, "@play 1") == "@play OK"
         missed = [text for text in ask(r, "@where").split() if text.startswith("missed=")]
         r.board.run(ms=2000)
         assert [text for text in ask(r, "@where").split() if text.startswith("missed=")] == missed
         assert "state=play" in ask(r, "@where")
-        r.board.send(b" ")
+        r.board.send(keys)
         r.board.run(ms=800)
-        assert "state=idle" in ask(r, "@where")
+        r.board.take()
+        r.board.send(request("@where"))
+        r.board.run(ms=800)  # drawing takes 0.5 s
+        assert b"state=idle" in r.board.take()
 
 
 def fields(answer):
