@@ -123,6 +123,8 @@ def test_board_put_through_edit(m512, started, motions, tmp_path):
     trim = tmp_path / "trim.m512"
     trim.write_text("motion512 1\npage 0\n  offset | 3:-12\n")
     assert m512("put", trim, "0", "-p", edit.path).exit_code == 0  # the board had no trim
+    assert m512("pose", "3:500", "-p", edit.path).exit_code == 0
+    assert edit.board.servos[3].goal == 488  # with the trim, which page 0 open in Edit would leave out
     trim.write_text("motion512 1\npage 0\n  offset | 3:-10\n")
     refused = m512("put", trim, "0", "-p", edit.path)
     assert refused.exit_code != 0 and "This replaces the trim (page 0) on the robot." in refused.stderr

@@ -260,6 +260,10 @@ class Client:
             with suppress(M512Error):
                 self._save_page(number, page)
             raise
+        finally:
+            if number == 0:  # while Edit has it open, positions are without trim, also those of the next command
+                with suppress(M512Error):
+                    self.ask(f"open {FIRST_OPEN}")
 
     def _save_page(self, number: int, page: Page) -> None:
         """If the board restarts meanwhile, the page is opened and sent once more."""
