@@ -2,9 +2,13 @@
 """The shipped image on the strict board and the program in simulated time do the same: goals, text, motion pages, settings. Sessions are
 repeatable, a broken rule is found, and its list of actions is shortened."""
 
+import random
+
 import pytest
 
 from tests.campaigns.simtime import board, chance, runs
+
+HOUR = 3600 * chance.SECOND
 
 
 @pytest.mark.parametrize("seed", range(2))
@@ -16,6 +20,17 @@ def test_board_and_simulated_time_do_the_same(seed):
 def test_a_seed_is_the_same_session_each_time():
     first, again = (runs.play(5, chance.made(5, runs.motions())) for _ in range(2))
     assert first.ticks > 1000 and first[1:4] == again[1:4]
+
+
+def test_an_hour_without_a_power_cut_keeps_every_rule():
+    """The sessions last minutes, most of them with power cuts. This one outlives all counters of 16 bits."""
+    person = chance.Player(random.Random("an hour"), list(range(1, 19)), {})
+    names, weights = zip(*(row for row in chance.Player.WEIGHTS if row[0] != "power_fails"))
+    while person.at < HOUR:
+        getattr(person, person.rng.choices(names, weights)[0])()
+    actions = [(0, "seed 1"), (0, f"motions {runs.motions()}"), *((0, f"servo {servo}") for servo in person.servos), (0, "image play")]
+    outcome = runs.play(0, [*actions, *person.actions, (person.at, "end")])
+    assert not outcome.fault and outcome.ticks >= HOUR
 
 
 def test_a_power_cut_begins_with_fresh_memory():
