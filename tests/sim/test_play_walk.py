@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A quarter of a minute of walking, with remote packets and typed commands filling the serial line: no loss, no missed tick, no late frame.
-M512_WALK_MINUTES sets the duration; `tools/prove endurance` walks for an hour."""
+M512_WALK_MINUTES sets the duration; before a release an hour: `M512_WALK_MINUTES=60 tools/test sim.play_walk`."""
 
 import os
 
