@@ -1,13 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Joints moved by code with `aim`, `swing`, `free` (SHAPING.md), in the shipped Play image, with and without a play."""
 
-import math
-import random
-
 import pytest
 
 from tests.sim.play_robot import JOINTS, STOP, ask, press_start, robot
-from tests.sim.walking_robot import EXIT, LOOP, looping, pages, run_of_a_walk, where
+from tests.sim.walking_robot import EXIT, LOOP, looping, pages, where
 
 HEAD = (19, 20)
 WITH_HEAD = (*JOINTS, *HEAD)
@@ -39,36 +36,6 @@ def test_aim_while_nothing_plays_moves_this_joint_only_and_slowly():
     assert row_of(board, 19)[-1] == 500 and max(map(abs, speeds(row_of(board, 19)))) == 7  # 6.4 units a tick
     assert ask(board, "free") == " OK"
     assert where(board)["aim"] == "00000000" and board.servos[19].torque
-
-
-def test_swing_is_a_sine_of_its_period():
-    board = robot(servos=WITH_HEAD, pages=pages())
-    assert ask(board, "swing 20 512 100 2000 90") == " OK"  # 256 ticks, from its upper end
-    board.run(ms=1500)
-    board.clear_trace()
-    board.run(ms=4000)
-    row = row_of(board, 20)
-    assert len(row) >= 500 and max(row) == 612 and min(row) == 412
-    first = next(at for at in range(1, 256) if row[at - 1] < row[at] == 612)
-    last = next(at for at in range(first, 300) if row[at + 1] < 612)
-    for at in range(first, first + 200):
-        wanted = 512 + 100 * math.cos(2 * math.pi * (at - (first + last) / 2) / 256)
-        assert abs(row[at] - wanted) <= 1.3, at  # whole units; the time of the top is known to half a tick
-    assert row[:200] == row[256:456]
-
-
-def test_a_joint_that_swings_in_a_walk_leaves_the_others_as_they_are_and_comes_back():
-    chance = random.Random(1)
-    plain = run_of_a_walk([(0, "version"), (4000, "version")])
-    moved = run_of_a_walk([(chance.randrange(1000), "swing 11 512 60 1000"), (3000 + chance.randrange(1000), "free 11")])
-    assert len(plain) > 700 and plain.keys() == moved.keys()
-    for at, goals in plain.items():
-        assert [moved[at][joint] for joint in JOINTS if joint != 11] == [goals[joint] for joint in JOINTS if joint != 11], at
-    ticks = sorted(plain)
-    assert any(moved[at][11] != plain[at][11] for at in ticks)
-    assert [moved[at][11] for at in ticks[-50:]] == [plain[at][11] for at in ticks[-50:]]
-    fastest = max(map(abs, speeds([plain[at][11] for at in ticks])))
-    assert max(map(abs, speeds([moved[at][11] for at in ticks]))) <= max(fastest, 4)  # its swing: 2 pi 60 / 128 = 2.9
 
 
 def test_refused_words_say_one_sentence_and_change_nothing():
@@ -150,7 +117,7 @@ def test_an_aim_holds_in_a_pause_and_after_it():
     board.run(ms=500)
     at = board.servos[3].goal
     board.run(ms=500)
-    assert board.servos[3].goal == at
+    assert board.servos[3].goal == at < 600
     assert ask(board, "resume") == " OK"
     board.run(ms=1500)
     assert board.servos[3].goal == 600

@@ -89,58 +89,10 @@ def test_fault_for_some_answers_only(robot):
     assert [ping(robot) for _ in range(3)] == ["silent", "silent", FINE]
 
 
-def test_overload_cuts_torque_until_limit_and_enable_are_written(robot):
-    robot.send(b"m")
-    robot.expect("moving")
-    robot.run(ms=300)
-    servo = robot.servos[3]
-    servo.fault("overload")
-    robot.run(ms=1)
-    assert not servo.torque and servo.alarms == {"overload"}
-    servo.push_to(300)
-    robot.run(ms=500)
-    assert servo.present == 300  # limp
-    servo.write(34, [0xFF, 3])
-    servo.write(24, [1])
-    robot.run(ms=500)
-    assert servo.present in (599, 600, 601) and not servo.alarms
-
-
-def test_blocked_servo_overloads_by_itself(robot):
-    servo = robot.servos[3]
-    servo.fault("blocked")
-    robot.send(b"m")
-    robot.expect("moving")
-    robot.run(ms=500)
-    assert servo.present == 512 and servo.load > 0.9 and not servo.alarms
-    robot.run(ms=700)
-    assert servo.alarms == {"overload"} and servo.load == 0
-
-
-def test_gravity_makes_it_droop(robot):
-    robot.send(b"m")
-    robot.expect("moving")
-    robot.servos[3].outside_load = -0.3
-    robot.run(ms=500)
-    # 0.45 N m plus or minus the friction of 0.05; the motor has 1.24 at 9.6 V: duty 0.32 .. 0.40, 10.6 .. 13.3 units off
-    assert 586 <= robot.servos[3].present <= 590 and robot.servos[3].load == pytest.approx(0.36, abs=0.045)
-
-
 def test_weak_battery_is_reported_by_the_servo(robot):
     robot.battery(5.5)
     assert ping(robot) == LOW
     assert robot.servos[3].voltage == 5.5
-
-
-def test_servos_keep_eeprom_without_power_and_lose_ram(robot):
-    servo = robot.servos[4]
-    servo.write(5, [0])  # return delay
-    servo.write(28, [64])  # slope
-    robot.power_off()
-    robot.run(ms=50)
-    robot.power_on()
-    robot.expect("ready")
-    assert servo.return_delay == 0 and servo.cw_slope == 32
 
 
 def test_stray_bytes_are_heard(robot):

@@ -445,6 +445,26 @@ static void test_layers_break_and_pause_hold_for_both(void)
     TEST_ASSERT_FALSE(player_is_moving(&player) || layers_are_moving(&layers));
 }
 
+static void test_layers_pause_holds_what_code_moves(void)
+{
+    start(PLAYER_LAW_EXACT);
+    TEST_ASSERT_EQUAL(LAYERS_OK, layers_aim(&layers, 2, 1000, 30));
+    (void)tick();
+    player_pause(&player);
+    layers_pause(&layers);
+    const uint16_t stood = goal_pos[2];
+    for (uint16_t t = 0; t < 20; t++) {
+        (void)tick();
+    }
+    TEST_ASSERT_EQUAL_UINT16(stood, goal_pos[2]);
+    player_resume(&player);
+    layers_resume(&layers);
+    for (uint16_t t = 0; t < 20; t++) {
+        (void)tick();
+    }
+    TEST_ASSERT_GREATER_THAN(stood, goal_pos[2]);
+}
+
 /* The layer needs 60 ticks to stop, the walk 8. A resume in between applies to both. */
 static void test_layers_that_stand_later_than_the_walk_resume_too(void)
 {

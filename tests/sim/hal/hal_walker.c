@@ -16,9 +16,8 @@ volatile uint32_t walker_bytes;                 /* console bytes received */
 volatile uint16_t walker_crc;                   /* CRC of these bytes */
 volatile uint16_t walker_missed, walker_late;
 volatile uint16_t walker_ticks;
-volatile uint8_t walker_fault_id, walker_fault_kind, walker_faults;
+volatile uint8_t walker_faults;
 volatile uint8_t walker_buttons;
-volatile uint32_t walker_present, walker_slow;
 bus_counts_t walker_bus;
 
 static servo_link_t servos;
@@ -55,8 +54,6 @@ static void do_tick(void)
     walker_missed = tick_missed();
     walker_late = servos.late;
     while (servo_link_next_fault(&servos, &fault)) {
-        walker_fault_id = fault.id;
-        walker_fault_kind = fault.kind;
         walker_faults++;
     }
     bus_counts(&walker_bus);
@@ -68,8 +65,6 @@ int main(void)
     board_start();
     servo_link_init(&servos);
     servo_link_scan(&servos);
-    walker_present = servos.present;
-    walker_slow = servos.slow;
     (void)servo_link_torque_on(&servos, SERVO_LINK_ALL);
     memset(compliance, 0x55, sizeof compliance);
     servo_link_slopes(&servos, compliance);
