@@ -104,6 +104,17 @@ def test_a_number_is_no_name_and_takes_a_code_only(line, said):
     assert re.fullmatch(rf"@play ERR [23] {said}", ask(board, "@" + line))
 
 
+def test_where_names_the_repetition_that_plays():
+    """Not the next one, which is already planned in the last step."""
+    image = Image.empty()
+    image[9] = page("twice", [(100, {1: 560})], repeat=2)
+    board = robot(pages=image.to_bytes())
+    ask(board, "play 9")
+    board.expect("Playing page 9", ms=4000)
+    board.run(ms=100)
+    assert " page=9 step=1 repetition=1 " in ask(board, "@where")
+
+
 # --- which joints are driven ---
 
 
