@@ -5,40 +5,26 @@ MODE, and m512 is called again. The pages contain random bytes, or text that wou
 commands. Everything runs in simulated time, with a loader written from its description. `tools/prove links --only 66` repeats
 schedule 66 and describes it.
 
-Our own loader is tested in the same way: the shipped image runs on the simulated board, at the end of the same lines
-(`--ours --only 66`).
-
-The line, the loaders and the schedules are in badlinks/.
+The line, the loader and the schedules are in badlinks/. Our own loader takes no page without its CRC: `fuzz` and the tests of m512 and the
+loader (sim.boot, m512.flash) ask the same of it.
 """
 
 import collections
 
 from tests.campaigns import proof
-from tests.campaigns.badlinks import ours, runs
+from tests.campaigns.badlinks import runs
 
 TITLE = "Bad lines to a boot loader"
 PROMISE = "No byte outside the pages that m512 names ever changes, whatever the line does."
 SCHEDULES = 4000
 SAMPLE = 50
-OUR_SCHEDULES, OUR_SAMPLE = 2000, 4  # our own loader runs on the simulated chip: 0.4 s each
 CHUNK = 25
 SHOWN = 12
 
 
-FACTORYS = (
-    "No byte outside the pages that a command names ever changes; no loader is hurt or crashed",
-    "m512 says that all is there only when it is",
-)
-OURS = (
-    "With our own loader, the shipped image on the simulated board, no byte of flash or EEPROM outside them changes",
-    "m512 says so with our own loader only when it is",
-)
-
-
 def add_arguments(group):
     group.add_argument("--only", type=int, metavar="NUMBER", help="repeat one schedule")
-    group.add_argument("--ours", action="store_true", help="our own loader alone")
-    group.add_argument("--schedules", type=int, help=f"how many (default: {SCHEDULES}, and {OUR_SCHEDULES} of our own loader)")
+    group.add_argument("--schedules", type=int, help=f"how many (default: {SCHEDULES})")
 
 
 def chunk(numbers):
@@ -46,31 +32,18 @@ def chunk(numbers):
     return [runs.play(number) for number in numbers]
 
 
-def our_chunk(numbers):
-    """Plays some schedules with our own loader."""
-    return [ours.play(number) for number in numbers]
-
-
 def run(options):
     """Plays the schedules; see proof.py."""
-    options.keep = options.keep and not (options.ours or options.schedules)
-    kinds = [(our_chunk, OUR_SCHEDULES, OUR_SAMPLE, ours.OurSchedule, 1, OURS)]
-    if not options.ours:
-        kinds.insert(0, (chunk, SCHEDULES, SAMPLE, runs.Schedule, CHUNK, FACTORYS))
-    return [figure for kind in kinds for figure in play_all(options, *kind)]
-
-
-def play_all(options, play, count, sample, schedule, at_once, words):
-    """Returns the figures of one loader."""
+    options.keep = options.keep and not options.schedules
     if options.only is not None:
         options.keep = False
-        outcomes = play([options.only])
-        print(f"   {schedule(options.only).conditions}: {outcomes[0]}")
+        outcomes = chunk([options.only])
+        print(f"   {runs.Schedule(options.only).conditions}: {outcomes[0]}")
     else:
-        count = sample if options.sample else options.schedules or count
+        count = SAMPLE if options.sample else options.schedules or SCHEDULES
         first = options.seed * 1_000_000
-        chunks = [range(at, min(at + at_once, first + count)) for at in range(first, first + count, at_once)]
-        outcomes = [outcome for part in proof.each(play, chunks, "chunks of schedules", options.jobs) for outcome in part]
+        chunks = [range(at, min(at + CHUNK, first + count)) for at in range(first, first + count, CHUNK)]
+        outcomes = [outcome for part in proof.each(chunk, chunks, "chunks of schedules", options.jobs) for outcome in part]
     broken = [outcome for outcome in outcomes if outcome.faults]
     for outcome in broken[:SHOWN]:
         print(f"   schedule {outcome.number} ({outcome.kind}, {', '.join(outcome.ends)}): {'; '.join(outcome.faults[:4])}")
@@ -81,14 +54,14 @@ def play_all(options, play, count, sample, schedule, at_once, words):
     shown = ", ".join(f"{count} {end}" for end, count in ends.most_common())
     return [
         proof.Figure(
-            words[0],
+            "No byte outside the pages that a command names ever changes; no loader is hurt or crashed",
             f"flash compared byte for byte after each of {len(outcomes):,} schedules on {kinds} kinds of lines",
             f"{sum(ends.values()):,} calls of m512 ({shown}), {pages[0]:,} page writes, {pages[1]:,} by the "
             f"mailbox, {hours:.0f} simulated hours, {len(broken)} schedules broken",
             not broken,
         ),
         proof.Figure(
-            words[1],
+            "m512 says that all is there only when it is",
             "the last call of each schedule",
             f"{sum(outcome.ends[-1] == runs.DONE for outcome in outcomes):,} that ended well",
             not any("says that all" in fault for outcome in outcomes for fault in outcome.faults),

@@ -20,6 +20,7 @@ from .wire import Conditions, conditions, wires
 
 APP_END, MOTION_START, MOTIONS = 0xC000, 0xE000, 128
 WAIT = 20.0  # how long m512 waits for the button
+SETTLE = 60  # what a loader still does after the last call is over by then
 DONE, GAVE_UP = "done", "gave up"
 # Text that would do harm if the loader took it for typed text.
 NASTY = (
@@ -118,19 +119,14 @@ class Schedule:
         ends = []
         for _ in range(chance.choice((1, 2, 2, 3))):
             if ends and chance.random() < 0.2:  # a different command
-                self.plan = self.new_plan()
+                self.plan = plan(chance, self.before)
             ends.append(self.process())
             self.board.advance_by(chance.choice((0.0, 0.05, 0.3, 2.0)))
             if chance.random() < 0.3:
                 self.wires[0].conditions = self.wires[1].conditions = Conditions()
-        self.board.advance_by(self.settle_seconds)
+        self.board.advance_by(SETTLE)
         self.judge(ends[-1])
         return Outcome(self.number, self.conditions.kind, ends, self.faults, self.errors, self.board.now, self.loads, self.mails)
-
-    settle_seconds, wait_seconds = 60, WAIT
-
-    def new_plan(self) -> Plan:
-        return plan(self.chance, self.before)
 
     def names(self) -> set:
         """Returns the pages that a call names; for motions always both halves."""
@@ -145,7 +141,7 @@ class Schedule:
         self.wires[1].waiting.clear()  # opening a port discards earlier input
         self.named |= self.names()
         try:
-            loader = loaders.enter(line, self.told, self.wait_seconds)
+            loader = loaders.enter(line, self.told, WAIT)
             download.download(loader, self.plan, phase)
             loader.leave(chance.choice((0, 1)))
             return DONE
