@@ -276,11 +276,34 @@ FAULTS = (
 )
 
 
-class Bus(Session):
+class PlayBus(Session):
     """Bytes on the bus while the board listens for answers, from 50 us to 2 ms after its tick. Meanwhile the servos fail and recover."""
 
+    name = "play-bus"
+    promise = "Play stands whatever is on the servo bus; afterwards every servo is found again"
+    how = (
+        "good, changed and foreign status packets and noise where the answers belong, with thirteen kinds of servo faults, at rest and while playing"
+    )
     size = 150_000
-    waking = b""  # lines typed repeatedly, so that the robot rests, plays and teaches
+    waking = (  # lines typed repeatedly, so that the robot rests and plays
+        b"play ready\r",
+        b"play walk start\r",
+        b"play 13\r",
+        b"on\r",
+        b"off\r",
+        b"stop\r",
+        b"servos\r",
+        b"faults\r",
+        b"break\r",
+        b"pause\r",
+        b"resume\r",
+        b"servos find\r",
+        b"@move 60 1 200200\r",
+        b"@pose\r",
+        b"play 8\r",
+        b"law classic\r",
+        b"law exact\r",
+    )
 
     def __init__(self, seed, size=None):
         super().__init__(seed, size)
@@ -352,36 +375,6 @@ class Bus(Session):
             twin.fault("dead")
         self.board.run(ms=3000)
         self.next_look_ms = 0
-
-
-class PlayBus(Bus):
-    name = "play-bus"
-    promise = "Play stands whatever is on the servo bus; afterwards every servo is found again"
-    how = (
-        "good, changed and foreign status packets and noise where the answers belong, with thirteen kinds of servo faults, at rest and while playing"
-    )
-    waking = (
-        b"play ready\r",
-        b"play walk start\r",
-        b"play 13\r",
-        b"on\r",
-        b"off\r",
-        b"stop\r",
-        b"servos\r",
-        b"faults\r",
-        b"break\r",
-        b"pause\r",
-        b"resume\r",
-        b"servos find\r",
-        b"@move 60 1 200200\r",
-        b"@pose\r",
-        b"play 8\r",
-        b"law classic\r",
-        b"law exact\r",
-    )
-
-    def look(self):
-        super().look()
         self.board.send(b"\x15break\r")
         self.board.run(ms=3000)
         self.board.send(b"servos find\r")
@@ -391,60 +384,6 @@ class PlayBus(Bus):
         text = self.board.expect(" OK\r\n", ms=3000)
         for servo in self.servos:
             assert f" {servo}:" in text and f" {servo}:?" not in text, f"servo {servo} is well and not found: {text!r}"
-
-
-class EditBus(Bus):
-    name = "edit-bus"
-    promise = "Edit stands whatever is on the servo bus"
-    how = "the same at Edit's table, while teaching (OFF, poses by hand, ON, WRITE) and playing"
-    image = "edit-cm5.hex"
-    waking = (
-        b"page 1\r",
-        b"on\r",
-        b"off\r",
-        b"write\r",
-        b"go 0\r",
-        b"play\r",
-        b"\r",
-        b" ",
-        b"\x03",
-        b"step 1\r",
-        b"goto 1 3\r",
-        b"set 400\r",
-        b"]",
-        b"}",
-        b"re\r",
-        b"@where\r",
-        b"@pose\r",
-        b"check\r",
-        b"\x1b",
-    )
-
-    def start(self):
-        self.board = Board(images=["boot-cm5.hex", self.image], motions=pages(), servos=self.servos, seed=self.seed % 65536 + 1)
-        self.board.forbid("unexpected-reset")
-        self.board.eeprom[0xFFF] = 0x11
-        self.board.run(ms=2500)
-        self.board.clear_trace()
-        self.board.run_to("__vector_12")
-        self.phase = self.board.now_cycles % CYCLES_PER_TICK
-
-    def answer(self):
-        """Leaves any mode of Edit, as its manual says, and sends a program's line."""
-        began = self.board.now_ms
-        for _ in range(6):
-            for keys, ms in ((b"\x03", 1500), (b"\x1b", 300), (b"\x15\r", 500), (b"\x03", 100)):
-                self.board.send(keys)
-                self.board.run(ms=ms)
-            self.board.take()
-            self.board.send(b"@where\r")
-            try:
-                text = self.board.expect(" OK\r\n", ms=2000)
-                self.slowest_ms = max(self.slowest_ms, self.board.now_ms - began)
-                return text
-            except AssertionError:
-                pass
-        raise AssertionError(f"no answer to @where; the console says {self.board.console[-200:]!r}")
 
 
 # ---- inputs with their own noise ----
@@ -488,7 +427,7 @@ class Loader:
         return figures.sent, figures.seconds, 0.0, figures.headroom
 
 
-INPUTS = {kind.name: kind for kind in (PlayConsole, Remote, PlayBus, EditConsole, EditBus, Loader)}
+INPUTS = {kind.name: kind for kind in (PlayConsole, Remote, PlayBus, EditConsole, Loader)}
 
 
 def mean_size(name):
