@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * player_state.h - what a player remembers. The functions are in player.h; README.md explains how one step becomes the next.
- * RAM: player_t, link_t and 31 joints are at most 900 bytes (tests/unit/target/player_cycles.c checks it). */
+ * RAM: player_t, link_t and 31 joints are some 900 bytes; tools/dev/size_report counts those of an image. */
 #ifndef PLAYER_STATE_H
 #define PLAYER_STATE_H
 
