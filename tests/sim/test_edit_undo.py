@@ -22,6 +22,7 @@ def big(seed, joints):
 
 
 PAGES = {1: big(1, range(31)), 2: big(2, range(31)), 3: page("three", [(40, {1: 480}), (50, {2: 300})]), 4: big(4, JOINTS), 5: big(5, JOINTS)}
+PAGES[6] = page("three", [(40, {1: 481}), (50, {2: 300})])
 
 
 @pytest.fixture
@@ -175,8 +176,10 @@ def test_failed_commands_and_page_changes(r):
         r.line(line)
     edit(r, "undo")
     assert not r.unsaved
-    edit(r, "set 5", "page 2")
-    assert r.line("undo").endswith("Nothing to undo")  # the history belongs to the open page
+    for numbers in ((1, 2), (3, 6)):  # pages that differ in all cells, and in one
+        edit(r, f"page {numbers[0]}", "goto 1 1", "set 5", "set 6", f"page {numbers[1]}")
+        before = ram_page(r)
+        assert r.line("undo").endswith("Nothing to undo") and ram_page(r) == before  # the history belongs to the open page
 
 
 def test_undo_keeps_cursor_and_work_pose(r):
