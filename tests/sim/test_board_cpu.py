@@ -262,58 +262,12 @@ def test_timer_counts_can_be_read():
     assert second - first == 10
 
 
-def test_running_off_the_code_is_seen_or_allowed():
-    board = ready([])
-    board.flash[0x100:0x2000] = b"\xff" * 0x1F00
-    with pytest.raises(Violation, match="erased"):
-        board.run(ms=1)
-    free = ready([])
-    free.flash[0x100:0x2000] = b"\xff" * 0x1F00
-    free.allow("erased")
-    free.run(ms=1)
-    assert free.violations("erased") > 100
-
-
 def test_execution_wraps_from_the_last_word_to_the_first():
     board = ready([])
     board.flash[0x100:0x104] = words(0x940C, 0x0000)[:0] + words(0x940D, 0xFFFF)  # jmp 0x1FFFE
     board.flash[0x1FFFE:0x20000] = words(0x0000)
     steps(board, 2)
     assert board.pc & 0x1FFFF == 0
-
-
-@pytest.mark.parametrize(
-    "opcode",
-    [
-        0x0001,
-        0x00FF,
-        0x9003,
-        0x9008,
-        0x900B,
-        0x9203,
-        0x9204,
-        0x9205,
-        0x9206,
-        0x9207,
-        0x9208,
-        0x920B,
-        0x9404,
-        0x940B,
-        0x9419,
-        0x9519,
-        0x9528,
-        0x95B8,
-        0x95F8,
-        0xF808,
-        0xFA08,
-        0xFC08,
-        0xFE0F,
-    ],
-)
-def test_opcodes_of_other_avrs_are_refused(opcode):
-    board = ready([opcode])
-    board.step()
-    assert board.violation.kind == "illegal" and board.violation.pc == 0x100
 
 
 def test_registers_are_random_at_power_on():
@@ -354,15 +308,6 @@ def test_compare_register_written_below_the_count_is_missed_for_a_turn():
     start = board.now_cycles
     board.run_to(12 * 4)
     assert board.now_cycles - start == pytest.approx(0x10000 + 0x10 + 1, abs=8)
-
-
-@pytest.mark.parametrize("value, fine", [(0x00, False), (0x09, False), (0x08, True)])
-def test_running_watchdog_is_stopped_or_changed_by_the_timed_sequence_only(value, fine):
-    """A plain write sets WDE with prescaler 0; another plain write follows."""
-    board = ready([0xE008, 0xBD01, 0xE000 | value, 0xBD01, 0x0000])
-    steps(board, 5)
-    assert (board.violation is None) == fine
-    assert fine or board.violation.kind == "timed-sequence"
 
 
 def test_wild_stores_end_the_run_and_leave_the_process_whole():

@@ -7,7 +7,6 @@ import pickle
 import socket
 import struct
 import subprocess
-import threading
 
 import pytest
 
@@ -122,14 +121,6 @@ def test_stack_headroom_is_what_was_never_used():
     assert 0 < board.stack_headroom < 900
 
 
-def test_stack_is_stopped_at_the_first_push_into_the_variables():
-    board = Board(images=[NEGATIVE / "wrong-stack.hex"])
-    end = board.variable("variables") + 3000
-    with pytest.raises(Violation):
-        board.expect("right")
-    assert end - 20 <= board._lib.board_stack_low(board._pointer) < end
-
-
 def test_guard_of_an_image_in_the_boot_section_is_its_own():
     board = Board(images=[build_folder() / "firmware" / "lab" / "lab.hex"])
     board.run(ms=1)
@@ -194,49 +185,6 @@ def test_trace_keeps_instruction_packets():
     board = Board(images=[NEGATIVE / "right-bus_overrun.hex"], servos=[1])
     board.expect("right")
     assert [packet for _, packet in board.packets] == [b"\xff\xff\x01\x02\x01\xfb"]
-
-
-def test_gdb_stops_at_a_function():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
-    board = Board(images=[NEGATIVE / "right-bus_overrun.hex"], servos=[1])
-    board.power_on()
-    assert board._lib.board_gdb(board._pointer, port, True)
-    runner = threading.Thread(target=lambda: board.run(ms=100))
-    runner.start()
-    result = subprocess.run(
-        [
-            "avr-gdb",
-            "-nx",
-            "-batch",
-            "-ex",
-            "set remotetimeout 300",
-            "-ex",
-            f"target remote 127.0.0.1:{port}",
-            "-ex",
-            "break ping",
-            "-ex",
-            "continue",
-            "-ex",
-            "backtrace",
-            "-ex",
-            "stepi",
-            "-ex",
-            "delete",
-            "-ex",
-            "detach",
-            NEGATIVE / "right-bus_overrun.elf",
-        ],
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=False,
-    )
-    runner.join(timeout=300)
-    assert "Breakpoint 1, ping ()" in result.stdout and "in main ()" in result.stdout, result.stdout + result.stderr
-    assert not runner.is_alive()
-    assert b"right" in board.console
 
 
 def own_listeners():

@@ -3,7 +3,7 @@
 
 import pytest
 
-from cm5sim import PowerCut, Violation
+from cm5sim import PowerCut
 from tests.sim.lab_board import MS_IN_EIGHT_CYCLES, PAGE, Lab
 
 BOOT_PAGE = 0x1FD00  # in the boot section, not used by lab.c
@@ -198,10 +198,3 @@ def test_reset_tears_a_page_but_not_an_eeprom_byte():
     lab.reset()
     lab.run(ms=9)
     assert lab.eeprom[0x123] == 0x45
-
-
-def test_unerased_write_is_a_violation_unless_allowed():
-    lab = Lab()
-    lab.flash[PAGE : PAGE + 2] = b"\0\0"
-    with pytest.raises(Violation, match="flash-unerased"):
-        lab.write_page(PAGE, b"\x12\x34")

@@ -12,7 +12,6 @@ from tests.sim.monitor_robot import say
 from tests.sim.play_robot import ask, robot
 
 TRIES = 3
-RETURN_LEVEL = 16
 CW_LIMIT = 6
 OUTSIDE = "Outside its angle limits, move it by hand: ID 3"
 
@@ -23,17 +22,6 @@ def push_outside(board):
     board.servos[3].push_to(800)
     board.run(ms=300)
     return board.servos[3]
-
-
-def test_edit_a_goal_that_arrives_damaged_is_sent_again():
-    with start() as r:
-        r.line("on")
-        r.board.servos[3].fault("mishears", times=TRIES - 1)
-        r.line("goto 0 3")
-        r.line("set 600")
-        r.settle(1500)
-        assert r.board.servos[3].goal == 600
-        assert "3" not in r.message
 
 
 def test_edit_names_a_servo_that_does_not_take_its_goal():
@@ -47,25 +35,6 @@ def test_edit_names_a_servo_that_does_not_take_its_goal():
         assert r.board.servos[3].goal == 512 and "512" in r.cell(0, 3)
 
 
-@pytest.mark.parametrize("level", [1, 2])
-def test_edit_does_not_switch_torque_on_onto_an_old_goal(level):
-    """The limp robot was bent by hand. A servo that cannot get its position as goal must not jump to its old goal."""
-    with start() as r:
-        servo = r.board.servos[3]
-        servo.write(RETURN_LEVEL, [level])
-        r.board.reset()
-        r.settle(2000)
-        servo.push_to(300)
-        servo.fault("mishears", times=TRIES)
-        r.line("on 3")
-        assert r.message.strip() == "on 3 Not obeyed: ID 3"
-        assert not servo.torque and abs(servo.present - 300) <= 2
-        servo.clear()
-        r.line("on 3")
-        r.settle(500)
-        assert servo.torque and abs(servo.present - 300) <= 2
-
-
 def test_edit_names_a_servo_that_does_not_let_go():
     """The first WRITE of off is a SYNC WRITE without answer, which must be lost as well."""
     with start() as r:
@@ -73,15 +42,6 @@ def test_edit_names_a_servo_that_does_not_let_go():
         r.board.servos[3].fault("mishears")
         r.line("off 3")
         assert "Not obeyed: ID 3" in r.message
-
-
-def test_play_counts_and_goes_on():
-    board = robot()
-    board.servos[3].push_to(300)
-    board.servos[3].fault("mishears", times=TRIES - 1)
-    assert ask(board, "on") == " OK"
-    assert board.servos[3].torque and board.servos[3].goal in range(298, 303)
-    assert f"rejected {TRIES - 1}" in ask(board, "faults")
 
 
 def test_play_names_a_servo_that_does_not_take_torque():
@@ -104,15 +64,6 @@ def test_play_tells_a_hot_servo_from_a_silent_one():
     board.servos[5].fault("silent")
     board.send("play 1\r")
     assert "Servo 5 does not answer" in board.expect("Ended", ms=2000)
-
-
-def test_play_names_a_servo_that_keeps_a_slow_speed():
-    """Edit has left the servo a moving speed; a play needs full speed."""
-    board = robot()
-    ask(board, "on")
-    board.servos[3].write(32, [20, 0])
-    board.servos[3].fault("mishears")
-    assert "Servo 3 does not obey" in ask(board, "play 1") + board.expect("] ", ms=2000)
 
 
 @pytest.mark.parametrize(
@@ -160,18 +111,6 @@ def test_monitor_shows_the_rejection_and_keeps_its_id():
     board.servos[1].fault("mishears", times=1)
     assert "error 00" in say(board, "id 5")
     assert board.servos.ids == [5]
-
-
-def test_servos_in_trouble_have_obeyed():
-    """Overload, heat, voltage and angle limit in the answer do not mean a rejection (hal/DYNAMIXEL.md)."""
-    for fault in ("overheating", "low-voltage", "angle-limit"):
-        board = robot()
-        board.servos[3].write(18, [0])  # no alarm shuts it down
-        board.servos[3].fault(fault)
-        board.run(ms=500)
-        assert "No answer" not in ask(board, "on 3")
-        assert board.servos[3].torque
-        assert "rejected 0" in ask(board, "faults")
 
 
 def test_monitor_moves_a_slow_servo_that_hears_badly():
