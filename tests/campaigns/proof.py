@@ -38,7 +38,6 @@ JUDGED = {  # the parts, and the code that each one's figures judge
     "fuzz": (*IMAGES, "tools/m512/src"),
     "faults": IMAGES,
     "links": ("firmware/boot", "firmware/common", "hal", "tools/m512/src"),
-    "static": IMAGES,
     "physics": MOTIONS,
     "shape": ("firmware/common", "firmware/play", "hal", ":!hal/host", "linker", *MOTIONS),
     "sessions": IMAGES,

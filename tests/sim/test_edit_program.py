@@ -40,6 +40,7 @@ def test_a_page_goes_in_and_comes_out():
         r.board.take()
         r.keys("\x1b[B", ms=800)
         assert r.text(1, 65, 4) == "made" and r.text(2, 76, 4) == "0009"
+        assert ask(r, f"@data 0 {bytes(data[:4]).hex()}") == "@data OK" and ask(r, "@open 2") == "@open OK"  # no edit: the same bytes
 
 
 def dense_page(text):

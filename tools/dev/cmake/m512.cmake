@@ -2,7 +2,7 @@
 # How this project builds things: warnings, images, unit tests, target tests, simulator tests.
 
 # Warnings are errors, in both worlds. Handlers of a table and stubs of a feature need not use all that they are given.
-set(M512_WARNINGS -Wall -Wextra -Wno-unused-parameter -Werror -Wshadow -Wconversion -Wundef -Wstrict-prototypes -Wmissing-prototypes
+set(M512_WARNINGS -Wall -Wextra -Wno-unused-parameter -Werror -Wvla -Wshadow -Wconversion -Wundef -Wstrict-prototypes -Wmissing-prototypes
     -Wold-style-definition -Wwrite-strings -Wpointer-arith)
 if(M512_AVR)
     list(APPEND M512_WARNINGS -Wno-sign-conversion)   # macros of avr-libc
