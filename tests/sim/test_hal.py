@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The rest of the hal and the shared part of the firmware on the simulated board: time, panel, flash, settings in the EEPROM, resets. The
+"""The rest of the hal and the shared part of the firmware on the simulated board: time, panel, flash, EEPROM, resets. The
 bus is in test_hal_bus.py, the serial line in test_hal_console.py."""
 
 import pytest
@@ -86,14 +86,7 @@ def test_all_pages_are_checked_in_under_200_ms(capsys):
     assert took < 200
 
 
-# ---- settings ----
-
-
-def loaded(board):
-    board.send("l")
-    board.expect("load ")
-    status, law, approach = (int(value, 16) for value in board.expect("\n").split())
-    return status, law, approach
+# ---- EEPROM ----
 
 
 def test_eeprom_is_read_behind_a_write_and_beyond_256():
@@ -103,18 +96,6 @@ def test_eeprom_is_read_behind_a_write_and_beyond_256():
     board.send("e")
     board.expect("eeprom 00000012 00000022", ms=100)
     assert (board.eeprom[0x7A5], board.eeprom[0x0A5]) == (0x12, 0x22)
-
-
-def test_settings_are_kept_over_a_power_cycle_and_stay_in_their_area():
-    board = words()
-    assert loaded(board) == (1, 0, 60)
-    board.send("s")
-    board.expect("saved")
-    board.power_off()
-    board.power_on()
-    board.expect("start 00000001")
-    assert loaded(board) == (0, 1, 77)
-    assert all(board.eeprom_wear(address) == 0 for address in range(0x100, 0x1000))
 
 
 # ---- resets ----

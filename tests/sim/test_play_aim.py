@@ -82,7 +82,7 @@ def test_a_play_begins_and_ends_while_a_joint_swings():
     board.run(ms=300)
     row = row_of(board, 19)
     assert max(map(abs, speeds(row))) <= 3 and max(row) > 585 and min(row) < 440
-    assert where(board)["missed"] == "0"
+    assert where(board)["missed"] == "0" and where(board)["aim"] == "00000000"  # a stop ends it
 
 
 @pytest.mark.parametrize("how", ["break", "off 19", "off", "stop"])

@@ -63,9 +63,10 @@ def test_refused_layers_say_one_sentence_and_change_nothing():
         assert where(board)["layer"] == "0"
         answer = ask(board, "@" + line)
         assert answer.startswith("@layer ERR ") and answer.endswith(said)
-    ask(board, "break")
-    board.run(ms=500)
-    assert ask(board, "layer 34") == "A layer needs a page that plays"
+    for word in ("pause", "break"):
+        ask(board, word)
+        board.run(ms=500)
+        assert ask(board, "layer 34") == "A layer needs a page that plays"
 
 
 def test_a_layer_on_joints_moved_by_code_is_told_so():
@@ -121,7 +122,7 @@ def slopes(board, joint):
 
 def test_a_layer_brings_the_slopes_of_its_own_page_and_takes_them_away_again():
     image = from_bytes(pages())
-    for at, nibble in ((LOOP, 0x66), (WAVE, 0x33)):
+    for at, nibble in ((LOOP, 0x66), (WAVE, 0x33), (1, 0x22)):
         image[at].data[32:63] = bytes([nibble]) * 31
         image[at].seal()
     board = robot(pages=image.to_bytes())
@@ -133,6 +134,15 @@ def test_a_layer_brings_the_slopes_of_its_own_page_and_takes_them_away_again():
     assert slopes(board, 3) == slopes(board, 5) == (8, 8) and slopes(board, 1) == (64, 64)
     board.run(ms=3000)  # the main page has started again
     assert slopes(board, 3) == (8, 8) and slopes(board, 1) == (64, 64)
+    board.take()
+    board.expect(f"Page {LOOP} step 2", ms=3000)  # its end, where a page sets its slopes, is half a second away
+    board.run(ms=100)
     assert ask(board, "layer off") == " OK"
-    board.run(ms=300)
+    board.run(ms=100)
     assert slopes(board, 3) == slopes(board, 5) == (64, 64)
+    assert ask(board, "layer 1 3") == " OK"  # ends by itself
+    board.run(ms=100)
+    assert slopes(board, 3) == (4, 4)
+    board.expect("The layer ended", ms=3000)
+    board.run(ms=100)
+    assert slopes(board, 3) == (64, 64)

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * hal_words.c - executes one-byte commands from the serial line on the real hal, for test_hal*.py:
  *
- *   l  loads the settings: "load STATUS LAW APPROACH"     s / S  saves law 1, approach 77 / law 0, approach 33: "saved"
  *   p  checks all pages: "pages GOOD"
  *   f  CRC of flash 0xFF20..0x1011F, from the end in blocks of 64: "flash CRC"
  *   x  flow control on, reads all input, slower than the line: "took COUNT CRC"
@@ -53,23 +52,6 @@ static void say(const char *word, uint32_t a, uint32_t b)
     say_P(PSTR(" "));
     say_hex(b);
     say_P(PSTR("\n"));
-}
-
-static void load(void)
-{
-    uint8_t status = (uint8_t)settings_load(&store);
-    say_P(PSTR("load "));
-    say_hex(status);
-    say(PSTR(" "), store.settings.law, store.settings.approach_deg_s);
-}
-
-static void save(uint8_t law, uint8_t approach)
-{
-    store.settings.law = law;
-    store.settings.approach_deg_s = approach;
-    settings_save_start(&store);
-    settings_save_finish(&store);
-    say_P(PSTR("saved\n"));
 }
 
 static void check_pages(void)
@@ -137,15 +119,6 @@ static void obey(uint8_t word)
         break;
     case 'i':
         say(PSTR("ping "), (uint8_t)bus_call_ping(1, 1, 0), 0);
-        break;
-    case 'l':
-        load();
-        break;
-    case 's':
-        save(1, 77);
-        break;
-    case 'S':
-        save(0, 33);
         break;
     case 'p':
         check_pages();
