@@ -91,7 +91,8 @@ def test_play_does_not_switch_on_a_joint_outside_its_angle_limits(line, told):
 def test_edit_does_not_switch_on_a_joint_outside_its_angle_limits():
     with start() as r:
         servo = push_outside(r.board)
-        for line in ("on 3", "go 0", "play"):
+        r.line("goto 0 3")
+        for line in ("on 3", "go 0", "set 500", "play"):
             r.line(line, ms=1500)
             assert OUTSIDE in r.message and not servo.torque and abs(servo.present - 800) <= 2
         servo.fault("silent")
