@@ -329,7 +329,8 @@ uint32_t performer_off(performer_t *performer, uint32_t joints)
 
 /* ---- state transitions ---- */
 
-/* Begins the play, or ends the move: every joint is in position. */
+/* Begins the play, or ends the move: every joint is in position. The play begins with first_page, whatever code came since
+ * the start: the approach went there. */
 static void begin(performer_t *performer)
 {
     if (performer->move_deg_s != 0) {
@@ -338,7 +339,7 @@ static void begin(performer_t *performer)
     }
     performer->state = PERFORMER_PLAY;
     performer->slopes_due = false;
-    const player_status_t status = start_player(performer, performer->page, performer->joints);
+    const player_status_t status = start_player(performer, performer->first_page, performer->joints);
     performer_layers_bind(performer, true);
     if (status != PLAYER_OK) {
         go_idle(performer, PERFORMER_END_PAGE);

@@ -203,6 +203,21 @@ def test_approach_starts_at_the_pose_and_keeps_to_60_degrees_a_second():
         assert sum(steps) == abs(goals[-1] - goals[0])  # straight there
 
 
+def test_a_code_on_the_way_to_the_first_pose_does_not_make_the_first_step_leap():
+    pages = Image.empty()
+    pages[1] = page("either", [(60, {})], repeat=0, next=2, link1_page=3, link1_code=UP)
+    pages[2] = page("low", [(60, {1: 300})])
+    pages[3] = page("high", [(5, {1: 900})], accel=0)
+    board = robot(servos=[1], pages=pages.to_bytes())
+    board.clear_trace()
+    ask(board, "play either")
+    board.rc(UP)
+    board.expect("Ended after page", ms=8000)
+    goals = [frame.goals[1] for frame in board.trace]
+    assert goals[-1] == 300
+    assert max(abs(after - before) for before, after in zip(goals, goals[1:])) <= 2
+
+
 def test_approach_off_begins_the_page_where_the_robot_stands():
     board = robot()
     ask(board, "settings approach 0")

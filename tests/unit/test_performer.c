@@ -105,6 +105,24 @@ static void test_performer_approach_begins_outside_the_range(void)
     }
 }
 
+/* Page 4 passes over to page 3, with code 2 to page 1. The code comes on the way to page 3's first pose. */
+static void test_performer_begins_with_the_page_that_it_has_approached(void)
+{
+    make_page(4, 0, 3, 0);
+    pages[4][PAGE_AT_PLAY_COUNT] = 0;
+    pages[4][PAGE_AT_LINKED1_PAGE] = 1;
+    pages[4][PAGE_AT_LINKED1_CODE] = 2;
+    page_seal(pages[4]);
+    start(4, 0);
+    reach(PERFORMER_APPROACH);
+    performer_code(&performer, 2);
+    reach(PERFORMER_PLAY);
+    TEST_ASSERT_EQUAL_UINT16(412, fake_servo_link.goal_pos[1]);
+    reach(PERFORMER_IDLE);
+    TEST_ASSERT_EQUAL_UINT8(3, expect_event(PERFORMER_EV_STEP).a);
+    TEST_ASSERT_EQUAL_UINT16(412, fake_servo_link.goal_pos[1]);
+}
+
 static void test_performer_needs_no_approach_when_it_is_there(void)
 {
     fake_servo_link.pose_pos[1] = 612;
