@@ -7,6 +7,7 @@
 
 #define TYPED_XOFF 48u    /* typed bytes waiting that cause XOFF; 80 more still fit */
 #define TYPED_XON 16u
+enum { AT_STOP = 8, AT_PAUSE };   /* in recent_ticks, behind the eight buttons */
 
 void inputs_init(inputs_t *inputs, performer_t *performer, const page_store_t *pages, const settings_t *settings)
 {
@@ -55,31 +56,48 @@ static bool awaits_press(const link_t *link)
     return link->mode == LINK_HOLD && link->held_code == LINK_CODE_NONE;
 }
 
-/* The buttons that are down during a play or a stop are spent, on every device. Call before a change of the buttons is
- * taken, and once a tick. */
+static bool stop_is_held(const inputs_t *inputs)
+{
+    return inputs->recent_ticks[AT_STOP] != 0;
+}
+
+static uint8_t held(const inputs_held_t *hand)
+{
+    return hand->down | hand->recent;
+}
+
+/* The buttons that are held during a play or a stop are spent, on every device. Call before a change of the buttons is
+ * taken, and in every turn of the main loop. */
 static void spend_buttons(inputs_t *inputs)
 {
-    if (!performer_is_idle(inputs->performer) || performer_was_just_stopped(inputs->performer)) {
-        inputs->remote_held.spent |= inputs->remote_held.down;
-        inputs->panel_held.spent |= inputs->panel_held.down;
+    if (!performer_is_idle(inputs->performer) || performer_was_just_stopped(inputs->performer) || stop_is_held(inputs)) {
+        inputs->remote_held.spent |= held(&inputs->remote_held);
+        inputs->panel_held.spent |= held(&inputs->panel_held);
     }
+}
+
+/* Takes the buttons that a source holds now. */
+static void change(inputs_t *inputs, inputs_held_t *hand, uint8_t down)
+{
+    spend_buttons(inputs);
+    hand->down = down;
+    hand->spent &= held(hand);
 }
 
 /* down: the buttons that a source holds now. code: their code. A running play takes every code. A play starts only on a
  * press: the buttons have changed, and one of them was up during the last play or stop. So a held button, or a chord that
  * is released finger by finger, does not restart a stopped play or revive one that is stopping. */
-static void take_buttons(inputs_t *inputs, inputs_held_t *held, uint8_t down, uint8_t code)
+static void take_buttons(inputs_t *inputs, inputs_held_t *hand, uint8_t down, uint8_t code)
 {
-    const bool are_new = (down & ~held->spent) != 0;
-    const bool pressed = down != held->down && are_new;
+    const bool have_changed = down != hand->down;
+    change(inputs, hand, down);
+    const bool are_new = (down & ~hand->spent) != 0 && !stop_is_held(inputs);
+    const bool pressed = have_changed && are_new;
     const link_t *link = &inputs->performer->link;
     const bool is_heard = awaits_press(link) ? pressed : down == 0 || are_new || !link_is_stopping(link);
-    held->down = down;
-    held->spent &= down;
     if (performer_is_idle(inputs->performer) ? pressed : is_heard) {
         inputs_code(inputs, code);
     }
-    spend_buttons(inputs);
 }
 
 void inputs_pause(inputs_t *inputs)
@@ -105,30 +123,42 @@ static bool steers(const inputs_t *inputs)
     return inputs->settings->remote_mode == SETTINGS_REMOTE_DRIVE && steer_is_possible(inputs->performer);
 }
 
-/* A remote repeats its packet while buttons are down. Stop and pause act once, when pressed. Codes reach a play with every
- * packet, so that a lost packet does not matter. */
+/* Stop or pause. It counts once, when pressed. */
+static void take_act(inputs_t *inputs, uint8_t act, bool has_changed)
+{
+    uint8_t *recent_ticks = &inputs->recent_ticks[act == REMOTE_ACT_STOP ? AT_STOP : AT_PAUSE];
+    if (has_changed && *recent_ticks == 0) {
+        if (act == REMOTE_ACT_STOP) {
+            inputs_code(inputs, LINK_CODE_STOP);
+        } else {
+            inputs_pause(inputs);
+        }
+    }
+    *recent_ticks = INPUTS_RELEASE_TICKS;
+}
+
+/* A remote repeats its packet while buttons are down. Codes reach a play with every packet, so that a lost packet does not
+ * matter. */
 static void take_packet(inputs_t *inputs)
 {
     const uint16_t buttons = inputs->remote.buttons;
+    const uint8_t down = (uint8_t)buttons;
     uint8_t code;
     const uint8_t act_before = inputs->remote_act;
     const uint8_t act = remote_act(buttons, &code);
-    const uint8_t down = (uint8_t)buttons;
-    spend_buttons(inputs);
     inputs->remote_act = act;
     inputs->silent_ticks = buttons == 0 ? INPUTS_SILENCE_TICKS : 0;
     if (act == REMOTE_ACT_CODE) {
         take_buttons(inputs, &inputs->remote_held, down,
                      steers(inputs) ? (uint8_t)(code & ~(REMOTE_LEFT | REMOTE_RIGHT)) : code);
-        return;
+    } else {
+        change(inputs, &inputs->remote_held, down);
+        take_act(inputs, act, act != act_before);
     }
-    inputs->remote_held.down = down;
-    inputs->remote_held.spent = down;
-    if (act != act_before) {
-        if (act == REMOTE_ACT_STOP) {
-            inputs_code(inputs, LINK_CODE_STOP);
-        } else {
-            inputs_pause(inputs);
+    inputs->remote_held.recent |= down;
+    for (uint8_t i = 0, rest = down; rest != 0; i++, rest >>= 1) {
+        if ((rest & 1u) != 0) {
+            inputs->recent_ticks[i] = INPUTS_RELEASE_TICKS;
         }
     }
 }
@@ -190,6 +220,7 @@ void inputs_take(inputs_t *inputs)
             break;
         }
     }
+    spend_buttons(inputs);
     control_flow(inputs);
 }
 
@@ -219,14 +250,26 @@ static void take_panel(inputs_t *inputs)
 
 static void steer(inputs_t *inputs)
 {
-    const uint8_t held = inputs->remote_held.down;
-    const int8_t direction = (int8_t)(((held & REMOTE_RIGHT) != 0) - ((held & REMOTE_LEFT) != 0));
+    const uint8_t down = inputs->remote_held.down;
+    const int8_t direction = (int8_t)(((down & REMOTE_RIGHT) != 0) - ((down & REMOTE_LEFT) != 0));
     steer_tick(&inputs->steer, inputs->performer, direction != 0 && steers(inputs) ? direction : 0);
+}
+
+static void age_buttons(inputs_t *inputs)
+{
+    inputs_held_t *hand = &inputs->remote_held;
+    uint8_t bit = 1;   /* 0 for stop and pause */
+    for (uint8_t i = 0; i < sizeof inputs->recent_ticks; i++, bit = (uint8_t)(bit << 1)) {
+        if (inputs->recent_ticks[i] != 0 && --inputs->recent_ticks[i] == 0) {
+            hand->recent &= (uint8_t)~bit;
+            hand->spent &= (uint8_t)(hand->down | ~bit);
+        }
+    }
 }
 
 void inputs_tick(inputs_t *inputs)
 {
-    spend_buttons(inputs);
+    age_buttons(inputs);
     take_panel(inputs);
     steer(inputs);
     if (inputs->quiet_ticks < INPUTS_ESC_TICKS && ++inputs->quiet_ticks == INPUTS_QUIET_TICKS) {

@@ -17,6 +17,7 @@
 
 #define INPUTS_TYPED_BYTES 128u
 #define INPUTS_SILENCE_TICKS 64u  /* 500 ms without a packet: all buttons are released; in hold mode a stop */
+#define INPUTS_RELEASE_TICKS 14u  /* 102 ms without a packet that has it: a button is released; one packet may be lost */
 #define INPUTS_LOST_MAX (UINT16_MAX - UINT8_MAX)   /* so that the sum with the console's own count fits 16 bits */
 #define INPUTS_QUIET_TICKS 4u     /* an unfinished packet is dropped after 24..31 ms */
 #define INPUTS_ESC_TICKS 8u       /* an ESC followed by nothing for 55..62 ms is the Esc key, as in Edit */
@@ -29,9 +30,10 @@ typedef struct {
     uint8_t page, fault;
 } inputs_refusal_t;
 
-/* The buttons of one source. */
+/* The buttons of one source. Those that are down or recent count as held. */
 typedef struct {
-    uint8_t down;           /* held now */
+    uint8_t down;           /* now; of a remote: in the newest packet */
+    uint8_t recent;         /* of a remote: in a packet of the last INPUTS_RELEASE_TICKS. A second remote may send between */
     uint8_t spent;          /* held since the start, a play or a stop: they start nothing until released */
 } inputs_held_t;
 
@@ -44,6 +46,7 @@ typedef struct {
     remote_t remote;
     uint8_t remote_act;        /* remote_act_t of the last packet, to detect presses */
     inputs_held_t remote_held; /* the first eight buttons */
+    uint8_t recent_ticks[10];  /* until they, stop and pause are recent no more */
     inputs_held_t panel_held;  /* the arrows */
     uint8_t panel_heard;       /* the buttons that count; one held since the start is not a press. The arrows: all were up */
     uint8_t panel_buttons;     /* of these, the ones that are down */

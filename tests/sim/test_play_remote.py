@@ -4,7 +4,7 @@ chords, are in tests/unit/test_inputs.c; these have the performer and the shippe
 
 import pytest
 
-from tests.sim.play_robot import STOP, ask, press_start, robot
+from tests.sim.play_robot import STOP, UP, ask, press_start, robot
 
 BUTTON_1 = 16  # bow
 REPEAT_MS = 50
@@ -66,7 +66,7 @@ def test_a_press_starts_again():
     board = held_play()
     by_word("break")(board)
     assert starts(hold(board, BUTTON_1, 2000)) == 0
-    hold(board, 0, REPEAT_MS)
+    hold(board, 0, 2 * REPEAT_MS)
     assert starts(hold(board, BUTTON_1, 1000)) == 1
 
 
@@ -83,5 +83,26 @@ def test_a_button_held_at_the_start_moves_nothing_until_it_was_up(start):
     text = hold(board, BUTTON_1, 4000)
     assert "18 servos" in text and starts(text) == 0, text
     assert not any(servo.torque for servo in board.servos)
-    hold(board, 0, REPEAT_MS)
+    hold(board, 0, 2 * REPEAT_MS)
     assert starts(hold(board, BUTTON_1, 4000)) == 1
+
+
+@pytest.mark.parametrize("mode, packets", [("latch", 1), ("hold", 6)])
+def test_a_thumb_on_one_remote_does_not_undo_the_stop_of_another(mode, packets):
+    """Their packets, on one channel, look like those of one remote."""
+    board = robot()
+    ask(board, f"remote {mode}")
+    assert "Page 4 step 2" in hold(board, UP, 5000)
+    start = len(board.console)
+    for _ in range(packets):
+        for buttons in (STOP, UP):
+            board.rc(buttons)
+            board.run(ms=REPEAT_MS // 2)
+    board.rc(0)
+    board.run(ms=REPEAT_MS // 2)
+    hold(board, UP, 6000)
+    text = board.console[start:].decode("latin-1")
+    assert "Stopped after page 5 (walk stop)" in text and "Broken" not in text and starts(text) == 0, text
+    assert ask(board, "status").startswith("Nothing is playing")
+    hold(board, 0, 2 * REPEAT_MS)
+    assert starts(hold(board, UP, 2000)) == 1

@@ -11,6 +11,13 @@
 
 /* ---- remote ---- */
 
+/* All buttons are released, and for so long that no button counts as held. */
+static void let_go(void)
+{
+    remote(0);
+    ticks(INPUTS_RELEASE_TICKS);
+}
+
 static void test_inputs_code_starts_its_page(void)
 {
     remote(16);
@@ -65,7 +72,7 @@ static void test_inputs_stop_counts_when_it_is_pressed(void)
     remote(512);
     remote(512);
     TEST_ASSERT_EQUAL_STRING("code 255 0;", told);
-    remote(0);
+    let_go();
     remote(512 + 1);
     TEST_ASSERT_EQUAL_STRING("code 255 0;code 0 0;code 255 0;", told);
 }
@@ -82,7 +89,7 @@ static void test_inputs_button_5_pauses_and_resumes(void)
     remote(256);
     remote(256);
     TEST_ASSERT_EQUAL_STRING("pause 0 0;", told);
-    remote(0);
+    let_go();
     memset(told, 0, sizeof told);
     remote(256);
     TEST_ASSERT_EQUAL_STRING("resume 0 0;", told);
@@ -170,7 +177,7 @@ static void test_inputs_held_button_does_not_start_again_what_has_ended(void)
     end_play();
     hold(1, 20);
     TEST_ASSERT_EQUAL_STRING("", told);
-    remote(0);
+    let_go();
     remote(1);
     TEST_ASSERT_EQUAL_STRING("start 2 1;", told);
 }
@@ -208,6 +215,7 @@ static void test_inputs_another_code_is_a_press(void)
     remote(16);
     TEST_ASSERT_EQUAL_STRING("start 5 16;", told);
     end_play();
+    hold(16, 3);
     remote(1);
     TEST_ASSERT_EQUAL_STRING("start 2 1;", told);
 }
@@ -264,7 +272,7 @@ static void test_inputs_fingers_that_leave_a_chord_do_not_call_back_a_play_that_
     hold(1 + 4, 3);
     hold(1, 20);
     TEST_ASSERT_EQUAL_STRING("", told);
-    remote(0);
+    let_go();
     remote(1);
     TEST_ASSERT_EQUAL_STRING("code 0 0;code 1 0;", told);
 }
@@ -289,6 +297,129 @@ static void test_inputs_button_held_before_a_play_may_start_nothing_behind_it(vo
     end_play();
     hold(2, 20);
     TEST_ASSERT_EQUAL_STRING("", told);
+}
+
+/* ---- two remotes on one channel ---- */
+
+/* One remote sends `a` every 47 ms, the other one `b` between its packets. */
+static void both_hold(uint16_t a, uint16_t b, uint8_t packets)
+{
+    while (packets-- > 0) {
+        remote(b);
+        ticks(3);
+        remote(a);
+        ticks(3);
+    }
+}
+
+/* The first remote's button goes on, the other one lets go, and the first one lets go and presses again at last. */
+static void expect_nothing_until_released(uint16_t a)
+{
+    memset(told, 0, sizeof told);
+    remote(0);
+    ticks(3);
+    hold(a, 20);
+    TEST_ASSERT_NULL_MESSAGE(strstr(told, "start"), told);
+    TEST_ASSERT_NULL_MESSAGE(strstr(told, "code 1"), told);
+    performer.state = PERFORMER_IDLE;
+    hold(a, 20);
+    TEST_ASSERT_NULL_MESSAGE(strstr(told, "start"), told);
+    let_go();
+    hold(a, 1);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "start 2 1;"), told);
+}
+
+static void test_inputs_stop_of_one_remote_outlives_the_thumb_on_the_other(void)
+{
+    const uint8_t modes[] = {LINK_LATCH, LINK_HOLD};
+    for (uint8_t i = 0; i < sizeof modes; i++) {
+        for (uint8_t packets = 1; packets <= 6; packets += 5) {
+            setUp();
+            performer.link.mode = modes[i];
+            hold(1, 3);
+            performer.link.stopping = true;
+            memset(told, 0, sizeof told);
+            both_hold(1, 512, packets);
+            TEST_ASSERT_EQUAL_STRING("code 255 0;", told);
+            expect_nothing_until_released(1);
+        }
+    }
+}
+
+static void test_inputs_stop_of_one_remote_starts_nothing_that_the_other_holds(void)
+{
+    for (uint8_t since_start = 0; since_start < 2; since_start++) {
+        setUp();
+        if (since_start) {
+            inputs_init(&inputs, &performer, &pages, &settings);
+        } else {
+            performer.state = PERFORMER_PLAY;
+        }
+        hold(1, 3);
+        performer.state = PERFORMER_IDLE;
+        memset(told, 0, sizeof told);
+        both_hold(1, 512, 6);
+        TEST_ASSERT_EQUAL_STRING("stop 0 0;", told);
+        expect_nothing_until_released(1);
+    }
+}
+
+static void test_inputs_button_that_comes_down_while_another_remote_stops_is_no_press(void)
+{
+    performer.state = PERFORMER_PLAY;
+    hold(512, 3);
+    performer.link.stopping = true;
+    memset(told, 0, sizeof told);
+    both_hold(1, 512, 6);
+    TEST_ASSERT_EQUAL_STRING("", told);
+    expect_nothing_until_released(1);
+}
+
+static void test_inputs_stop_of_one_remote_outlives_a_lost_packet_of_the_other(void)
+{
+    hold(1, 3);
+    performer.link.stopping = true;
+    both_hold(1, 512, 3);
+    memset(told, 0, sizeof told);
+    remote(0);
+    ticks(10);   /* 13 since the last packet with the button: 100 ms */
+    remote(1);
+    TEST_ASSERT_EQUAL_STRING("code 0 0;", told);
+}
+
+static void test_inputs_button_counts_as_released_after_100_ms(void)
+{
+    hold(1, 1);
+    end_play();
+    remote(0);
+    ticks(7);    /* 13 since the last packet with the button */
+    remote(1);
+    TEST_ASSERT_EQUAL_STRING("", told);
+    let_go();
+    remote(1);
+    TEST_ASSERT_EQUAL_STRING("start 2 1;", told);
+}
+
+static void test_inputs_pause_of_one_remote_is_one_pause(void)
+{
+    performer.state = PERFORMER_PLAY;
+    hold(1, 3);
+    memset(told, 0, sizeof told);
+    both_hold(1, 256, 6);
+    TEST_ASSERT_NOT_NULL(strstr(told, "pause"));
+    TEST_ASSERT_NULL(strstr(told, "resume"));
+}
+
+static void test_inputs_hold_mode_release_of_one_remote_is_a_stop_in_spite_of_the_other(void)
+{
+    performer.link.mode = LINK_HOLD;
+    hold(1, 3);
+    both_hold(1, 4, 3);
+    memset(told, 0, sizeof told);
+    remote(0);
+    TEST_ASSERT_EQUAL_STRING("code 0 0;", told);
+    performer.link.stopping = true;
+    expect_nothing_until_released(1);
 }
 
 /* ---- a stop, or the end of a play, outlives every thumb ---- */
@@ -360,6 +491,7 @@ static void expect_rest(thumb_t thumb, uint8_t stop, bool is_playing, bool plays
     thumb_down(thumb, PANEL_UP);   /* page 2 has its code */
     TEST_ASSERT_EQUAL_STRING_MESSAGE("", told, label);
     thumb_down(thumb, 0);
+    ticks(INPUTS_RELEASE_TICKS);
     thumb_down(thumb, PANEL_UP);
     TEST_ASSERT_EQUAL_STRING_MESSAGE("start 2 1;", told, label);
 }
@@ -394,7 +526,7 @@ static void test_inputs_button_held_at_the_start_is_no_press(void)
         start_anew();
         hold(1, 100);
         TEST_ASSERT_EQUAL_STRING("", told);
-        remote(0);
+        let_go();
         remote(1);
         TEST_ASSERT_EQUAL_STRING("start 2 1;", told);
     }
@@ -455,11 +587,15 @@ static void test_inputs_pause_and_stop_held_at_the_start_are_no_press(void)
 
 static void test_inputs_hold_mode_does_not_miss_a_remote_that_was_not_heard_since_the_start(void)
 {
-    performer.link.mode = LINK_HOLD;
-    start_anew();
-    performer.state = PERFORMER_PLAY;   /* started by page number */
-    ticks(200);
-    TEST_ASSERT_EQUAL_STRING("", told);
+    for (uint8_t code = LINK_CODE_NONE; code <= 1; code++) {
+        setUp();
+        performer.link.mode = LINK_HOLD;
+        start_anew();
+        performer.state = PERFORMER_PLAY;   /* started by page number, or by a typed code */
+        performer.link.held_code = code;
+        ticks(200);
+        TEST_ASSERT_EQUAL_STRING("", told);
+    }
 }
 
 /* A play that is called by number begins in hold mode. */

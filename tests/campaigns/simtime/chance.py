@@ -220,8 +220,21 @@ class Person:
         buttons = rng.choice(BUTTONS)
         for _ in range(rng.choice((1, 1, 3, 10))):
             self.act(f"remote {buttons}", rng.choice((6, 7)))
+        if rng.random() < 0.15:
+            self.another_remote(buttons)
         if rng.random() < 0.85:
             self.act("remote 0", rng.randrange(2 * SECOND))
+
+    def another_remote(self, buttons):
+        """Its packets come between those of the first one, which goes on after its release."""
+        rng = self.rng
+        other = rng.choice((512, 512, *BUTTONS))
+        for _ in range(rng.choice((1, 2, 6))):
+            self.act(f"remote {other}", 3)
+            self.act(f"remote {buttons}", rng.choice((3, 4)))
+        self.act("remote 0", 3)
+        for _ in range(rng.choice((1, 10, 60))):
+            self.act(f"remote {buttons}", rng.choice((6, 7)))
 
 
 class Player(Person):

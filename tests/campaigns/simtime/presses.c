@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * presses.c - what a press is, by firmware/common/REMOTE.md: a code that differs from the last one, or one after 500
  * ms of silence, with a button that was not down during a play or a stop. calls.c gets each press and checks every
- * start of a play against them. A button counts as spent only if that is certain. So a press that this file rejects
- * is none. */
+ * start of a play against them. A remote's button is released when a packet is without it and for 100 ms none has it;
+ * while button 6 is held no other one is a press. A button counts as spent or held only if that is certain. So a press
+ * that this file rejects is none. */
 #include "session.h"
 
 #include <string.h>
@@ -10,10 +11,12 @@
 #define SILENT 60u                 /* ticks without a packet; 500 ms are 64 ticks */
 #define LINE_BEHIND 32u            /* ticks: a play may be over before its report */
 #define SURELY_SILENT SECOND
+#define SURELY_HELD 11u            /* ticks since a packet with the button; 100 ms are 13 ticks */
+#define SURELY_RELEASED 16u
 #define BUTTONS 0xFFu              /* buttons that make codes */
 #define ANSWERED (4u * SECOND)     /* by then the result of a press, or the reason for none, is reported */
 #define QUICK 8000u                /* half microseconds; adapters up to this latency keep to ANSWERED */
-enum { BUTTON_PAUSE = 256, CODE_STOP = 255, NO_CODE = 256, ARROWS = 15, START = 16 };
+enum { STOP = 256, HELD = 9, BUTTON_PAUSE = 256, CODE_STOP = 255, NO_CODE = 256, ARROWS = 15, START = 16 };
 
 typedef struct {
     unsigned down, code;           /* by the newest packet */
@@ -24,11 +27,28 @@ typedef struct {
 
 static struct {
     hand_t remote, panel;
+    uint32_t held_tick[HELD];      /* the newest packet of a remote with this button, and with a stop */
     bool has_start;                /* Start is down */
     bool is_playing;               /* by the console's reports */
     uint32_t over_tick, line_tick;
     uint32_t press_tick;           /* a press that needs an answer; NEVER_TICK: none */
 } presses;
+
+/* The buttons, and STOP, that a packet of the last `ticks` has had. */
+static unsigned held_within(uint32_t ticks)
+{
+    unsigned held = 0;
+    for (unsigned i = 0; i < HELD; i++) {
+        held |= long_ago(presses.held_tick[i], ticks) ? 0 : 1u << i;
+    }
+    return held;
+}
+
+/* A computer that is late takes packets later. */
+static unsigned surely_held(void)
+{
+    return long_ago(session.late_tick, TROUBLE) ? held_within(SURELY_HELD) : 0;
+}
 
 static bool must_be_answered(const hand_t *hand, uint32_t silence)
 {
@@ -36,7 +56,7 @@ static bool must_be_answered(const hand_t *hand, uint32_t silence)
     return was_free && !presses.is_playing && rules_is_well() && !rules_is_searching() &&
            session.tick - session.boot_tick > TROUBLE && long_ago(presses.over_tick, SECOND) &&
            long_ago(presses.line_tick, ANSWERED) && long_ago(session.late_tick, TROUBLE) &&
-           session.latency <= QUICK && calls_are_said();
+           session.latency <= QUICK && calls_are_said() && held_within(SURELY_RELEASED) == 0;
 }
 
 /* Called when a play is over. A button pressed just before may have come after its end. */
@@ -53,16 +73,18 @@ static void holds(hand_t *hand, unsigned buttons)
     const unsigned down = buttons & BUTTONS;
     const bool is_stop = is_stop_of(buttons);
     const unsigned code = is_stop ? CODE_STOP : buttons == BUTTON_PAUSE ? NO_CODE : down;
-    hand->spent &= down;
-    if (code != 0 && code < CODE_STOP && code != hand->code && (down & ~hand->spent) != 0) {
+    const unsigned held = surely_held();
+    const unsigned still = hand == &presses.remote ? down | held : down;
+    hand->spent &= still;
+    if (code != 0 && code < CODE_STOP && code != hand->code && (down & ~hand->spent) != 0 && (held & STOP) == 0) {
         calls_pressed(code);
         hand->press_tick = session.tick;
         if (must_be_answered(hand, session.tick - hand->tick)) {
             presses.press_tick = session.tick;
         }
     }
-    if (presses.is_playing || is_stop) {
-        hand->spent = down;
+    if (presses.is_playing || is_stop || (held & STOP) != 0) {
+        hand->spent = still;
     }
     hand->down = down;
     hand->code = code;
@@ -75,6 +97,10 @@ void presses_remote(unsigned buttons)
         presses.remote.code = presses.remote.spent = 0;
     }
     holds(&presses.remote, buttons);
+    for (unsigned i = 0; i < HELD; i++) {
+        const bool is_held = i < HELD - 1 ? (buttons >> i & 1u) != 0 : is_stop_of(buttons);
+        presses.held_tick[i] = is_held ? session.tick : presses.held_tick[i];
+    }
 }
 
 /* The arrows are codes. Start stops when it is pressed, and is not part of a code. */
@@ -133,6 +159,9 @@ void presses_boot(void)
     const bool has_start = presses.has_start;
     memset(&presses, 0, sizeof presses);
     presses.remote.spent = BUTTONS;
+    for (unsigned i = 0; i < HELD; i++) {
+        presses.held_tick[i] = NEVER_TICK;
+    }
     presses.has_start = has_start;
     presses.panel.spent = presses.panel.down = down;
     presses.remote.tick = presses.panel.tick = session.tick;
