@@ -104,12 +104,22 @@ test('a hobbyist: renames and copies pages, sees what will change, writes with a
     await rows.getByText('motion 57 (stand)').waitFor();
     expect(await rows.getByRole('button', { name: "Take the robot's motion 2 (curtsy)" }).count()).toBe(1); // the label names the page
     await pullAtSecondSave(person);
-    await button(page, 'Write 2 motions into the robot').click();
     const transfer = page.getByRole('status', { name: 'Transfer' });
-    // In one call, because it soon reconnects by itself and reads the robot anew.
-    const [first, second] = await transfer
-        .filter({ hasText: 'cable' })
-        .evaluate(status => [...(status.closest('dialog')?.querySelectorAll('li .account') ?? [])].map(one => one.textContent));
+    // Read in the page, at the moment of the message, because it soon reconnects by itself and reads the robot anew.
+    const atTheMessage = transfer.evaluate(
+        status =>
+            new Promise<string[]>(resolve => {
+                const dialog = status.closest('dialog')!;
+                const observer = new MutationObserver(() => {
+                    if (!status.textContent.includes('cable')) return;
+                    observer.disconnect();
+                    resolve([...dialog.querySelectorAll('li .account')].map(one => one.textContent));
+                });
+                observer.observe(dialog, { subtree: true, childList: true, characterData: true });
+            }),
+    );
+    await button(page, 'Write 2 motions into the robot').click();
+    const [first, second] = await atTheMessage;
     expect(first).toBe('✓ written');
     expect(['being saved …', '✓ written']).toContain(second);
     await expect
