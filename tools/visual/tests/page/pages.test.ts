@@ -109,7 +109,7 @@ test('a hobbyist: renames and copies pages, sees what will change, writes with a
     const atTheMessage = transfer.evaluate(
         status =>
             new Promise<string[]>(resolve => {
-                const dialog = status.closest('dialog')!;
+                const dialog = status.closest('dialog') ?? status;
                 const observer = new MutationObserver(() => {
                     if (!status.textContent.includes('cable')) return;
                     observer.disconnect();
