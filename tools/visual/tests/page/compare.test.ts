@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Opening a file, and comparing with one, that cannot be read or whose reading is cancelled.
+// Opening a file, and comparing with one, that cannot be read or whose reading is cancelled; comparing with a robot that becomes another one.
+// A cable that is pulled in a write: pages.test.ts; in live follow: stop.test.ts.
 import { expect, test } from 'vitest';
 import { pageSuite } from './page-suite.ts';
 
@@ -35,13 +36,25 @@ test('a file to open or to compare with: a reading that does not end is cancelle
     const dialog = page.getByRole('dialog', { name: 'Compare and write' });
     const status = dialog.getByRole('status', { name: 'Transfer' });
     const choose = (): Promise<void> => dialog.getByLabel('File to compare with').setInputFiles(THEIRS);
-    const write = dialog.getByRole('button', { name: /^Write [01] motion/ });
+    const write = dialog.getByRole('button', { name: /^Write [012] motion/ });
     await write.filter({ hasText: 'Write 1 motion ' }).waitFor();
     // The document changes under the dialog, as by a file that is dropped on it: the list is made anew.
     await person.inPage(({ editor }) => editor.undo());
     await dialog.getByText('Nothing differs.').waitFor();
     expect(await write.isEnabled()).toBe(false);
     await person.inPage(({ editor }) => editor.redo());
+    await write.filter({ hasText: 'Write 1 motion ' }).waitFor();
+
+    // What the page does when the cable leads to another robot, whose motions 5 and mine differ; then the first one is there again.
+    await person.inPage(({ editor }) => {
+        const { robot, page: mine } = editor.state.get();
+        editor.setRobot(robot.map((bytes, at) => (at === 5 || at === mine ? (robot[8] ?? null) : bytes)));
+    });
+    const fifth = page.getByRole('list', { name: 'Motions that differ' }).locator('[data-page="5"]');
+    await fifth.waitFor();
+    await write.filter({ hasText: 'Write 2 motions ' }).click();
+    await status.filter({ hasText: 'has changed in the robot since it was read' }).waitFor();
+    await fifth.waitFor({ state: 'detached' }); // what was read then
     await write.filter({ hasText: 'Write 1 motion ' }).waitFor();
 
     await choose();

@@ -14,7 +14,8 @@ test('the hand stays over legs that were let go, and over an arm beside them, un
     for (const limbs of [['Right leg'], ['Left leg', 'Right arm']]) {
         await person.open('Steps');
         for (const limb of limbs) await person.button(limb).click();
-        await doing.filter({ hasText: HELD }).waitFor();
+        await person.untilDoing(HELD);
+        await person.robotSeconds(0.5); // all limbs are limp
         await person.button('Hold').click();
         await page
             .getByRole('log', { name: 'Last message' })
