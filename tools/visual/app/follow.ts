@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Live follow moves the robot slowly to the latest wanted pose. Only one request is under way. While the robot moves, the next pose waits.
-// A move that was stopped, perhaps at the robot's own panel or remote, ends it: the robot must not move on by itself.
+// A move that was stopped, perhaps at the robot's own panel or remote, ends it: the robot must not move on by itself. So does a servo that has
+// failed in a move: the next one would switch it on again, against what has overloaded it.
 
 import type { Connection } from '../robot/connection.ts';
-import { REFUSED, askWhere, movePose } from '../robot/protocol.ts';
+import { REFUSED, askWhere, idsIn, movePose } from '../robot/protocol.ts';
 import { wallClock } from '../robot/clock.ts';
 import type { Clock } from '../robot/clock.ts';
 import { RobotError } from '../robot/robot-error.ts';
 
 export const FOLLOW_DEGREES_PER_SECOND = 60;
 const AGAIN_MS = 60;
-/** Play's sentences for a move that has not reached its pose. Edit has none, but only keys of its terminal stop it. */
+/** Play's sentences for a move that has not reached its pose. Edit has none: keys of its terminal stop it, and `@where` has the faults. */
 const CUT_OFF = /(?:Broken off|fault of a servo) in a move/;
 const CUT_OFF_LENGTH = 50;
 
@@ -60,7 +61,7 @@ export class Follow {
         try {
             while (this.wanted) {
                 const pose = this.wanted;
-                if (pose.join() !== sent && (await this.move(pose))) sent = pose.join();
+                if (pose.join() !== sent && (await this.move(pose, sent !== ''))) sent = pose.join();
                 else await new Promise<void>(resolve => this.clock.after(AGAIN_MS, resolve));
             }
         } catch (error) {
@@ -72,10 +73,12 @@ export class Follow {
     }
 
     /** false: the robot still moves, or follows no more. Asks before it moves the robot: the answer comes behind the sentence on how the last
-     *  move has ended. */
-    private async move(pose: readonly (number | null)[]): Promise<boolean> {
+     *  move has ended. hasMoved: the faults that it reports are those of our last move. */
+    private async move(pose: readonly (number | null)[], hasMoved: boolean): Promise<boolean> {
         const { requests } = this.connection();
-        if ((await askWhere(requests)).state !== 'idle' || !this.wanted) return false;
+        const { state, faulty } = await askWhere(requests);
+        if (state !== 'idle' || !this.wanted) return false;
+        if (hasMoved && faulty !== 0) throw new RobotError('servo-failed', idsIn(faulty).join(', '));
         try {
             await movePose(requests, FOLLOW_DEGREES_PER_SECOND, pose);
             return true;

@@ -2,7 +2,7 @@
 // The requests of firmware/common/PROTOCOL.md as functions. Each rejects as Requests.ask() does, and with RobotError 'foreign' if an answer
 // does not follow the protocol.
 
-import { PAGE_BYTES } from '../model/motion.ts';
+import { JOINTS, PAGE_BYTES } from '../model/motion.ts';
 import type { Shape } from '../model/motion.ts';
 import { bytesOfHex } from './hex.ts';
 import type { RequestOptions, Requests } from './requests.ts';
@@ -70,6 +70,11 @@ function fields(answer: string): Map<string, string> {
                 return equals < 0 ? ([word, ''] as const) : ([word.slice(0, equals), word.slice(equals + 1)] as const);
             }),
     );
+}
+
+/** The servo IDs of a field with a bit per ID. */
+export function idsIn(bits: number): number[] {
+    return Array.from({ length: JOINTS }, (_, id) => id).filter(id => (bits >>> id) & 1);
 }
 
 function strange(request: string, answer: string): RobotError {

@@ -17,6 +17,7 @@ export type RobotErrorCode =
     | 'no-image' // the firmware for the robot in the page could not be loaded
     | 'new-version' // it is not on the host any more: a newer version of the page has replaced it
     | 'was-hidden' // the page was hidden while it drove servos; the play was ended
+    | 'servo-failed' // in a move of live follow; the IDs are in `words`
     | 'goes-on' // the robot that was left for the one in the page still moves
     | 'cancelled' // somebody cancelled it
     | 'dropped' // the robot was switched off, reset or restarted before it could do it

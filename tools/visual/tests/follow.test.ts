@@ -98,3 +98,32 @@ test('stopped at its own panel: it stays where it is, also if another pose waits
     }
     await connection.close();
 });
+
+test.each(['overload', 'silent'])(
+    'Edit, a servo fails in a move (%s): no other pose is sent, which would switch it on again, and it is said',
+    async fault => {
+        const { bench, connection } = await ready(64);
+        const failed: unknown[] = [];
+        const follow = new Follow(
+            () => connection,
+            error => failed.push(error),
+            bench.clock,
+        );
+        const elbow = async () => (await bench.until(askPose(connection.requests))).find(({ id }) => id === 5)?.position ?? 0;
+        let ends = 0;
+        const set = (pose: (number | null)[]): void => follow.set(pose, () => ends++);
+        set(poseWith({ 3: 512, 5: 512 }));
+        await bench.run(2000);
+        set(poseWith({ 3: 800, 5: 800 }));
+        await bench.run(500);
+        bench.board.setFault(2, bench.board.faultNames().indexOf(fault), -1); // servo 3
+        set(poseWith({ 3: 300, 5: 300 })); // a person drags on
+        await bench.run(1500);
+        expect([ends, follow.isOn]).toEqual([1, false]);
+        expect(failed).toEqual([expect.objectContaining({ code: 'servo-failed', words: '3' })]);
+        const stopped = await elbow();
+        await bench.run(1000);
+        expect(Math.abs((await elbow()) - stopped)).toBeLessThan(5);
+        await connection.close();
+    },
+);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Live follow: the robot moves slowly to the chosen step. Off by default, and switched off when the taught limbs change, the robot is stopped
-// (also at its own panel), moved another way or refuses, or the connection ends or the servo adapter is out: a robot that is plugged in again
-// must not move by itself.
+// (also at its own panel), moved another way or refuses, a servo fails in a move, or the connection ends or the servo adapter is out: a robot
+// that is plugged in again must not move by itself.
 
 import { define, make, setDisabled } from '../element.ts';
 import type { Store } from '../store.ts';

@@ -211,6 +211,8 @@ const DE: Texts = {
                 'Die Firmware konnte nicht geladen werden; der Roboter läuft weiter wie bisher. Ist dieser Computer online? Dann versuche es noch einmal.',
             'new-version':
                 'Es gibt eine neue Version dieser Seite, und die nötige Datei ist nicht mehr da; der Roboter läuft weiter wie bisher. Lade die Seite neu.',
+            'servo-failed':
+                'Der Roboter folgt nicht mehr: Ein Servo dieser Bewegung ist überlastet oder antwortet nicht. Sieh nach, dann schalte das Folgen wieder ein. Servo:',
             'goes-on':
                 'Dein Roboter macht weiter, was er tat, und „Stopp“ erreicht ihn nicht mehr. Um ihn anzuhalten, wähle im Menü wieder „Dein Roboter …“.',
             'was-hidden':

@@ -56,6 +56,8 @@ const errors: Record<Exclude<RobotErrorCode, 'needs-edit'>, string> = {
     'no-image': 'The firmware could not be loaded, so the robot goes on as it was. Is this computer online? Then try again.',
     'new-version':
         'There is a new version of this page, and the file that was needed is gone; the robot goes on as it was. Reload the page.',
+    'servo-failed':
+        'The robot no longer follows: a servo of this move is overloaded or does not answer. See to it, then switch following on again. Servo:',
     'goes-on': 'Your robot goes on with what it did, and Stop no longer reaches it. To stop it, choose "Your robot …" in the menu again.',
     'was-hidden': 'This page was hidden, so the motion was ended softly. A hidden page cannot keep time: keep it in sight.',
     cancelled: 'Stopped.',

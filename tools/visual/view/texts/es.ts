@@ -206,6 +206,8 @@ const ES: Texts = {
                 'No se pudo cargar el firmware, así que el robot sigue como estaba. ¿Hay conexión a internet? Entonces inténtalo de nuevo.',
             'new-version':
                 'Hay una versión nueva de esta página y el archivo necesario ya no está, así que el robot sigue como estaba. Vuelve a cargar la página.',
+            'servo-failed':
+                'El robot ya no sigue: un servo de este movimiento está sobrecargado o no responde. Revísalo y vuelve a activar el seguimiento. Servo:',
             'goes-on': 'Tu robot sigue con lo que hacía, y «Parar» ya no le llega. Para pararlo, elige de nuevo «Tu robot …» en el menú.',
             'was-hidden':
                 'Esta página estaba oculta, así que el movimiento terminó con suavidad. Una página oculta no puede llevar el tiempo: mantenla a la vista.',

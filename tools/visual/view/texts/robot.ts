@@ -2,7 +2,7 @@
 // Texts on the robot, in the current language.
 
 import type { Joint } from '../../model/body.ts';
-import { JOINTS } from '../../model/motion.ts';
+import { idsIn } from '../../robot/protocol.ts';
 import type { Where } from '../../robot/protocol.ts';
 import type { RobotError } from '../../robot/robot-error.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
@@ -98,7 +98,7 @@ export function startText(state: SessionState): string {
 
 /** The joints moved by code; '' if there are none. */
 function movedText({ aimed }: Where): string {
-    const ids = Array.from({ length: JOINTS }, (_, id) => id).filter(id => (aimed >>> id) & 1);
+    const ids = idsIn(aimed);
     return ids.length > 0 ? TEXTS.layers.moved(ids) : '';
 }
 
