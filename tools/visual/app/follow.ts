@@ -35,7 +35,7 @@ export class Follow {
     }
 
     /** Servo units by ID. null stops following, but a movement that has begun is finished. ended: called when a request fails or a move is
-     *  cut off, which ends it, too. */
+     *  cut off, which ends it, too, and by end(). */
     set(positions: readonly (number | null)[] | null, ended: () => void = () => undefined): void {
         this.wanted = positions;
         this.ended = ended;
@@ -50,9 +50,11 @@ export class Follow {
         if (isCutOff && this.wanted) this.end();
     }
 
-    private end(): void {
-        this.wanted = null;
-        this.ended();
+    /** Stops following and tells who follows, also while there is nothing to follow. */
+    end(): void {
+        const { ended } = this;
+        this.set(null);
+        ended();
     }
 
     private async run(): Promise<void> {

@@ -13,6 +13,7 @@ import type { RemoteButton } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { RobotState } from '../robot/robot-state.ts';
 import type { Overlay, Session, SessionState, ImageName, Notice, Tab, TerminalSize } from '../view/session/session.ts';
+import { isEditing } from '../view/editor/editing.ts';
 import { refusalText } from '../view/texts/editor.ts';
 import { ROBOT_IN_PAGE } from '../view/document-storage.ts';
 import { Store } from '../view/store.ts';
@@ -114,7 +115,10 @@ export class RobotSession implements Session {
         this.body = body;
         this.editor = new DocumentEditor(body, parts, {
             changed: () => this.documents.keep(),
-            opened: () => this.trials.forget(),
+            opened: () => {
+                this.trials.forget();
+                this.follower.end();
+            },
             refused: refusal => this.messages.complain(refusalText(refusal), 'edit'),
         });
         this.files = new DocumentFiles(this.editor, formats, {
@@ -260,6 +264,7 @@ export class RobotSession implements Session {
     }
 
     show(tab: Tab): void {
+        if (!isEditing(tab)) this.follower.end();
         this.state.set({ tab });
         this.status.look();
     }
@@ -269,10 +274,12 @@ export class RobotSession implements Session {
     }
 
     play(page: number): Promise<boolean> {
+        this.follower.end();
         return this.act(() => this.plays.play(page));
     }
 
     async playEdited(page: number): Promise<void> {
+        this.follower.end();
         const { format, state } = this.editor;
         const dirty = dirtyPages(state.get(), format);
         const isToWrite = format.reach(state.get().document, page).some(one => dirty.has(one));

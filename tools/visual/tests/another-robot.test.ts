@@ -141,6 +141,22 @@ test('who follows live is told to stop', async () => {
     expect(stopped).toHaveBeenCalledTimes(2);
 });
 
+test.each([
+    ['another area is opened', (session: RobotSession) => session.show('pages'), 1],
+    ['the other area of steps is opened', (session: RobotSession) => session.show('curves'), 0],
+    ['a motion is played', (session: RobotSession) => session.play(2), 1],
+    ['the edited motion is played', (session: RobotSession) => session.playEdited(2), 1],
+    ['another document is opened', (session: RobotSession) => session.documents.create('other', library), 1],
+] as const)('who follows live is told when %s: nothing moves the robot when the steps are seen again', async (_, leave, times) => {
+    const { session } = await page('play');
+    session.show('steps');
+    const ended = vi.fn();
+    session.follow(null, ended); // a motion without steps
+    void leave(session);
+    await soon();
+    expect(ended).toHaveBeenCalledTimes(times);
+});
+
 test('yours chosen again, and twice at once: its port is opened anew', async () => {
     const { session, connect } = await page('play');
     await connect();
