@@ -5,8 +5,7 @@
 import type { Body } from '../model/body.ts';
 import { documentFrom } from '../model/document.ts';
 import type { Connection } from '../robot/connection.ts';
-import { askWhere, command } from '../robot/protocol.ts';
-import type { Where } from '../robot/protocol.ts';
+import { askWhere, command, isMoving } from '../robot/protocol.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { SessionState } from '../view/session/session.ts';
 import type { Store } from '../view/store.ts';
@@ -28,10 +27,6 @@ export interface SourcesParts {
     /** Drops what waits for the servos, because the page is hidden. true: something did. */
     dropHidden(): boolean;
     fail(error: unknown): void;
-}
-
-function isMoving(where: Where | null): boolean {
-    return where !== null && ((where.state !== 'idle' && where.state !== 'paused') || where.aimed > 0);
 }
 
 export class RobotSources {

@@ -122,6 +122,11 @@ export async function askWhere(requests: Requests, options?: RequestOptions): Pr
     };
 }
 
+/** A play or a move, or joints moved by code. null: not known. */
+export function isMoving(where: Where | null): boolean {
+    return where !== null && ((where.state !== 'idle' && where.state !== 'paused') || where.aimed > 0);
+}
+
 export async function askPose(requests: Requests, options?: RequestOptions): Promise<JointPose[]> {
     const answer = await requests.ask('@pose', options);
     return answer

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Keys of the remote: pressed and released with others, and while something else has the focus.
 import { expect, test } from 'vitest';
+import type { PlayState, Where } from '../robot/protocol.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import { buttonOf, isForFocus } from '../view/remote-keys.ts';
 
@@ -23,6 +24,10 @@ test('a key that the remote does not hold is released for the page: the space ba
     expect(buttonOf({ ...NONE, type: 'keyup', code: 'Space' }, HELD)).toBe('b6');
 });
 
+const where = (state: PlayState, aimed = 0): Where => ({ state, aimed }) as Where;
+const STANDS = [null, where('idle'), where('paused')];
+const MOVES = [where('playing'), where('approach'), where('ready'), where('idle', 4), where('paused', 4)];
+
 /** What has the focus matches these selectors. */
 function at(...matched: string[]): Pick<Element, 'closest'> {
     return { closest: (selectors: string) => (selectors.split(', ').some(one => matched.includes(one)) ? {} : null) as Element | null };
@@ -34,15 +39,17 @@ const LIST = at('select');
 const BUTTON = at('button');
 
 test('a robot that moves is stopped by the space bar after the speed was set by a slider or a motion chosen in a list', () => {
-    for (const focus of [null, SLIDER, LIST, BUTTON, at('button', '[role="tablist"]')])
-        expect(isForFocus('Space', focus, true)).toBe(false);
-    for (const focus of [FIELD, at('terminal-pane')]) expect(isForFocus('Space', focus, true)).toBe(true);
-    for (const focus of [LIST, BUTTON]) expect(isForFocus('Space', focus, false)).toBe(true);
+    for (const moves of MOVES) {
+        for (const focus of [null, SLIDER, LIST, BUTTON, at('button', '[role="tablist"]')])
+            expect(isForFocus('Space', focus, moves), JSON.stringify(moves)).toBe(false);
+        for (const focus of [FIELD, at('terminal-pane')]) expect(isForFocus('Space', focus, moves)).toBe(true);
+    }
+    for (const stands of STANDS) for (const focus of [LIST, BUTTON]) expect(isForFocus('Space', focus, stands)).toBe(true);
 });
 
 test('a slider has its arrows, and the other keys drive', () => {
-    for (const code of ['KeyW', 'Digit6', 'Space']) expect(isForFocus(code, SLIDER, false), code).toBe(false);
-    expect(isForFocus('ArrowUp', SLIDER, true)).toBe(true);
-    for (const focus of [FIELD, LIST]) expect(isForFocus('Digit6', focus, true)).toBe(true);
-    for (const focus of [null, BUTTON]) expect(isForFocus('ArrowUp', focus, false)).toBe(false);
+    for (const code of ['KeyW', 'Digit6', 'Space']) expect(isForFocus(code, SLIDER, null), code).toBe(false);
+    expect(isForFocus('ArrowUp', SLIDER, where('playing'))).toBe(true);
+    for (const focus of [FIELD, LIST]) expect(isForFocus('Digit6', focus, where('playing'))).toBe(true);
+    for (const focus of [null, BUTTON]) expect(isForFocus('ArrowUp', focus, null)).toBe(false);
 });

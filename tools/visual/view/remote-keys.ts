@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The keyboard as a remote: which key is which button.
 
+import { isMoving } from '../robot/protocol.ts';
+import type { Where } from '../robot/protocol.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 
 const KEYS: Readonly<Record<string, RemoteButton>> = {
@@ -40,10 +42,10 @@ export function buttonOf(key: Key, held: ReadonlySet<RemoteButton>): RemoteButto
 
 /** A key that is pressed is for what has the focus: letters for a field, arrows for a slider, the space bar for a button. But the space bar
  *  stops a robot that moves, whatever has the focus, except a field. */
-export function isForFocus(code: string, focus: Pick<Element, 'closest'> | null, isMoving: boolean): boolean {
+export function isForFocus(code: string, focus: Pick<Element, 'closest'> | null, where: Where | null): boolean {
     const isAt = (selectors: string): boolean => focus !== null && focus.closest(selectors) !== null;
     if (isAt('input:not([type="range"]), textarea, terminal-pane')) return true;
-    if (code === 'Space' && isMoving) return false;
+    if (code === 'Space' && isMoving(where)) return false;
     if (isAt('select, summary, [role="tablist"]')) return true;
     return code === 'Space' ? isAt('button') : code.startsWith('Arrow') && isAt('input');
 }

@@ -93,14 +93,9 @@ export class RemotePad extends SessionElement {
         if (event.type === 'keydown' && this.session.state.get().tab !== 'remote') return; // in other areas the arrows edit
         if (event.type === 'keydown' && name !== 'b6' && isInDialog()) return; // in dialogs the arrows scroll
         const focus = event.target instanceof Element ? event.target : null;
-        if (event.type === 'keydown' && isForFocus(event.code, focus, this.isPlaying)) return;
+        if (event.type === 'keydown' && isForFocus(event.code, focus, this.session.state.get().where)) return;
         event.preventDefault();
         this.change('keys', name, event.type === 'keydown');
-    }
-
-    private get isPlaying(): boolean {
-        const { where } = this.session.state.get();
-        return where !== null && where.state !== 'idle' && where.state !== 'ready';
     }
 
     /** null: it is disconnected; all its buttons are released. */
