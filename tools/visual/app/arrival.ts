@@ -39,7 +39,15 @@ export class Arrival {
         const { state, messages, status, sources, editor } = this.parts;
         const { version, name, error } = sources.connection;
         const isOff = sources.isSimulated && !state.get().isPowered;
-        state.set({ connection, version: isOff ? null : version, portName: name, where: null, isPortBusy: error?.code === 'port-busy' });
+        const pages = sources.isSimulated ? state.get().pages : []; // a cable may lead to another robot now, which has others
+        state.set({
+            connection,
+            version: isOff ? null : version,
+            portName: name,
+            where: null,
+            pages,
+            isPortBusy: error?.code === 'port-busy',
+        });
         status.tell();
         status.look();
         if (connection === 'other-board') messages.fail(error);

@@ -74,6 +74,7 @@ test.each([
     await vi.waitFor(() => expect(say).toHaveBeenCalledWith({ text: expect.stringMatching(text), tone: 'bad' }));
 });
 
+const WALKS = [{ page: 20, steps: 6, name: 'walk', fault: '' }];
 const KNOWN = [new Uint8Array([1]), null, new Uint8Array([3])];
 
 test('a digit of the list of motions that the line has damaged is not believed: Walk plays the page it is in', async () => {
@@ -84,6 +85,20 @@ test('a digit of the list of motions that the line has damaged is not believed: 
     const transfer = { read: () => Promise.resolve({ isDone: false, error: new RobotError('cancelled') }) };
     arrivalWith({ state, messages: { fail: vi.fn() }, sources, transfer }).connectionChanged('ready');
     await vi.waitFor(() => expect(state.get().pages).toMatchObject([{ page: 20, name: 'walk' }]));
+});
+
+test.each([
+    ['on a line', false, []],
+    ['in the page', true, WALKS],
+] as const)('a robot %s that answers again: what is known of its motions until its list has come', (_, isSimulated, pages) => {
+    const state = new Store({ source: isSimulated ? 'simulated' : 'yours', isPowered: true, pages: WALKS } as unknown as SessionState);
+    const never = (): Promise<never> => new Promise(nothing);
+    const sources = { isSimulated, connection: { version: null, requests: { ask: never } }, simulated: { prepare: never } };
+    const arrival = arrivalWith({ state, messages: { fail: nothing }, sources, transfer: { read: never } });
+    for (const connection of ['waiting', 'opening', 'asking', 'ready'] as const) {
+        arrival.connectionChanged(connection);
+        expect(state.get().pages, connection).toEqual(pages);
+    }
 });
 
 /** Your robot, whose pages are known, answers once more. crcs: of its pages. continues: a write that was cut off continues with those.
