@@ -4,7 +4,10 @@
 import json
 
 import pytest
+from mtn_files import Block, body, checksum, made
+from mtn_files import step as mtn_step
 
+from m512.files import formats
 from m512.files.image import Image, from_bytes
 from m512.files.page import EMPTY, Page
 from m512.files.text import read_text
@@ -185,6 +188,58 @@ def test_a_text_is_not_rewritten_in_its_own_place(m512, lib, monkeypatch, words)
     (lib.parent / "link.m512").symlink_to(mine)
     assert m512(*words).exit_code == 5
     assert mine.read_text() == TEXT + "# a comment\n"
+
+
+@pytest.mark.parametrize(
+    "old, new, says",
+    [
+        (b"motor_type=0 ", b"motor_type=4 ", "line 4 (motor_type) would change"),
+        (b"name=bow", "name=걷기 시작 천천히".encode(), "line 12 (name) would change"),
+        (b"name=bow", b"name=a bow with both hands", "line 12 (name) would change"),
+        (b"name=bow", b"name=b\xffw", "line 12 (name) would change"),
+        (b" 1 1.0 32", b" 1 1.05 32", "line 8 (play_param) would change"),
+        (b" 0.400\n", b" 0.395\n", "line 9 (step) would change"),
+        (b"page_end", b"\n".join([b"step=" + b" ".join([b"9"] * 26) + b" 0.0 0.4"] * 8 + [b"page_end"]), "would change"),
+    ],
+)
+def test_a_mtn_that_a_page_cannot_hold_is_not_written_in_its_own_place(m512, tmp_path, old, new, says):
+    """The user's only file once lost names, motor types and steps of pages that nobody had changed."""
+    mine = tmp_path / "mine.mtn"
+    text = body([Block("wave", steps=[mtn_step()]), Block("bow", steps=[mtn_step()]), Block("nod", steps=[mtn_step()])]).replace(old, new, 1)
+    mine.write_bytes(text + checksum(text))
+    before = mine.read_bytes()
+    done = m512("pages", mine, "rename", "3", "hello", "--in-place")
+    assert done.exit_code == 5 and says in done.stderr and "-o new.mtn" in done.stderr and "loss:" not in done.stderr, done.stderr
+    assert mine.read_bytes() == before
+    assert m512("pages", mine, "rename", "3", "hello", "-o", tmp_path / "new.mtn").exit_code == 0
+
+
+def test_a_mtn_keeps_in_its_own_place_what_pages_taken_would_change(m512, lib, tmp_path):
+    """The flags of the joints hold for the whole file: a page that moves one more joint would move it in all pages."""
+    mine = tmp_path / "mine.mtn"
+    mine.write_bytes(made([Block("bow", steps=[mtn_step()])], enable=range(1, 6)))
+    before = mine.read_bytes()
+    done = m512("pages", mine, "merge", lib, "walk:2", "--in-place")
+    assert done.exit_code == 5 and "joints that some steps leave alone" in done.stderr and mine.read_bytes() == before, done.stderr
+
+
+@pytest.mark.parametrize(
+    "old, new",
+    [
+        (b"", b""),
+        (b"version=1.01", b"version=1,01"),
+        (b" 0.400\n", b" 0,4\n"),
+        (b" 1.0 32", b" 1.000 32"),
+        (b"version=1.01\nenable=", b"version=1.00\nenable="),
+        (b"\n", b"\r\n"),
+    ],
+)
+@pytest.mark.parametrize("full", [True, False])
+def test_a_mtn_that_a_page_can_hold_is_written_in_its_own_place(m512, tmp_path, old, new, full):
+    mine = tmp_path / "mine.mtn"
+    mine.write_bytes(body([Block("bow", steps=[mtn_step()]), Block("nod", steps=[mtn_step()])], full=full).replace(old, new))
+    done = m512("pages", mine, "rename", "2", "hello", "--in-place")
+    assert done.exit_code == 0 and "loss:" not in done.stderr and formats.load(mine)[2].name == b"hello", done.stderr
 
 
 def test_a_text_of_ours_is_written_in_its_own_place(m512, lib, tmp_path):

@@ -66,8 +66,16 @@ class Source:
         elif self.board:
             self._to_board(yes)
         else:
-            for loss in formats.save(Path(self.word), self.image, self.image.form, replace=True):
-                ui.say(f"loss: {loss}")
+            self._to_file()
+
+    def _to_file(self) -> None:
+        """Writes the image back to its file."""
+        path = Path(self.word)
+        data, losses = formats.encode(path, self.image, self.image.form)
+        if self.image.form == formats.MTN and not storage.is_stream(path):
+            formats.keep_mtn(path, self.bits, losses)
+        for loss in losses + storage.write(path, data, replace=True):
+            ui.say(f"loss: {loss}")
 
     def _to_board(self, yes: bool) -> None:
         """Shows the changes, asks, writes."""

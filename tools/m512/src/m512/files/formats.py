@@ -133,6 +133,19 @@ def keep_text(image: Image, source: Path, target: Path) -> None:
         )
 
 
+def keep_mtn(path: Path, bits: int | None, losses: list[str]) -> None:
+    """RefusedError if a .mtn, written back, would change where nobody has changed it, or with one of these losses."""
+    from m512.files import mtn
+
+    data = storage.read(path)
+    changed = mtn.first_change(data, mtn.write(decode(data, path, bits))[0])
+    lost = [changed, *losses] if changed else losses
+    if lost:
+        raise RefusedError(
+            f"{path} would not keep all that it says, and stays as it is: {'; '.join(lost)}. Name another file for the result: -o new.mtn"
+        )
+
+
 def _is_by_hand(path: Path) -> bool:
     """Whether a file is a text with more in it than the motions that it describes."""
     data = storage.read(path)

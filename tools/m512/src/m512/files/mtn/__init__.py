@@ -5,8 +5,8 @@ envelope: byte-order mark, line ends, checksum. reader: the text. long_pages: pa
 losses. The reader puts its assumptions into Image.notes, as sentences for the user.
 """
 
-from m512.files.mtn.envelope import BOM, file_checksum
+from m512.files.mtn.envelope import BOM, file_checksum, first_change
 from m512.files.mtn.reader import read
 from m512.files.mtn.writer import rate_of, write
 
-__all__ = ["BOM", "file_checksum", "rate_of", "read", "write"]
+__all__ = ["BOM", "file_checksum", "first_change", "rate_of", "read", "write"]

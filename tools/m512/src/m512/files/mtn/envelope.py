@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from fractions import Fraction
 
 from m512.errors import FileError
 from m512.files.wording import counted
@@ -35,6 +36,26 @@ def unwrap(data: bytes, where: str) -> tuple[str, list[str]]:
     text = data[:end].replace(b"\r\n", b"\n").replace(b"\r", b"\n") + b"\n"
     text = re.sub(rb"\A(?:\xef\xbb\xbf)+", b"", text)  # one BOM or several
     return text.decode("utf-8", "surrogateescape"), _judge(data, end)
+
+
+def first_change(data: bytes, again: bytes) -> str:
+    """The first line of a .mtn that says something else when the file is written again; empty if none does. How numbers are written does
+    not count, nor the version, nor empty pages at the end."""
+    text = unwrap(data, "")[0]
+    for (number, said), (_, says) in zip(_said(text), _said(unwrap(again, "")[0])):
+        if said != says:
+            return f"line {number} ({text.split(chr(10))[number - 1].partition('=')[0]}) would change"
+    return ""
+
+
+def _said(text: str) -> Iterator[tuple[int, object]]:
+    """(line number, what the line says)."""
+    for number, line in enumerate(text.split("\n"), 1):
+        key, _, value = line.partition("=")
+        if key == "name":
+            yield number, line
+        elif line.strip() and key != "version" and (key != "motor_type" or value.strip(" 0")):
+            yield number, (key.strip(), [Fraction(word) if word[-1:].isdigit() else word for word in value.replace(",", ".").split()])
 
 
 def _must_end_here(data: bytes, end: int, where: str) -> None:
