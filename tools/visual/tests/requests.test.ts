@@ -4,6 +4,7 @@ import { afterEach, expect, test } from 'vitest';
 import type { Shape } from '../model/motion.ts';
 import { Connection } from '../robot/connection.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
+import { Line } from '../robot/line.ts';
 import {
     aim,
     askDensePage,
@@ -222,6 +223,36 @@ test('a stop without an answer, or whose bytes were lost, is sent three times, b
     await pass(1500);
     expect(await stop).toBe('no-answer');
     expect(sent.map(([, word]) => word)).toEqual(['@stop', '@play']);
+});
+
+/** What becomes of a press of a key. */
+const press = (requests: Requests): Promise<unknown> =>
+    requests.packet(remotePacket(['up']), { moves: true }).catch((error: RobotError) => error.code);
+
+test('a press while the robot is silent is not sent', async () => {
+    const { requests, sent, pass, ask } = scripted();
+    void ask('@where', { timeoutMs: 3000 });
+    await pass(1000);
+    expect(await press(requests)).toBe('no-answer');
+    expect(sent).toEqual([[0, '@where']]);
+});
+
+test.each([
+    [400, undefined, 1],
+    [600, 'no-answer', 0],
+])('a press that the board held back by XOFF for %i ms: %s; it is sent %i times', async (heldMs, result, times) => {
+    const clock = new SimulatedClock();
+    const sent: Uint8Array[] = [];
+    const port = new BytePort('robot', bytes => void sent.push(bytes));
+    await port.open();
+    const line = new Line(port, clock, { text: () => undefined, answer: () => undefined, lost: () => undefined });
+    port.push(Uint8Array.of(0x13));
+    await settle();
+    const pressed = press(new Requests(line, clock));
+    clock.advance(heldMs);
+    port.push(Uint8Array.of(0x11));
+    expect([await pressed, sent.length]).toEqual([result, times]);
+    await line.close();
 });
 
 test('a board that says nothing: time-out, and the late answer does not answer the next question', async () => {
