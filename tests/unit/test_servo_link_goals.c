@@ -55,14 +55,17 @@ static void test_trim_is_added_and_limited(void)
     trim[1] = 10;
     trim[2] = -20;
     trim[3] = 301;
+    trim[4] = -301;
     servo_link_set_trim(&servos, trim);
     goals[1] = 1020;
     goals[2] = 5;
     goals[3] = 400;
+    goals[4] = 400;
     tick_with_goals(SERVO_LINK_ALL);
     TEST_ASSERT_EQUAL(1023, fake_bus_word(1, DXL_AT_GOAL));
     TEST_ASSERT_EQUAL(0, fake_bus_word(2, DXL_AT_GOAL));
     TEST_ASSERT_EQUAL(400, fake_bus_word(3, DXL_AT_GOAL));
+    TEST_ASSERT_EQUAL(400, fake_bus_word(4, DXL_AT_GOAL));
     goals[1] = 500;
     goals[2] = 500;
     tick_with_goals(SERVO_LINK_ALL);

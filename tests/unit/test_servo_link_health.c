@@ -221,7 +221,9 @@ static void test_torque_that_goes_off_by_itself_is_named_and_not_driven(void)
 {
     servo_fault_t fault;
     robot(3);
-    fake_bus_set_word(2, DXL_AT_TORQUE_LIMIT, 0);   /* what a shutdown does */
+    fake_bus_set_word(1, DXL_AT_TORQUE_LIMIT, 256);   /* weak, but on, as servo 3 is: only one byte is 0 */
+    fake_bus_set_word(2, DXL_AT_TORQUE_LIMIT, 0);     /* what a shutdown does */
+    fake_bus_set_word(3, DXL_AT_TORQUE_LIMIT, 255);
     idle_ticks(3);
     TEST_ASSERT_TRUE(servo_link_next_fault(&servos, &fault));
     TEST_ASSERT_EQUAL(2, fault.id);
