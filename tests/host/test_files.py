@@ -6,7 +6,9 @@ import subprocess
 
 import pytest
 
+from m512.files.image import Image, from_bytes
 from tests.host.pc_robot import program
+from tests.sim.made_page import page
 
 
 def refusal(*arguments, port="/dev/null", **environment):
@@ -55,5 +57,33 @@ def test_motions_of_a_folder_that_has_its_own_are_not_read_and_it_says_so(make, 
 def test_motions_that_cannot_be_read_are_called_so(make, tmp_path):
     port = make().port
     assert "missing.bin: cannot be read: No such file" in refusal("--robot", tmp_path / "new", "--motions", tmp_path / "missing.bin", port=port)
-    (tmp_path / "odd.bin").write_bytes(bytes(100))
-    assert "odd.bin: not a raw motion area" in refusal("--robot", tmp_path / "new", "--motions", tmp_path / "odd.bin", port=port)
+    for odd in (100, 512, 130560, 131584):
+        (tmp_path / "odd.bin").write_bytes(bytes(odd))
+        assert "odd.bin: not a raw motion area" in refusal("--robot", tmp_path / "new", "--motions", tmp_path / "odd.bin", port=port)
+
+
+def test_motions_without_page_0_keep_their_numbers(make, tmp_path):
+    image = Image.empty()
+    image[1], image[127] = page("one", [(30, {})]), page("last", [(30, {})])
+    (tmp_path / "motions.bin").write_bytes(image.to_bytes()[512:])
+    make(motions=tmp_path / "motions.bin").run().expect("] ")
+    kept = from_bytes((tmp_path / "robot" / "pages.bin").read_bytes())
+    assert (bytes(kept[0]), kept[1].name, kept[127].name) == (b"\xff" * 512, b"one", b"last")
+
+
+def test_a_save_into_a_file_that_another_program_has_replaced_is_no_save(make, tmp_path):
+    robot = make(image="edit").run()
+    robot.expect("HELP explains")
+    pages = tmp_path / "robot" / "pages.bin"
+    (tmp_path / "robot" / "other").write_bytes(pages.read_bytes())
+    os.replace(tmp_path / "robot" / "other", pages)
+    robot.send("page 100\rinsert 0\rsave\r")
+    robot.expect("Not saved")
+    assert robot.told(r"pages\.bin: not saved: another program has replaced or removed the file")
+
+
+def test_pages_that_a_link_should_lead_to_are_not_made_anew(tmp_path, make):
+    (tmp_path / "robot").mkdir()
+    (tmp_path / "robot" / "pages.bin").symlink_to(tmp_path / "stick" / "pages.bin")
+    assert "pages.bin: it is a link that leads nowhere" in refusal("--robot", tmp_path / "robot", port=make().port)
+    assert (tmp_path / "robot" / "pages.bin").is_symlink()

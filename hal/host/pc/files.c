@@ -16,6 +16,7 @@
 #include "pc.h"
 
 enum { EXIT_FILE = 4, PATH_BYTES = 512 };
+enum { PAGE_BYTES = 512, BOARD_MOTIONS = 0x10000, WITHOUT_PAGE_0 = BOARD_MOTIONS - PAGE_BYTES };   /* m512: files/image.py */
 
 static const char *const names[MACHINE_MEMORIES] = {"pages.bin", "journal.bin", "eeprom.bin"};
 static char folder[PATH_BYTES - 32];
@@ -125,9 +126,13 @@ static void read_motions(uint8_t *bytes, uint32_t count)
     if (!is_read) {
         pc_fail(EXIT_FILE, "%s: cannot be read: %s", pc_options.motions, strerror(why));
     }
-    if (got == 0 || got % 512 != 0 || !is_whole) {
-        pc_fail(EXIT_FILE, "%s: not a raw motion area of at most %u pages (m512 convert makes one)", pc_options.motions,
-                (unsigned)(count / 512));
+    if ((got != WITHOUT_PAGE_0 && got != BOARD_MOTIONS && got != count) || !is_whole) {
+        pc_fail(EXIT_FILE, "%s: not a raw motion area of %u, %u or %u bytes (m512 convert makes one)", pc_options.motions,
+                WITHOUT_PAGE_0, BOARD_MOTIONS, (unsigned)count);
+    }
+    if (got == WITHOUT_PAGE_0) {
+        memmove(bytes + PAGE_BYTES, bytes, got);
+        memset(bytes, 0xFF, PAGE_BYTES);
     }
 }
 
@@ -136,9 +141,13 @@ static void read_motions(uint8_t *bytes, uint32_t count)
 bool machine_recall(machine_memory_t memory, uint8_t *bytes, uint32_t count)
 {
     const char *path = path_of(names[memory]);
+    struct stat link;
     const int file = open(path, O_RDWR | O_CLOEXEC);
     if (file < 0 && errno != ENOENT) {
         pc_fail(EXIT_FILE, "%s: %s", path, strerror(errno));
+    }
+    if (file < 0 && lstat(path, &link) == 0) {
+        pc_fail(EXIT_FILE, "%s: it is a link that leads nowhere. Is its disk there?", path);
     }
     if (file < 0) {
         if (memory == MACHINE_PAGES && pc_options.motions != NULL) {
@@ -160,13 +169,25 @@ bool machine_recall(machine_memory_t memory, uint8_t *bytes, uint32_t count)
     return true;
 }
 
+/* Whether the name leads to this file still. A program that replaces a file leaves the old one without a name. */
+static bool is_there(machine_memory_t memory)
+{
+    struct stat here, named;
+    return fstat(files[memory], &here) == 0 && stat(path_of(names[memory]), &named) == 0 && here.st_ino == named.st_ino &&
+           here.st_dev == named.st_dev;
+}
+
 bool machine_keep(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uint32_t count, bool now)
 {
     char sentence[PATH_BYTES + 128];
-    if (write_all(files[memory], bytes, count, (off_t)at) && (!now || is_synced(fdatasync, files[memory]))) {
+    if (!is_there(memory)) {
+        snprintf(sentence, sizeof sentence, "%s: not saved: another program has replaced or removed the file. End this program "
+                 "and start it again", path_of(names[memory]));
+    } else if (write_all(files[memory], bytes, count, (off_t)at) && (!now || is_synced(fdatasync, files[memory]))) {
         return true;
+    } else {
+        snprintf(sentence, sizeof sentence, "%s: not saved: %s", path_of(names[memory]), strerror(errno));
     }
-    snprintf(sentence, sizeof sentence, "%s: not saved: %s", path_of(names[memory]), strerror(errno));
     machine_tell(sentence);
     return false;
 }
