@@ -12,7 +12,7 @@ import xml.etree.ElementTree
 
 import pytest
 
-from tests.sim.sim_command import ROBOT, TOP, Running, play, run
+from tests.sim.sim_command import CM5SIM, ROBOT, TOP, Running, play, run
 
 # --- stored and written files ---
 
@@ -138,6 +138,50 @@ def test_a_kept_file_belongs_to_one_run_at_a_time(tmp_path):
         assert kept.stat().st_size == 0x20000
         assert run(ROBOT, "--flash", kept).returncode == 0
     assert list(tmp_path.iterdir()) == [kept]
+
+
+def test_a_link_to_a_kept_file_leads_to_it_afterwards(tmp_path):
+    """The link once became a file of its own, and the robot that it had led to stayed old."""
+    real, link = tmp_path / "real" / "robot.bin", tmp_path / "link.bin"
+    real.parent.mkdir()
+    link.symlink_to(real)
+    for images in ((ROBOT,), ()):
+        with Running(*images, "--flash", link, "--tcp", "--no-stdio") as first:
+            first.message("serial port: (tcp)")
+            assert b"in use by another cm5sim" in run(ROBOT, "--flash", real).stderr
+            first.stop()
+        assert link.is_symlink() and real.stat().st_size == 0x20000
+    assert sorted(path.name for path in tmp_path.rglob("*")) == ["link.bin", "real", "robot.bin"]
+
+
+@pytest.mark.parametrize("option", ["--flash", "--eeprom", "--servo-eeprom"])
+def test_a_read_only_file_is_refused_and_other_modes_are_kept(tmp_path, option):
+    kept = tmp_path / "template.bin"
+    once = (ROBOT, "--servos", "1", option, kept, "--time", "10ms", "--no-stdio")
+    assert run(*once).returncode == 0
+    kept.chmod(0o600)
+    assert run(*once).returncode == 0 and kept.stat().st_mode & 0o777 == 0o600
+    kept.chmod(0o444)
+    done = run(*once)
+    assert done.returncode == 4 and done.stderr.decode() == f"cm5sim: {kept}: Permission denied\n"
+    assert kept.stat().st_mode & 0o777 == 0o444 and list(tmp_path.iterdir()) == [kept]
+
+
+def test_a_file_of_the_user_is_not_taken_for_the_new_one(tmp_path):
+    mine = tmp_path / "robot.bin.new"
+    mine.write_bytes(b"precious")
+    done = run(ROBOT, "--flash", tmp_path / "robot.bin", "--time", "10ms", "--no-stdio")
+    assert done.returncode == 4 and f"{mine}: holds something" in done.stderr.decode()
+    assert mine.read_bytes() == b"precious" and list(tmp_path.iterdir()) == [mine]
+
+
+def test_a_disk_that_is_full_at_the_end_does_not_stop_the_next_run(tmp_path):
+    once = [ROBOT, "--flash", tmp_path / "robot.bin", "--time", "10ms", "--no-stdio"]
+    small = ["sh", "-c", 'ulimit -f 16; exec "$@"', "sh", CM5SIM]  # no file can grow beyond 8 or 16 KiB
+    done = subprocess.run([*small, *once], capture_output=True, check=False)
+    assert done.returncode == 4 and b"robot.bin.new: File too large" in done.stderr, done.stderr
+    assert list(tmp_path.iterdir()) == []
+    assert run(*once).returncode == 0
 
 
 def test_one_file_for_two_memories_is_refused(tmp_path):

@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import errno
 import os
+import shutil
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from fcntl import LOCK_EX, LOCK_NB, flock
 from functools import partial
 from typing import IO, TYPE_CHECKING
@@ -70,7 +71,9 @@ def is_at(path: str, file: IO[bytes]) -> bool:
 @contextmanager
 def begun(path: str) -> Iterator[None]:
     """Opens the new file already, so that a path that cannot be written is noticed before there is anything to lose, and locks it. The lock
-    ends with the process."""
+    ends with the process. A new file that holds something is not ours: runs leave an empty one at most."""
+    if os.path.exists(path) and not (os.access(path, os.W_OK) and os.stat(path).st_mode & 0o222):  # root has access to everything
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), path)
     with open(beside(path), "ab") as new:
         try:
             flock(new, LOCK_EX | LOCK_NB)
@@ -78,6 +81,8 @@ def begun(path: str) -> Iterator[None]:
             raise OSError(f"{path}: in use by another cm5sim: end that first, or name another file") from None
         if not is_at(beside(path), new):
             raise OSError(f"{path}: another cm5sim has just ended: try again")
+        if os.fstat(new.fileno()).st_size:
+            raise OSError(f"{beside(path)}: holds something, and cm5sim would write over it: move it away, or name another file")
         try:
             yield
         finally:
@@ -105,8 +110,15 @@ def naming(path: str) -> Iterator[None]:
 
 def write_kept(path: str, data: bytes) -> None:
     with naming(beside(path)):
-        with open(beside(path), "wb") as file:
-            file.write(data)
+        try:
+            with open(beside(path), "wb") as file:
+                file.write(data)
+        except OSError:
+            with suppress(OSError):
+                os.truncate(beside(path), 0)  # a part of it is of no use, and would stop the next run
+            raise
+        if os.path.exists(path):
+            shutil.copymode(path, beside(path))
         os.replace(beside(path), path)
 
 

@@ -201,6 +201,10 @@ def parse(arguments: list[str]) -> Options:
         parser.error("no image given (for example play-cm5.hex); --help shows examples")
     if (options.body and options.bus_pty is not None) or (options.view and not options.body):
         parser.error("--view shows the --body, and --body needs a board (no --bus-pty)")
+    for name in ("flash", "eeprom", "servo_eeprom"):
+        path = getattr(options, name)
+        if path and os.path.islink(path):  # the file that it leads to is read, locked and replaced, and the link stays
+            setattr(options, name, os.path.realpath(path))
     if len({os.path.realpath(path) for path in options.kept()}) < len(options.kept()):
         parser.error("--flash, --eeprom and --servo-eeprom need a file each")
     if options.no_stdio and not on_console and not options.script and options.bus_pty is None and options.time == NEVER:
