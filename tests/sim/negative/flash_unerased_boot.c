@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "negative.h"
 
+#ifndef SECOND
+#define SECOND 0x4321
+#endif
+
 static void NOINLINE write_word(uint16_t word)
 {
     boot_page_fill(PAGE, word);
@@ -16,7 +20,7 @@ static void NOINLINE overwrite(void)
         boot_page_erase(PAGE);
         boot_spm_busy_wait();
     }
-    write_word(0x4321);
+    write_word(SECOND);
     boot_rww_enable();
 }
 
