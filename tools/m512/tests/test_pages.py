@@ -242,6 +242,21 @@ def test_a_mtn_that_a_page_can_hold_is_written_in_its_own_place(m512, tmp_path, 
     assert done.exit_code == 0 and "loss:" not in done.stderr and formats.load(mine)[2].name == b"hello", done.stderr
 
 
+def test_a_torn_page_is_not_empty(m512, lib, tmp_path):
+    """A write that is cut leaves the first half of the empty page before the second half of a motion."""
+    data = bytearray(lib.read_bytes())
+    data[9 * 512 : 10 * 512] = EMPTY[:256] + data[3 * 512 + 256 : 4 * 512 - 1] + b"\x01"
+    lib.write_bytes(data)
+    for words in (("copy", "walk", "9"), ("renumber", "walk", "9"), ("merge", lib, "walk:9"), ("mirror", "walk", "9")):
+        done = m512("pages", lib, *words, "--in-place")
+        assert done.exit_code == 5 and "page 9 is not empty" in done.stderr and lib.read_bytes() == data, words
+    assert m512("pages", lib, "copy", "walk", "9", "--replace", "--in-place").exit_code == 0
+    large = tmp_path / "large.bin"
+    large.write_bytes(EMPTY * 200 + data[9 * 512 : 10 * 512] + EMPTY * 55)
+    done = m512("convert", large, tmp_path / "small.bin", "--pages", "128")
+    assert done.exit_code == 0 and "loss: page 200: no room among 128 pages, left out" in done.stderr and "kept" not in done.stderr, done.stderr
+
+
 def test_a_text_of_ours_is_written_in_its_own_place(m512, lib, tmp_path):
     """It contains nothing that would be lost."""
     ours = tmp_path / "ours.m512"

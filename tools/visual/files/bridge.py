@@ -53,7 +53,7 @@ def opened(name, data, leave_out=False):
     if image.bits != BITS:
         notes = [note.replace(f"; {scale12.HINT}", "; it is scaled to 10 bit") for note in notes]
         image, losses = scale12.scaled(image, BITS)
-    conversion.treat_damaged(image, path, "keep", notes)
+    conversion.treat_damaged(image, path, "keep", notes, BOARD_PAGES)
     lost = image.beyond(BOARD_PAGES)
     if lost and not leave_out:
         return {"no_room": named_pages_text(lost)}

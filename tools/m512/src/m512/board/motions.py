@@ -110,7 +110,7 @@ def _must_be_as_found(numbers: list[int], found: Image, read: Callable[[int], Pa
 
 def _is_nothing(number: int, page: Page) -> bool:
     """Whether a page of a board is erased or empty. An empty page 0 may hold the trim."""
-    return is_erased(page) or (bytes(page) == EMPTY if number == 0 else page.is_empty and not page.fault())
+    return is_erased(page) or (bytes(page) == EMPTY if number == 0 else page.is_empty)
 
 
 def _flash_pages(numbers: list[int], image: Image) -> dict[int, bytes]:

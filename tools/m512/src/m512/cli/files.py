@@ -127,7 +127,7 @@ def convert(
         notes = [note.replace(f"; {scale12.HINT}", "") for note in notes]
         image, report = scale12.scaled(image, int(scale))
         losses += report
-    bad = conversion.treat_damaged(image, source, damaged, notes)
+    bad = conversion.treat_damaged(image, source, damaged, notes, count and int(count) or conversion.fitting(image, target))
     image, lost = conversion.fitted(image, count and int(count), target)
     losses += lost
     losses += formats.save(target, image, replace=force)

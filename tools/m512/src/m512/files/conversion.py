@@ -22,9 +22,10 @@ def damaged_pages(image: Image) -> list[tuple[int, str]]:
     return [(number, page.fault_text(image.kind)) for number, page in image.items() if page.fault(image.kind) and not is_erased(page)]
 
 
-def treat_damaged(image: Image, source: Path, how: str, notes: list[str]) -> list[int]:
-    """Keeps or drops damaged pages (`how`: keep, drop), in place and with a note. Returns their numbers. RefusedError: damaged pages and
-    `how` is ask. FileError: every page is damaged or erased, so the file holds no motions."""
+def treat_damaged(image: Image, source: Path, how: str, notes: list[str], count: int) -> list[int]:
+    """Keeps or drops damaged pages (`how`: keep, drop), in place and with a note. Those from `count` on are not kept, and
+    Image.resized() names them. Returns their numbers. RefusedError: damaged pages and `how` is ask. FileError: every page is damaged or
+    erased, so the file holds no motions."""
     bad = damaged_pages(image)
     if bad and len(bad) + sum(is_erased(page) for page in image.pages) == len(image.pages):
         raise FileError(
@@ -36,7 +37,8 @@ def treat_damaged(image: Image, source: Path, how: str, notes: list[str]) -> lis
     found, few = Findings(), len(bad) <= FEW
     for page, why in bad:
         done = "replaced by an empty page" if how == "drop" else "kept byte for byte"
-        found.add(page, "", f"damaged, {done}" + ("" if few else " (m512 pages FILE check says what is wrong)"), why if few else "")
+        if how == "drop" or page < count:
+            found.add(page, "", f"damaged, {done}" + ("" if few else " (m512 pages FILE check says what is wrong)"), why if few else "")
         if how == "drop":
             image[page] = Page()
     notes += found.lines()

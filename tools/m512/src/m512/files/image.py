@@ -93,11 +93,7 @@ class Image:
 
     def used(self) -> list[int]:
         """Pages that hold something, including damaged ones and page 0 if it holds a trim, however many steps it says."""
-        return [
-            number
-            for number, page in self.items()
-            if not is_erased(page) and (not page.is_empty or page.fault(self.kind) or number == 0 and any(page.trims()))
-        ]
+        return [number for number, page in self.items() if not is_erased(page) and (not page.is_empty or number == 0 and any(page.trims()))]
 
     def _words(self) -> dict[int, str]:
         """The names as a user types them."""

@@ -249,8 +249,8 @@ class Page:
 
     @property
     def is_empty(self) -> bool:
-        """No action and no name: lists leave such pages out."""
-        return self.steps == 0 and not self.name
+        """No action and no name, and sound: lists leave such pages out. A torn page may have the first half of an empty one."""
+        return self.steps == 0 and not self.name and not self.fault()
 
 
 def is_used(word: int) -> bool:

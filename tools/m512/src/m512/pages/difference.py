@@ -137,7 +137,7 @@ def _softness(page: Page, joint: int) -> str:
 
 def _whole(number: int, a: Page, b: Page, kind: Kind, other: Kind) -> list[Change]:
     """The change as a whole, for pages that appear, disappear or have nothing in common; else an empty list."""
-    if number == 0 and all(is_erased(page) or page.is_empty and not page.fault() for page in (a, b)):
+    if number == 0 and all(is_erased(page) or page.is_empty for page in (a, b)):
         trims = _trims(a, b)
         if trims:
             return trims
@@ -148,7 +148,7 @@ def _whole(number: int, a: Page, b: Page, kind: Kind, other: Kind) -> list[Chang
         return [Change(number, b.title, "", "empty", _summary(b, other))]
     if b.is_empty and not a.is_empty:
         return [Change(number, a.title, "", _summary(a, kind), "empty")]
-    if a.is_empty and b.is_empty and a != b and not a.fault() and not b.fault():
+    if a.is_empty and b.is_empty and a != b:
         return [Change(number, "", BOTH_EMPTY, "", "")]
     return []
 

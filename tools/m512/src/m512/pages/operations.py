@@ -129,7 +129,7 @@ def rename(image: Image, number: int, name: str) -> list[str]:
 def _must_be_free(image: Image, number: int, replace: bool, how: str = "--replace overwrites it") -> None:
     page = image[number]
     title = f' "{page.title}"' if page.name else ""
-    is_free = is_erased(page) or page.is_empty and not (number == 0 and any(page.trims()))
+    is_free = len(set(page.data)) == 1 or page.is_empty and not (number == 0 and any(page.trims()))
     if not is_free and not replace:
         raise RefusedError(f"page {number}{title} is not empty ({how})")
 

@@ -268,10 +268,10 @@ def write_text(image: Image) -> str:
 
 
 def _runs(image: Image) -> list[tuple[tuple[int, int], Page]]:
-    """Runs of equal pages that are empty or erased. Every other page is on its own."""
+    """Runs of equal pages that are empty, erased or filled with one value. Every other page is on its own."""
     out: list[tuple[tuple[int, int], Page]] = []
     for number, page in image.items():
-        if out and out[-1][1] == page and out[-1][0][1] == number - 1 and (page.is_empty or is_erased(page)):
+        if out and out[-1][1] == page and out[-1][0][1] == number - 1 and (page.is_empty or len(set(page.data)) == 1):
             out[-1] = ((out[-1][0][0], number), page)
         else:
             out.append(((number, number), page))
