@@ -17,7 +17,7 @@ export interface ImageParts {
     readonly state: Store<SessionState>;
     readonly format: PageFormat;
     /** The robot whose image is changed. */
-    robot(): Pick<SimulatedSource, 'restart' | 'forget' | 'prepare' | 'connection'>;
+    robot(): Pick<SimulatedSource, 'restart' | 'prepare' | 'connection'>;
     /** Pages are being written, which needs Edit. */
     isWriting(): boolean;
     /** What Edit has in RAM is a page that this page has half sent, and nobody's edits. */
@@ -62,14 +62,6 @@ export class RobotImages {
         const { connection, version, stopped } = this.state;
         const answers = connection === 'ready' && version?.image === 'edit' && stopped === null;
         return answers ? (this.parts.robot().connection?.requests ?? null) : null;
-    }
-
-    /** Restarts the robot in its factory state. */
-    async forget(): Promise<void> {
-        const { robot, fail } = this.parts;
-        await robot()
-            .forget(this.state.image)
-            .catch((cause: unknown) => fail(imageError(cause)));
     }
 
     /** Only Edit saves pages. The robot restarts with Edit, stands up, and keeps Edit until somebody drives it. */

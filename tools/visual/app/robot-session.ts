@@ -28,6 +28,7 @@ import type { KeptDocuments } from './documents.ts';
 import { Driving } from './driving.ts';
 import { DocumentFiles } from './files.ts';
 import { Follow } from './follow.ts';
+import { imageError } from './image-error.ts';
 import { SimulatorControls } from './simulator-controls.ts';
 import { Listeners } from './listeners.ts';
 import { Status } from './status.ts';
@@ -418,9 +419,12 @@ export class RobotSession implements Session {
         this.images.run(image);
     }
 
-    forget(): Promise<void> {
+    /** My servos may have become the robot in use while the question stood. They forget nothing. */
+    async forget(): Promise<void> {
+        if (!this.isSimulated) return this.messages.complain(TEXTS.robotPane.onlyInPage, 'robot');
         this.dropForRestart();
-        return this.images.forget();
+        const { simulated } = this.sources;
+        await simulated.forget(simulated.image).catch((cause: unknown) => this.messages.fail(imageError(cause)));
     }
 
     private dropWaiting(): void {

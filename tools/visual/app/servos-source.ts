@@ -10,7 +10,7 @@ import { canRunServos } from '../servos/machine.ts';
 import type { FromServos } from '../servos/messages.ts';
 import { ServosClient } from '../servos/servos-client.ts';
 import type { ImageName } from '../view/session/session.ts';
-import { forgetServos, loadServos, saveServos } from '../view/robot-store.ts';
+import { loadServos, saveServos } from '../view/robot-store.ts';
 import { errorText } from '../view/texts/robot.ts';
 import { TEXTS } from '../view/texts/texts.ts';
 import { motionLibrary, servosModule } from './assets.ts';
@@ -94,16 +94,6 @@ export class ServosSource {
         return this.turns.run(() => this.again(image));
     }
 
-    /** Like restart(), but with the memories of a new robot. */
-    forget(image: ImageName): Promise<void> {
-        return this.turns.run(async () => {
-            await this.again(image, () => {
-                this.unstored = null;
-                return forgetServos().catch(() => this.say(TEXTS.robot.notKept, 'bad'));
-            });
-        });
-    }
-
     /** Nothing to do: the robot stands where its owner has put it. */
     prepare(): Promise<void> {
         return Promise.resolve();
@@ -123,13 +113,12 @@ export class ServosSource {
         this.release = null;
     }
 
-    private async again(image: ImageName, meanwhile: () => Promise<void> = () => Promise.resolve()): Promise<void> {
+    private async again(image: ImageName): Promise<void> {
         if (!this.isUsed) return;
         const module = await programOf(image); // if it cannot be had, the robot goes on as it was
         if (!this.isUsed) return;
         this.events.change({ connection: 'closed', version: null, where: null, adapter: null, stopped: null });
         await this.end();
-        await meanwhile();
         if (!this.isUsed) return;
         try {
             await this.begin(image, module);

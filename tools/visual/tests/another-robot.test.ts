@@ -107,6 +107,18 @@ test('a motion that waited for the robot in the page to stand up does not play o
     expect(yours.sent).not.toContain('@play');
 });
 
+test('My servos become the robot in use while the page asks whether its robot is to forget everything: neither forgets', async () => {
+    const { session } = await page('play');
+    const forget = vi.spyOn(SimulatedSource.prototype, 'forget').mockResolvedValue();
+    session.state.set({ source: 'servos', connection: 'closed' });
+    await session.forget();
+    expect(forget).not.toHaveBeenCalled();
+    expect(session.state.get().message?.text).toBe(TEXTS.robotPane.onlyInPage);
+    session.state.set({ source: 'simulated' });
+    await session.forget();
+    expect(forget).toHaveBeenCalledTimes(1);
+});
+
 test('a key that waited for the robot in the page does not move yours', async () => {
     const { session, yours, connect, stand } = await page('play');
     session.state.set({ connection: 'asking' });

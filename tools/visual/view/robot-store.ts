@@ -69,7 +69,3 @@ export async function loadServos(): Promise<readonly Uint8Array[] | null> {
 export async function saveServos(memories: readonly Uint8Array[]): Promise<void> {
     await withStore('readwrite', store => store.put(memories, SERVOS), { durability: 'strict' });
 }
-
-export function forgetServos(): Promise<void> {
-    return forgetRobot(SERVOS);
-}
