@@ -89,8 +89,10 @@ export class RobotPlays {
 
     private async begin(page: number, isLast: () => boolean): Promise<boolean> {
         await this.parts.prepare();
+        const { requests, version } = this.parts.connection();
+        if (version?.image === 'edit') await this.parts.transfer.dropHalfSent(requests);
         if (!isLast()) return false;
-        await play(this.requests, page);
+        await play(requests, page);
         return true;
     }
 

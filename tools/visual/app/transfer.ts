@@ -14,7 +14,7 @@ import type { PageFormat } from '../model/page-format.ts';
 import { HalfSent } from '../robot/half-sent.ts';
 import type { KeptPages } from '../robot/half-sent.ts';
 import { readPages } from '../robot/page-read.ts';
-import { askPageCrcs } from '../robot/page-requests.ts';
+import { askPageCrcs, hasUnsavedEdits } from '../robot/page-requests.ts';
 import type { Ask } from '../robot/page-requests.ts';
 import { PageWrite } from '../robot/page-write.ts';
 import { RobotError } from '../robot/robot-error.ts';
@@ -67,6 +67,15 @@ export class RobotTransfer implements Transfer {
     /** Whether what Edit has in RAM is a page that was half sent, and nobody's edits. */
     async isHalfSent(requests: Ask): Promise<boolean> {
         return (await this.sent.find(requests)) !== null;
+    }
+
+    /** Before Edit plays: it plays the open page from RAM. A page that was half sent there is put back, or a motion would play that nobody has
+     *  made. Rejects with RobotError: transfer-busy, page-mixed if somebody has perhaps edited it, or as a request does. */
+    async dropHalfSent(requests: Ask): Promise<void> {
+        if (this.isWriting) throw new RobotError('transfer-busy');
+        const { last } = this.sent;
+        if (last === null || !(await hasUnsavedEdits(requests, this.parts.format)) || (await this.sent.putBack(requests))) return;
+        throw new RobotError('page-mixed', String(last.page));
     }
 
     get isWriting(): boolean {

@@ -2,11 +2,18 @@
 // A page that was half sent into the RAM of the real Edit when the cable was pulled, and is then not written again as it was. Nobody has
 // edited there, so nobody may be asked to save it.
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
+import type { DocumentEditor } from '../app/editor.ts';
+import { RobotPlays } from '../app/robot-plays.ts';
 import { SENT_PAGES } from '../app/sent-pages.ts';
 import { RobotTransfer } from '../app/transfer.ts';
 import { pageOf } from '../model/document.ts';
+import type { Connection } from '../robot/connection.ts';
+import { askRamCrc } from '../robot/page-requests.ts';
+import { askWhere } from '../robot/protocol.ts';
 import type { RobotError } from '../robot/robot-error.ts';
 import { MOTIONS_ADDRESS } from '../sim/board.ts';
+import type { SessionState } from '../view/session/session.ts';
+import { Store } from '../view/store.ts';
 import { transferText } from '../view/texts/editor.ts';
 import { errorText } from '../view/texts/robot.ts';
 import { connectedEdit } from './connected.ts';
@@ -70,6 +77,11 @@ async function halfSent(seed: number, isErased = false) {
     bench.board.send = send;
     for (let i = 0; i < 400 && connection.state !== 'ready'; i++) await bench.run(25);
     return { edit, bench, connection, ...page };
+}
+
+function playsOf(connection: Connection, transfer: RobotTransfer): RobotPlays {
+    const [state, editor] = [new Store({} as SessionState), {} as DocumentEditor]; // not asked by play()
+    return new RobotPlays({ state, editor, transfer, connection: () => connection, prepare: () => Promise.resolve() });
 }
 
 function flashPage(bench: RobotBench, page: number): Uint8Array {
@@ -142,6 +154,36 @@ test('somebody edits the half one in Edit: nothing is written, SAVE is not what 
     await typed('y');
     expect(await bench.until(transfer.tryAgain(), 60_000)).toEqual({ isDone: true });
     expect(flashPage(bench, OTHER)).toEqual(pageOf(library, 2));
+});
+
+test('played instead: what flash has plays, and the half one is not left in RAM', async () => {
+    const { bench, connection, transfer } = await halfSent(77);
+    const plays = playsOf(connection, transfer);
+    expect(await bench.until(plays.play(HALF), 60_000)).toBe(true);
+    const crc = await bench.until(askRamCrc(connection.requests));
+    expect(crc).toBe(format.crc(pageOf(library, HALF)));
+    expect((await bench.until(askWhere(connection.requests))).page).toBe(HALF);
+});
+
+test('somebody edits the half one in Edit: it does not play, and it is said why', async () => {
+    const { bench, connection, transfer } = await halfSent(78);
+    await bench.until(connection.write(new TextEncoder().encode('name mixed\r')));
+    await bench.run(2000);
+    const played = expect(bench.until(playsOf(connection, transfer).play(HALF), 60_000)).rejects;
+    await played.toMatchObject({ code: 'page-mixed', words: '3' });
+    expect((await bench.until(askWhere(connection.requests))).state).toBe('idle');
+});
+
+test("somebody's own edits play, and a page that is being written does not", async () => {
+    const edit = await connectedEdit(79);
+    const { bench, connection } = edit;
+    const { transfer } = loaded(edit, 12, 2);
+    const plays = playsOf(connection, transfer);
+    await bench.until(connection.write(new TextEncoder().encode('name mine\r')));
+    await bench.run(2000);
+    expect(await bench.until(plays.play(1), 60_000)).toBe(true);
+    transfer.state.set({ phase: 'writing' });
+    await expect(bench.until(plays.play(1), 60_000)).rejects.toMatchObject({ code: 'transfer-busy' });
 });
 
 test('a browser that keeps nothing, or something else, knows of no half one', () => {
