@@ -23,14 +23,9 @@ async function start(): Promise<void> {
     const session = new RobotSession(body, parts, fileFormats(), storage);
     const commitTyped = watchTyping(document);
     document.addEventListener('visibilitychange', () => leave(storage, commitTyped)); // the last event that a page receives, also on reload
-    window.addEventListener('beforeunload', event => losesWork(session) && event.preventDefault());
+    window.addEventListener('beforeunload', event => session.losesWork && event.preventDefault());
     await Promise.all([session.start(), show(session, parts, commitTyped)]); // the robot starts in its worker while the page is built
     keepOffline(session);
-}
-
-/** Something is lost when the page is left: documents, or what the robot in the page has saved. */
-function losesWork({ documents, state }: RobotSession): boolean {
-    return documents.state.get().saving === 'off' || state.get().hasUnkept;
 }
 
 function leave({ storage }: ChosenStorage, commitTyped: () => void): void {

@@ -12,6 +12,8 @@ import { imageError } from './image-error.ts';
 import type { SimulatedSource } from './simulated-source.ts';
 
 const READY_MS = 180_000;
+/** A person who types is not held up by what Edit is asked after each key. */
+const TYPING_MS = 1000;
 
 export interface ImageParts {
     readonly state: Store<SessionState>;
@@ -32,6 +34,7 @@ export class RobotImages {
     private leaving: { readonly robot: unknown; readonly done: Promise<void> } | null = null;
     /** Counts changes of the image. The last one counts. */
     private asked = 0;
+    private looking: ReturnType<typeof setTimeout> | undefined;
 
     constructor(parts: ImageParts) {
         this.parts = parts;
@@ -57,10 +60,31 @@ export class RobotImages {
         if (await this.hasEdits(edit).catch(() => false)) throw new RobotError('page-unsaved');
     }
 
-    /** Edit, if it runs and answers. */
+    /** A key may have edited. */
+    typed(): void {
+        if (this.edit === null) return;
+        this.parts.state.set({ hasEdits: true });
+        this.look();
+    }
+
+    /** Whether Edit has edits, of which it may have had some. It cannot be asked any more when the page is left. */
+    look(): void {
+        clearTimeout(this.looking);
+        if (this.state.hasEdits) this.looking = setTimeout(() => void this.learnEdits().catch(() => undefined), TYPING_MS);
+    }
+
+    private async learnEdits(): Promise<void> {
+        const { edit } = this;
+        const { source, speed } = this.state;
+        if (edit === null || (source === 'simulated' && speed === 0)) return;
+        const hasEdits = await this.hasEdits(edit);
+        if (edit === this.edit) this.parts.state.set({ hasEdits });
+    }
+
+    /** Edit, if it runs and answers. Yours is no robot of this page. */
     private get edit(): Ask | null {
-        const { connection, version, stopped } = this.state;
-        const answers = connection === 'ready' && version?.image === 'edit' && stopped === null;
+        const { source, connection, version, stopped } = this.state;
+        const answers = source !== 'yours' && connection === 'ready' && version?.image === 'edit' && stopped === null;
         return answers ? (this.parts.robot().connection?.requests ?? null) : null;
     }
 
@@ -130,6 +154,7 @@ export class RobotImages {
         state.set({ image });
         try {
             await robot().restart(image);
+            if (source === state.get().source) state.set({ hasEdits: false });
         } catch (cause) {
             const { version } = state.get();
             const runs = version?.image === 'play' || version?.image === 'edit' ? version.image : before;

@@ -74,6 +74,8 @@ const startState = (): SessionState => ({
     isLate: false,
     isSecond: false,
     hasUnkept: false,
+    hasUnkeptServos: false,
+    hasEdits: false,
 });
 
 export class RobotSession implements Session {
@@ -227,7 +229,10 @@ export class RobotSession implements Session {
                 this.messages.hear(bytes);
                 this.follower.hear(bytes);
             },
-            connection: state => this.arrival.connectionChanged(state),
+            connection: state => {
+                this.arrival.connectionChanged(state);
+                if (state === 'ready') this.images.look();
+            },
             change: change => {
                 this.state.set(change.message === null ? { ...change, message: this.messages.unread } : change);
                 if (change.physics === 'on') this.arrival.standUp();
@@ -379,6 +384,7 @@ export class RobotSession implements Session {
     type(bytes: Uint8Array): void {
         if (bytes.length > MOST_TYPED) return this.messages.complain(TEXTS.terminal.tooLong, 'robot');
         this.status.typed();
+        this.images.typed();
         if (bytes.some(byte => ACTED_UPON.has(byte))) this.dropMoves('line');
         void this.write(bytes).catch(this.messages.fail);
     }
@@ -393,13 +399,20 @@ export class RobotSession implements Session {
 
     async reload(reload: () => void): Promise<boolean> {
         try {
-            if (this.state.get().source !== 'yours') await this.images.mustHaveNoEdits();
+            await this.images.mustHaveNoEdits();
         } catch (error) {
             this.messages.fail(error);
             return false;
         }
+        this.state.set({ hasEdits: false }); // asked a moment ago, or Edit hangs
         reload();
         return true;
+    }
+
+    /** Something is lost when the page is left: documents, what a robot of this page has saved, or edits in its Edit. */
+    get losesWork(): boolean {
+        const { hasUnkept, hasUnkeptServos, hasEdits } = this.state.get();
+        return this.documents.state.get().saving === 'off' || hasUnkept || hasUnkeptServos || hasEdits;
     }
 
     useSimulated(): void {

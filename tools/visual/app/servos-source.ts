@@ -39,7 +39,7 @@ export class ServosSource {
     private release: Release | null = null;
     /** false: another robot was chosen. A program that is being restarted then stays ended. */
     private isUsed = false;
-    /** What the browser could not store. The next program gets it all the same. */
+    /** What the browser has not stored, or could not. The next program gets it all the same. */
     private unstored: readonly Uint8Array[] | null = null;
     /** false: what is stored could not be read, and must not be replaced by what the program then has: the motions of a new robot. */
     private mayStore = true;
@@ -221,14 +221,19 @@ export class ServosSource {
         return kept ? [...kept] : [await motionLibrary(), null, null];
     }
 
+    private setUnstored(memories: readonly Uint8Array[] | null): void {
+        this.unstored = memories;
+        this.events.change({ hasUnkeptServos: memories !== null });
+    }
+
     private async keep(memories: readonly Uint8Array[]): Promise<boolean> {
+        this.setUnstored(memories);
         try {
             if (!this.mayStore) throw new Error('what is stored could not be read');
             await saveServos(memories);
-            this.unstored = null;
+            if (memories === this.unstored) this.setUnstored(null);
             return true;
         } catch {
-            this.unstored = memories;
             this.say(TEXTS.robot.notKept, 'bad');
             return false;
         }

@@ -119,6 +119,21 @@ test('My servos become the robot in use while the page asks whether its robot is
     expect(forget).toHaveBeenCalledTimes(1);
 });
 
+test('who leaves the page is asked if a robot of the page would lose something', async () => {
+    const { session } = await page('play');
+    expect(session.losesWork).toBe(false);
+    for (const unkept of ['hasUnkept', 'hasUnkeptServos'] as const) {
+        session.state.set({ [unkept]: true });
+        expect(session.losesWork).toBe(true);
+        session.state.set({ [unkept]: false });
+    }
+    const { version } = session.state.get();
+    session.state.set({ image: 'edit', version: version && { ...version, image: 'edit' } });
+    session.type(new TextEncoder().encode('n'));
+    expect(session.losesWork).toBe(true);
+    await vi.waitFor(() => expect(session.losesWork).toBe(false), { timeout: 10_000 }); // its page is empty
+});
+
 test('a key that waited for the robot in the page does not move yours', async () => {
     const { session, yours, connect, stand } = await page('play');
     session.state.set({ connection: 'asking' });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Another image for the robot in the page or for My servos, when something goes wrong meanwhile.
-import { expect, test, vi } from 'vitest';
+import { expect, onTestFinished, test, vi } from 'vitest';
 import { RobotImages } from '../app/robot-images.ts';
 import type { ImageParts } from '../app/robot-images.ts';
 import type { PageFormat } from '../model/page-format.ts';
@@ -120,6 +120,39 @@ test.each([true, false])(
         await vi.waitFor(() => expect(restart.mock.calls).toEqual([['play']]));
     },
 );
+
+test('a key in Edit may have edited: until the robot says otherwise, leaving the page would lose that', async () => {
+    vi.useFakeTimers();
+    onTestFinished(() => void vi.useRealTimers());
+    const ready = { source: 'simulated', image: 'edit', connection: 'ready', version: { image: 'edit' }, stopped: null, hasEdits: false };
+    const state = new Store(ready as unknown as SessionState);
+    let ram = '0002';
+    const ask = vi.fn((text: string) => Promise.resolve(text.startsWith('@crcs') ? '0001'.repeat(128) : ram));
+    const robot = { restart: () => Promise.resolve(), prepare: vi.fn(), connection: { requests: { ask } } };
+    const images = imagesWith({
+        state,
+        format: { crc: () => 0 } as unknown as PageFormat,
+        robot: () => robot as unknown as ReturnType<ImageParts['robot']>,
+    });
+    /** Right behind the key, and when the robot has been asked. */
+    const afterKey = async (): Promise<boolean[]> => {
+        images.typed();
+        const { hasEdits } = state.get();
+        await vi.advanceTimersByTimeAsync(2000);
+        return [hasEdits, state.get().hasEdits];
+    };
+    expect(await afterKey()).toEqual([true, true]);
+    ram = '0001'; // saved
+    expect(await afterKey()).toEqual([true, false]);
+    state.set({ source: 'yours' }); // which keeps its edits
+    expect(await afterKey()).toEqual([false, false]);
+    state.set({ source: 'simulated' });
+    ask.mockRejectedValue(new RobotError('no-answer'));
+    expect(await afterKey()).toEqual([true, true]);
+    images.run('play');
+    await vi.advanceTimersByTimeAsync(0);
+    expect(state.get().hasEdits).toBe(false);
+});
 
 test('a key for My servos with Edit does not wait for the robot in the page, whose time stands still', async () => {
     const state = new Store({

@@ -219,6 +219,20 @@ test('a browser that stores nothing: Play has what Edit has saved', async () => 
     await source.close();
 });
 
+test('what a program has saved is lost with the page until the browser has stored it, also when another robot is used', async () => {
+    const { source, events } = await runs();
+    const isUnkept = () => events.change.mock.calls.findLast(([change]) => 'hasUnkeptServos' in change)?.[0].hasUnkeptServos;
+    browser.saves = false;
+    Runs.last.tell({ kind: 'keep', id: 1, memories: [new Uint8Array([7])] });
+    expect(isUnkept()).toBe(true);
+    await new Promise(resolve => setTimeout(resolve, 5));
+    expect(isUnkept()).toBe(true);
+    browser.saves = true;
+    Runs.last.tell({ kind: 'keep', id: 2, memories: [new Uint8Array([8])] });
+    await vi.waitFor(() => expect(isUnkept()).toBe(false));
+    await source.close();
+});
+
 test('what is stored cannot be read: it is not replaced by the motions of a new robot', async () => {
     Object.assign(browser, { reads: false, kept: [new Uint8Array([7])] });
     const { source, events } = await runs();

@@ -69,6 +69,10 @@ export interface SessionState {
     readonly isSecond: boolean;
     /** The robot in the page has saved something that the browser does not have. */
     readonly hasUnkept: boolean;
+    /** My servos have, chosen or not. */
+    readonly hasUnkeptServos: boolean;
+    /** Edit of the robot in the page or of My servos has edits that are not saved. It counts as having some between a key and its answer. */
+    readonly hasEdits: boolean;
 }
 
 /** A hand at a point of a link (metres, in the link's frame) that pulls towards a target in the room. */
