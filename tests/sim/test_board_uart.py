@@ -5,6 +5,8 @@ import struct
 
 import pytest
 
+from cm5sim import Board
+from cm5sim.library import build_folder
 from tests.sim.lab_board import Lab
 
 RXC, FE, DOR = 0x80, 0x10, 0x08
@@ -115,6 +117,15 @@ def test_third_character_is_lost_at_the_start_bit_of_the_fourth(begins, lost):
     lab.run(cycles=read_at + begins - lab.now_cycles)
     lab.send(b"d", wait=True)
     assert lab.uart(1).overruns == lost
+
+
+def test_character_that_has_begun_before_the_receiver_is_on_is_not_heard():
+    board = Board(images=[build_folder() / "firmware" / "lab" / "lab.hex"])
+    board.run_to("main", ms=10)
+    while not board.pin("D5"):  # the gate is open; the receiver is on three writes later
+        board.run(cycles=1)
+    board.send(b"c" + bytes(6), wait=True)
+    assert (board.uart(1).deaf, board.uart(1).received) == (1, 6)
 
 
 def test_gates_let_pc_and_remote_in():
