@@ -181,8 +181,8 @@ bool machine_keep(machine_memory_t memory, uint32_t at, const uint8_t *bytes, ui
 {
     char sentence[PATH_BYTES + 128];
     if (!is_there(memory)) {
-        snprintf(sentence, sizeof sentence, "%s: not saved: another program has replaced or removed the file. End this program "
-                 "and start it again", path_of(names[memory]));
+        snprintf(sentence, sizeof sentence, "%s: not saved: another program has replaced or removed the file. "
+                 "End this program and start it again", path_of(names[memory]));
     } else if (write_all(files[memory], bytes, count, (off_t)at) && (!now || is_synced(fdatasync, files[memory]))) {
         return true;
     } else {
