@@ -68,16 +68,15 @@ export class Hands {
         return this.holding > 0;
     }
 
-    /** Sets the forces for the next step. false: there are none, and were none in the last. */
-    pull(): boolean {
+    /** Sets the forces for the next step. */
+    pull(): void {
         const isTouched = this.grip !== null || this.holding > 0;
-        if (!isTouched && !this.wasTouched) return false; // MuJoCo keeps applying a force until it is cleared
+        if (!isTouched && !this.wasTouched) return; // MuJoCo keeps applying a force until it is cleared
         this.wasTouched = isTouched;
         const forces = this.body.data.xfrc_applied;
         forces.fill(0);
         if (this.grip) this.pullGrip(forces, this.grip);
         if (this.holding > 0) this.pullTrunk(forces);
-        return true;
     }
 
     private pullGrip(forces: Float64Array, grip: LinkGrip): void {

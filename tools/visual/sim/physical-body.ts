@@ -18,9 +18,6 @@ import type { Data, Model, Mujoco } from './mujoco.ts';
 
 const FALLEN = 0.55;
 const LIFTED_M = 2;
-/** A body that no hand touches and that has not moved for so many steps stays as it is, and costs nothing, until a torque changes. Metres
- *  and radians a second: several times what a standing robot trembles by. N m: a thousandth of what a servo can give. */
-const REST = { steps: 1024, speed: 5e-3, torque: 1e-3 };
 
 interface Shaft {
     readonly angleAt: number;
@@ -44,10 +41,6 @@ export class PhysicalBody implements HandledBody {
     readonly stepsPerSecond: number;
     readonly massKg: number;
     private readonly hands: Hands;
-    /** Steps without movement. */
-    private still = 0;
-    /** The torques at which it rests. */
-    private restTorques = new Float64Array();
 
     /** xml: body.xml. Throws MuJoCo's message if it is not a valid model. */
     constructor(mujoco: Mujoco, xml: string, body: Body) {
@@ -71,7 +64,6 @@ export class PhysicalBody implements HandledBody {
 
     /** Puts the robot on its feet in the middle of the room with these joint angles. The trunk leans so that the soles are flat. */
     begin(angleOf: (servo: number) => number, body: Body): void {
-        this.still = 0;
         this.mujoco.mj_resetData(this.model, this.data);
         for (const joint of body.joints) {
             const shaft = this.shafts.get(joint.servo);
@@ -101,29 +93,14 @@ export class PhysicalBody implements HandledBody {
 
     /** step() of servo_body.h: advances 1/1024 s with these torques. */
     step(shafts: Float64Array): void {
-        const { ctrl } = this.data;
-        let isMoved = this.hands.pull();
+        const ctrl = this.data.ctrl;
         for (let at = 0; at < shafts.length; at += SHAFT_FIELDS) {
             const shaft = this.shafts.get(shafts[at] ?? -1);
-            if (!shaft) continue;
-            const torque = shaft.direction * (shafts[at + 1] ?? 0);
-            ctrl[shaft.torqueAt] = torque;
-            isMoved ||= this.isAtRest && Math.abs(torque - (this.restTorques[shaft.torqueAt] ?? 0)) > REST.torque;
+            if (shaft) ctrl[shaft.torqueAt] = shaft.direction * (shafts[at + 1] ?? 0);
         }
-        if (isMoved) this.still = 0;
-        if (!this.isAtRest) this.advance();
-        this.look(shafts);
-    }
-
-    private advance(): void {
+        this.hands.pull();
         this.mujoco.mj_step(this.model, this.data);
-        this.still = this.data.qvel.every(speed => Math.abs(speed) < REST.speed) ? this.still + 1 : 0;
-        if (this.isAtRest) this.restTorques = this.data.ctrl.slice();
-    }
-
-    /** Nothing moves, so physics is not computed. */
-    get isAtRest(): boolean {
-        return this.still >= REST.steps;
+        this.look(shafts);
     }
 
     setGrip(grip: Grip | null): void {
@@ -142,7 +119,6 @@ export class PhysicalBody implements HandledBody {
 
     /** Tilts gravity instead of the floor; the picture tilts the floor. */
     setFloor(floor: Floor): void {
-        this.still = 0;
         const gravity = this.model.opt.gravity;
         gravity[0] = GRAVITY * Math.sin(floor.tiltFront) * Math.cos(floor.tiltLeft);
         gravity[1] = GRAVITY * Math.sin(floor.tiltLeft);
