@@ -90,7 +90,7 @@ export class RobotPlays {
     private async begin(page: number, isLast: () => boolean): Promise<boolean> {
         await this.parts.prepare();
         const { requests, version } = this.parts.connection();
-        if (version?.image === 'edit') await this.parts.transfer.dropHalfSent(requests);
+        if (version?.image === 'edit') await this.parts.transfer.dropHalfSent(requests, page);
         if (!isLast()) return false;
         await play(requests, page);
         return true;

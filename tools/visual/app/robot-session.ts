@@ -231,7 +231,9 @@ export class RobotSession implements Session {
             },
             connection: state => {
                 this.arrival.connectionChanged(state);
-                if (state === 'ready') this.images.look();
+                if (state !== 'ready') return;
+                this.images.look();
+                if (!this.isSimulated && this.heldWithStop.has('b6')) void this.command('stop'); // pressed while the cable was out
             },
             change: change => {
                 this.state.set(change.message === null ? { ...change, message: this.messages.unread } : change);
@@ -367,12 +369,12 @@ export class RobotSession implements Session {
     /** A packet of the remote may be lost on a line, Edit ignores it, and an unknown board gets none: there button 6 is a request. */
     remote(held: ReadonlySet<RemoteButton>): void {
         const stops = held.has('b6');
-        if (stops) this.dropForStop();
+        const isPressed = stops && !this.heldWithStop.has('b6');
+        this.heldWithStop = new Set([...held].filter(button => stops || this.heldWithStop.has(button)));
+        if (isPressed) this.dropForStop();
         else if (held.size > 0) this.stops.tell();
         const { connection, version } = this.state.get();
         if (this.isSimulated && connection === 'ready' && version?.image === 'play') return this.driving.remote(held);
-        const isPressed = stops && !this.heldWithStop.has('b6');
-        this.heldWithStop = new Set([...held].filter(button => stops || this.heldWithStop.has(button)));
         if (isPressed) void this.command('stop');
         this.driving.remote(new Set([...held].filter(button => !this.heldWithStop.has(button))));
     }

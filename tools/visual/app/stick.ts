@@ -63,6 +63,7 @@ export class StickDrive {
         try {
             const { requests } = this.connection();
             await play(requests, page);
+            this.isStopped = false; // a stop before the play was answered may have come before it
             try {
                 await this.steer(requests);
             } catch (error) {

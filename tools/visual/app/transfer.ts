@@ -69,13 +69,14 @@ export class RobotTransfer implements Transfer {
         return (await this.sent.find(requests)) !== null;
     }
 
-    /** Before Edit plays: it plays the open page from RAM. A page that was half sent there is put back, or a motion would play that nobody has
-     *  made. Rejects with RobotError: transfer-busy, page-mixed if somebody has perhaps edited it, or as a request does. */
-    async dropHalfSent(requests: Ask): Promise<void> {
+    /** Before Edit plays a page: it plays the open one from RAM. A page that was half sent there is put back, or a motion would play that
+     *  nobody has made. Rejects with RobotError: transfer-busy, page-mixed if it is this page and somebody has perhaps edited it, or as a
+     *  request does. */
+    async dropHalfSent(requests: Ask, page: number): Promise<void> {
         if (this.isWriting) throw new RobotError('transfer-busy');
         const { last } = this.sent;
         if (last === null || !(await hasUnsavedEdits(requests, this.parts.format)) || (await this.sent.putBack(requests))) return;
-        throw new RobotError('page-mixed', String(last.page));
+        if (last.page === page) throw new RobotError('page-mixed', String(page));
     }
 
     get isWriting(): boolean {

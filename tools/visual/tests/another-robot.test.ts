@@ -377,6 +377,22 @@ test('button 6 for a robot on a line is a Stop that is answered, once; a key tha
     expect(presses()).toBeGreaterThan(pressed);
 });
 
+test('button 6 held while the robot in the page became ready is let go for all robots; held while the cable was out, it stops behind it', async () => {
+    const { session, yours, connect } = await page('play');
+    session.state.set({ connection: 'asking' });
+    session.remote(new Set(['b6']));
+    session.state.set({ connection: 'ready' });
+    session.remote(new Set());
+    await connect();
+    await soon();
+    const stops = (): number => yours.sent.filter(word => word === '@stop').length;
+    const before = stops();
+    session.remote(new Set(['b6']));
+    await vi.waitFor(() => expect(stops()).toBe(before + 1));
+    await connect(); // anew
+    await vi.waitFor(() => expect(stops()).toBe(before + 2));
+});
+
 test('motions were written to yours: its list is asked for again', async () => {
     const { session, yours, connect } = await page('edit');
     await connect();

@@ -99,3 +99,11 @@ test.each([
     expect(sent).toEqual(['@play', '@drive', '@stop']);
     expect(fail.mock.calls).toEqual([[expect.objectContaining({ code })]]);
 });
+
+test('a walk that was stopped before the robot had answered the play is stopped behind it: the stop of a remote may have come before', async () => {
+    const { stick, sent } = answering('@drive OK');
+    stick.set(PUSHED);
+    stick.stop(true);
+    await vi.advanceTimersByTimeAsync(1000);
+    expect(sent).toEqual(['@play', '@stop']);
+});

@@ -84,7 +84,7 @@ export class Teaching {
         if (!isDone) {
             this.editing.set({ taught }); // until its next state
             if ((await this.isLimp([...taught], true)) || source !== this.source) return;
-            this.editing.set({ taught: new Set() });
+            this.editing.set({ taught: new Set([...this.editing.get().taught].filter(servo => !taught.has(servo))) });
         }
         this.letStand();
     }
