@@ -123,11 +123,12 @@ static bool steers(const inputs_t *inputs)
     return inputs->settings->remote_mode == SETTINGS_REMOTE_DRIVE && steer_is_possible(inputs->performer);
 }
 
-/* Stop or pause. It counts once, when pressed. */
-static void take_act(inputs_t *inputs, uint8_t act, bool has_changed)
+/* Stop or pause. It counts once, when pressed. was_empty: the packet before had no button. Behind one a stop counts at once:
+ * two quick ones are a break. */
+static void take_act(inputs_t *inputs, uint8_t act, bool has_changed, bool was_empty)
 {
     uint8_t *recent_ticks = &inputs->recent_ticks[act == REMOTE_ACT_STOP ? AT_STOP : AT_PAUSE];
-    if (has_changed && *recent_ticks == 0) {
+    if (has_changed && (*recent_ticks == 0 || (was_empty && act == REMOTE_ACT_STOP))) {
         if (act == REMOTE_ACT_STOP) {
             inputs_code(inputs, LINK_CODE_STOP);
         } else {
@@ -145,6 +146,7 @@ static void take_packet(inputs_t *inputs)
     const uint8_t down = (uint8_t)buttons;
     uint8_t code;
     const uint8_t act_before = inputs->remote_act;
+    const bool was_empty = act_before == REMOTE_ACT_CODE && inputs->remote_held.down == 0;
     const uint8_t act = remote_act(buttons, &code);
     inputs->remote_act = act;
     inputs->silent_ticks = buttons == 0 ? INPUTS_SILENCE_TICKS : 0;
@@ -153,7 +155,7 @@ static void take_packet(inputs_t *inputs)
                      steers(inputs) ? (uint8_t)(code & ~(REMOTE_LEFT | REMOTE_RIGHT)) : code);
     } else {
         change(inputs, &inputs->remote_held, down);
-        take_act(inputs, act, act != act_before);
+        take_act(inputs, act, act != act_before, was_empty);
     }
     inputs->remote_held.recent |= down;
     for (uint8_t i = 0, rest = down; rest != 0; i++, rest >>= 1) {

@@ -77,6 +77,18 @@ static void test_inputs_stop_counts_when_it_is_pressed(void)
     TEST_ASSERT_EQUAL_STRING("code 255 0;code 0 0;code 255 0;", told);
 }
 
+static void test_inputs_two_quick_presses_of_a_stop_are_two(void)
+{
+    performer.state = PERFORMER_PLAY;
+    remote(512);
+    ticks(6);
+    remote(0);
+    ticks(6);
+    remote(512);
+    remote(512);
+    TEST_ASSERT_EQUAL_STRING("code 255 0;code 0 0;code 255 0;", told);
+}
+
 static void test_inputs_stop_when_idle_stops_what_code_moves(void)
 {
     remote(512);
