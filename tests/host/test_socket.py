@@ -53,6 +53,6 @@ def test_a_second_client_is_refused_by_a_sentence_and_its_line_is_never_carried_
         asked(port, b"play 1\r")
         m512 = [sys.executable, "-m", "m512", "stop", "--now", "-p", f"socket://127.0.0.1:{port}"]
         refused = subprocess.run(m512, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False, timeout=60)
-        assert refused.returncode == 6 and "End other programs that are connected to it; then repeat the command" in refused.stderr
+        assert refused.returncode == 6 and "no other one is connected to it; then repeat the command" in refused.stderr
     answer = until(lambda: b"state=" in (data := asked(port, b"@where\r")) and data, "@where was not answered")
     assert b"state=idle" in answer and robot.frames() == []

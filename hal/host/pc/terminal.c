@@ -174,12 +174,19 @@ void terminal_drain(void)
 
 /* ---- the client of the socket ---- */
 
+/* Whether the client has closed its end. What it sent before may not be read yet. */
+static bool has_left(void)
+{
+    struct pollfd entry = {.fd = console.in, .events = POLLRDHUP};
+    return console.in >= 0 && poll(&entry, 1, 0) > 0;
+}
+
 /* One at a time. Others are told so at once: left waiting, they would be heard when nobody expects it any more. */
 static void take_clients(void)
 {
     static const char busy[] = "Somebody else is connected to this robot.\r\n";
     int client;
-    while (console.listener >= 0 && (client = accept4(console.listener, NULL, NULL, SOCK_CLOEXEC | SOCK_NONBLOCK)) >= 0) {
+    while (console.listener >= 0 && !has_left() && (client = accept4(console.listener, NULL, NULL, SOCK_CLOEXEC | SOCK_NONBLOCK)) >= 0) {
         if (console.in < 0) {
             console.in = console.out = client;
             console.written_at = machine_now();

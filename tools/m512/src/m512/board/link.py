@@ -89,7 +89,7 @@ class Link:
         time.sleep(seconds)
 
     def _lost(self, error: Exception) -> PortError:
-        check = "End other programs that are connected to it" if "://" in self.url else "Check the cable"
+        check = "See that its program runs and that no other one is connected to it" if "://" in self.url else "Check the cable"
         return PortError(f"the line to {self.url} broke ({error}). {check}; then {self.remedy}")
 
     def set_rate(self, rate: int) -> None:
