@@ -55,7 +55,10 @@ def _said(text: str) -> Iterator[tuple[int, object]]:
         if key == "name":
             yield number, line
         elif line.strip() and key != "version" and (key != "motor_type" or value.strip(" 0")):
-            yield number, (key.strip(), [Fraction(word) if word[-1:].isdigit() else word for word in value.replace(",", ".").split()])
+            words = value.replace(",", ".").split()
+            if key == "play_param":
+                del words[3:4]  # the rate: a note says what it becomes, as in RoboPlus
+            yield number, (key.strip(), [Fraction(word) if word[-1:].isdigit() else word for word in words])
 
 
 def _must_end_here(data: bytes, end: int, where: str) -> None:
