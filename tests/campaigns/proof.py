@@ -37,7 +37,7 @@ JUDGED = {  # the parts, and the code that each one's figures judge
     "power": IMAGES,
     "fuzz": (*IMAGES, "tools/m512/src"),
     "faults": IMAGES,
-    "links": ("firmware/boot", "firmware/common", "hal", "tools/m512/src"),
+    "links": ("tools/m512/src",),
     "physics": MOTIONS,
     "shape": ("firmware/common", "firmware/play", "hal", ":!hal/host", "linker", *MOTIONS),
     "sessions": IMAGES,
