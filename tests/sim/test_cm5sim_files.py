@@ -102,6 +102,14 @@ def test_a_file_of_servos_without_the_ids_at_its_end_is_read(tmp_path):
     assert b"not a file of this kind" in play(tmp_path, "quit\n", "--servos", "3,7", "--servo-eeprom", kept).stderr
 
 
+def test_servo_settings_of_an_older_run_with_25_servos_are_read(tmp_path):
+    """As many bytes as a new file of 24 servos has."""
+    kept = tmp_path / "servos.bin"
+    assert play(tmp_path, "quit\n", "--servos", "1-25", "--servo-eeprom", kept).returncode == 0
+    kept.write_bytes(kept.read_bytes()[: 24 * 25])
+    assert play(tmp_path, "quit\n", "--servos", "1-25", "--servo-eeprom", kept).returncode == 0
+
+
 @pytest.mark.parametrize("script, fault", [("wait 10ms\n", ["--fault", "3:duplicate"]), ("servo 3 duplicate\nwait 10ms\n", [])])
 def test_the_second_servo_of_a_fault_is_not_kept(tmp_path, script, fault):
     kept = ["--servos", "3,7", "--servo-eeprom", tmp_path / "servos.bin"]

@@ -71,7 +71,7 @@ def is_at(path: str, file: IO[bytes]) -> bool:
 @contextmanager
 def begun(path: str) -> Iterator[None]:
     """Opens the new file already, so that a path that cannot be written is noticed before there is anything to lose, and locks it. The lock
-    ends with the process. A new file that holds something is not ours: runs leave an empty one at most."""
+    ends with the process. A new file that holds something is the user's, or the newest robot of a run that was killed."""
     if os.path.exists(path) and not (os.access(path, os.W_OK) and os.stat(path).st_mode & 0o222):  # root has access to everything
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), path)
     with open(beside(path), "ab") as new:
@@ -153,7 +153,8 @@ def restore_servos(servos: list[Servo], path: str) -> None:
             data = file.read(SERVO_FILE_BYTES_MAX + 1)
     except FileNotFoundError:
         return
-    count = len(data) // (EEPROM_BYTES if len(data) % (EEPROM_BYTES + 1) else EEPROM_BYTES + 1)
+    is_old = len(data) == EEPROM_BYTES * len(servos) or len(data) % (EEPROM_BYTES + 1) != 0
+    count = len(data) // (EEPROM_BYTES if is_old else EEPROM_BYTES + 1)
     areas = [data[EEPROM_BYTES * index :][:EEPROM_BYTES] for index in range(count)]
     ids = data[EEPROM_BYTES * count :] or bytes(area[ID] for area in areas)
     if len(ids) != count or any(area[MODEL] not in MODEL_NAMES for area in areas):
