@@ -186,7 +186,8 @@ static void take_clients(void)
 {
     static const char busy[] = "Somebody else is connected to this robot.\r\n";
     int client;
-    while (console.listener >= 0 && !has_left() && (client = accept4(console.listener, NULL, NULL, SOCK_CLOEXEC | SOCK_NONBLOCK)) >= 0) {
+    while (console.listener >= 0 && !has_left() &&
+           (client = accept4(console.listener, NULL, NULL, SOCK_CLOEXEC | SOCK_NONBLOCK)) >= 0) {
         if (console.in < 0) {
             console.in = console.out = client;
             console.written_at = machine_now();
