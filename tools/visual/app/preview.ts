@@ -24,7 +24,7 @@ import { Store } from '../view/store.ts';
 
 /** Ticks between two updates of the feet: 64 updates a second. */
 const STRIDE = 2;
-/** A looping motion is cut here: 32 s. */
+/** A looping motion is cut after 32 s, but not before it begins anew. */
 const LOOP_TICKS = 32 * TICKS_PER_SECOND;
 const ORIGIN: Place = { pos: [0, 0, 0], quat: [1, 0, 0, 0] };
 

@@ -173,7 +173,7 @@ export class RobotSession implements Session {
         });
         this.sim = new SimulatorControls(this.state, simulated, {
             restarts: () => this.dropForRestart(),
-            pressed: button => (button === 'start' ? this.dropForStop() : this.dropWaiting()),
+            pressed: button => this.dropWaiting(button === 'start'),
         });
         this.plays = new RobotPlays({
             state: this.state,
@@ -337,7 +337,7 @@ export class RobotSession implements Session {
 
     async command(what: Command): Promise<void> {
         const stops = what === 'stop' || what === 'break';
-        if (stops) this.dropForStop();
+        if (stops) this.dropWaiting(true);
         const { isPowered, connection } = this.state.get();
         const isStarting = this.isSimulated && isPowered && connection !== 'ready';
         await this.act(async () => {
@@ -371,12 +371,12 @@ export class RobotSession implements Session {
         const stops = held.has('b6');
         const isPressed = stops && !this.heldWithStop.has('b6');
         this.heldWithStop = new Set([...held].filter(button => stops || this.heldWithStop.has(button)));
-        if (isPressed) this.dropForStop();
-        else if (held.size > 0) this.stops.tell();
         const { connection, version } = this.state.get();
-        if (this.isSimulated && connection === 'ready' && version?.image === 'play') return this.driving.remote(held);
-        if (isPressed) void this.command('stop');
-        this.driving.remote(new Set([...held].filter(button => !this.heldWithStop.has(button))));
+        const hears = this.isSimulated && connection === 'ready' && version?.image === 'play';
+        if (isPressed && hears) this.dropWaiting(true);
+        else if (isPressed) void this.command('stop');
+        else if (held.size > 0) this.stops.tell();
+        this.driving.remote(hears ? held : new Set([...held].filter(button => !this.heldWithStop.has(button))));
     }
 
     drive(stick: Stick | null): void {
@@ -442,26 +442,21 @@ export class RobotSession implements Session {
         await simulated.forget(simulated.image).catch((cause: unknown) => this.messages.fail(imageError(cause)));
     }
 
-    private dropWaiting(): void {
+    /** isStopped: a stop goes to the robot. */
+    private dropWaiting(isStopped = false): void {
         this.preview.pause();
         this.sources.dropText();
-        this.dropMoves('stop');
-    }
-
-    /** A stop goes to the robot. */
-    private dropForStop(): void {
-        this.dropWaiting();
-        this.driving.forget(true);
+        this.dropMoves('stop', isStopped);
     }
 
     /** A person stops the robot or takes it over, so the page moves it no more with what was asked before. */
-    private dropMoves(by: 'stop' | 'line'): void {
+    private dropMoves(by: 'stop' | 'line', isStopped = false): void {
         clearTimeout(this.late);
         this.runs++;
         this.isRunWaiting = false;
         this.plays.cancel();
         this.sources.simulated.dropInterrupted(by);
-        this.driving.forget();
+        this.driving.forget(isStopped);
         this.stops.tell();
     }
 

@@ -22,7 +22,7 @@ import { SessionElement } from '../session-element.ts';
 import './checks-pane.css';
 
 const WAIT_MS = 400;
-/** 47 s: a motion that loops is played that long each time that it is checked. */
+/** 47 s: a motion that loops is played at least that long each time that it is checked. */
 const CURVE_TICKS = 6000;
 
 interface Shown {

@@ -147,7 +147,8 @@ export interface Session {
     /** Starts, changes or ends what runs in parallel to a play. Only for Play. */
     overlay(what: Overlay): Promise<void>;
     /** Makes the robot move slowly to this pose and keep following (servo units by ID; null: this joint stays). null: ends it.
-     *  ended: called when the robot refuses or does not answer, which ends it and has been reported. */
+     *  ended: called when it ends otherwise: by what is done with the robot, the page or a document, or by an error, which has been
+     *  reported. */
     follow(positions: readonly (number | null)[] | null, ended?: () => void): void;
     /** Shows a message in the status bar. null: the last input was taken, and what was said of one that was not is over. */
     say(notice: Notice | null): void;
