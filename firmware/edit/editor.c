@@ -20,7 +20,8 @@
 
 enum { PAINT_ROOM = CONSOLE_TX_BYTES / 2, BYTES_PER_TURN = 32 };
 
-static const char *notice;   /* in flash; NULL once shown */
+static const char *notice;    /* in flash; NULL when a line has been typed after it */
+static uint8_t notice_rows;   /* of the screen on which it was shown; 0: not yet */
 
 /* ---- pages for the performer: the open one from RAM, the others from flash ---- */
 
@@ -159,17 +160,22 @@ static void print_now(void)
     }
 }
 
-/* Shows the notice after the first screen, when the terminal's size is known; earlier, a redraw would erase it. It comes 4 s
- * after the answer to a line that was typed before. */
+/* Shows the notice after the first screen, and again when the terminal tells another size, because the redraw erases it: a PC
+ * draws the first screen before the answer can come. It comes 4 s after the answer to a line that was typed before, and not
+ * again after a line. */
 static void tell_notice(void)
 {
-    if (notice != NULL && the_dialog.mode == DIALOG_TABLE && the_dialog.row_ticks == 0) {
+    const bool is_answer_shown = the_dialog.row_ticks != 0;
+    if (is_answer_shown && notice_rows != 0) {
+        notice = NULL;
+    }
+    if (notice != NULL && the_dialog.mode == DIALOG_TABLE && !is_answer_shown && notice_rows != the_screen.rows) {
         dialog_message_begin();
         report_failed_assert();
         text_P(notice);
         dialog_tell_joints(TEXT_P("Not used, at 57142 bps"), the_servos.slow);
         dialog_message_end();
-        notice = NULL;
+        notice_rows = the_screen.rows;
     }
 }
 

@@ -18,7 +18,7 @@
 #include <stdint.h>
 
 /* Call after text_init, board_start, page_store_init, settings_load, servo_link_scan and performer_init. notice_P: a message
- * for the first screen, shown once; or NULL. */
+ * for the first screen, shown until a line is typed; or NULL. */
 void editor_init(const char *notice_P);
 
 /* One turn of the main loop: keys, the tick's work, one piece of the screen. true: there is more to do now. */

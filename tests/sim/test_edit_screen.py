@@ -280,6 +280,21 @@ def test_what_is_typed_before_the_first_screen_is_answered_on_it(ms):
         assert_frame(r, frame(READY.data, 1, {}, live={joint: 512 for joint in JOINTS}))
 
 
+def test_first_message_outlives_a_late_answer_about_the_size_but_no_typed_line():
+    with robot(pages={1: READY}) as r:
+        greeting = "Arrows move, HELP explains, EXIT leaves"
+        r.settle(2000)
+        assert r.message == greeting
+        r.terminal.screen.resize(24, 80)
+        r.keys("\x1b[24;80R", ms=1500)
+        assert r.terminal.row(24).rstrip() == f"] {greeting}"
+        r.line("goto 0 20")
+        r.settle(5000)
+        r.terminal.screen.resize(30, 80)
+        r.keys("\x1b[30;80R", ms=1500)
+        assert r.terminal.row(30).rstrip() == "] _"
+
+
 def test_question_stays_while_a_redraw_goes_on():
     with robot(pages={1: READY}) as r:
         r.keys("re\rnew\r", ms=1200)
