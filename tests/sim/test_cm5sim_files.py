@@ -192,10 +192,17 @@ def test_a_disk_that_is_full_at_the_end_does_not_stop_the_next_run(tmp_path):
     assert run(*once).returncode == 0
 
 
-def test_one_file_for_two_memories_is_refused(tmp_path):
-    done = run(ROBOT, "--flash", tmp_path / "robot.bin", "--eeprom", f"{tmp_path}/./robot.bin")
-    assert done.returncode == 2 and b"a file each" in done.stderr
-    assert list(tmp_path.iterdir()) == []
+@pytest.mark.parametrize(
+    "first, second",
+    [("--flash", "--eeprom"), ("--script", "--trace"), ("--motions", "--plot"), ("--trace", "--plot"), ("--motions", "--flash"), (None, "--trace")],
+)
+def test_one_file_for_two_purposes_is_refused(tmp_path, first, second):
+    path = tmp_path / "x.hex"
+    path.write_bytes(b"mine")
+    image = [first, path] if first else [path]
+    done = run(*([ROBOT] if first else []), *image, second, f"{tmp_path}/./x.hex")
+    assert done.returncode == 2 and f"{first or 'the image'} and {second} need a file each".encode() in done.stderr
+    assert path.read_bytes() == b"mine" and list(tmp_path.iterdir()) == [path]
 
 
 def test_start_that_fails_leaves_no_file(tmp_path):

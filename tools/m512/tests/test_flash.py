@@ -215,6 +215,19 @@ def test_backup_restore_brings_back_every_byte(m512, peer, motions, tmp_path):
     assert bytes(peer.flash) == before and peer.eeprom[:0xFF0] == eeprom[:0xFF0]
 
 
+def test_restore_asks_the_application_for_its_board_and_not_the_manifest_alone(m512, tmp_path):
+    with BlockPeer() as cm5:
+        assert m512("flash", hex_file(tmp_path / "cm5.hex", (0, make_app())), "-p", cm5.path).exit_code == 0
+        assert m512("backup", tmp_path / "b", "-p", cm5.path, "--what", "app").exit_code == 0
+    manifest = json.loads((tmp_path / "b" / "manifest.json").read_text())
+    (tmp_path / "b" / "manifest.json").write_text(json.dumps(manifest | {"board": "cm2"}))
+    with BlockPeer(board=2) as cm2:
+        before = bytes(cm2.flash)
+        result = m512("restore", tmp_path / "b", "-p", cm2.path, "--yes")
+        assert result.exit_code == 5 and "this backup's application is for a cm5, this board is a cm2" in result.stderr
+        assert bytes(cm2.flash) == before
+
+
 def test_restore_asks_first(m512, peer, motions, tmp_path):
     m512("backup", tmp_path / "b", "-p", peer.path, "--what", "motions")
     peer.flash[0xE000 + 600] ^= 1

@@ -75,7 +75,12 @@ def test_board_flash_run_play_stop_get(m512, robot, motions, tmp_path):
     assert not json.loads(run("pose", "--json").stdout)["1"]["torque"]
     run("get", "all", "-o", tmp_path / "got.bin")
     assert (tmp_path / "got.bin").read_bytes() == read_text(MOTIONS).to_bytes()
-    assert m512("diff", robot.path, motions).exit_code == 0
+    other = read_text(MOTIONS)
+    other[120].data[26] = 5  # has no effect: the page is empty
+    other[120].seal()
+    (tmp_path / "other.bin").write_bytes(other.to_bytes())
+    assert m512("diff", motions, tmp_path / "other.bin").exit_code == 3
+    assert m512("diff", robot.path, tmp_path / "other.bin").exit_code == 0
     assert "100  nod" in m512("pages", robot.path, "list").stdout
     assert "m512 run edit-cm5.hex" in run("put", motions, "nod:7", code=8).stderr
     assert "no page of the board is called 'fly'" in run("play", "fly", code=8).stderr

@@ -190,6 +190,19 @@ def _parser() -> Parser:
     return parser
 
 
+def _refuse_shared_files(parser: argparse.ArgumentParser, options: Options) -> None:
+    """Ends the process if a file that the run writes is one that it reads, or writes for another option."""
+    read = [("the image", name) for name in options.images] + [("--script", options.script), ("--motions", options.motions)]
+    written = [(f"--{name.replace('_', '-')}", getattr(options, name)) for name in ("flash", "eeprom", "servo_eeprom", "trace", "plot")]
+    users: dict[str, str] = {}
+    for user, path in read + written:
+        if not path or (os.path.exists(path) and not os.path.isfile(path)):  # /dev/null may serve twice
+            continue
+        other = users.setdefault(os.path.realpath(path), user)
+        if other != user and (user, path) in written:
+            parser.error(f"{other} and {user} need a file each, not both {path}")
+
+
 def parse(arguments: list[str]) -> Options:
     """Parses the command line. Prints an error and ends the process if something is wrong."""
     parser = _parser()
@@ -205,8 +218,7 @@ def parse(arguments: list[str]) -> Options:
         path = getattr(options, name)
         if path and os.path.islink(path):  # the file that it leads to is read, locked and replaced, and the link stays
             setattr(options, name, os.path.realpath(path))
-    if len({os.path.realpath(path) for path in options.kept()}) < len(options.kept()):
-        parser.error("--flash, --eeprom and --servo-eeprom need a file each")
+    _refuse_shared_files(parser, options)
     if options.no_stdio and not on_console and not options.script and options.bus_pty is None and options.time == NEVER:
         parser.error("--no-stdio without --pty, --tcp, --script or --time would run for ever, unseen")
     return options

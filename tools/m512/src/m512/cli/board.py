@@ -381,9 +381,10 @@ def _compare(loader: Any, saved: Any, areas: list[str], pages: Any) -> Any:
     from m512.files.wording import counted
     from m512.pages.difference import images
 
-    board = backups.board_of(saved)
+    record = Record.of(saved.data["app"]) if "app" in areas else None
+    board = record.board if record else backups.board_of(saved)
     if "app" in areas and board and loader.board and board != loader.board:
-        raise RefusedError(f"this backup's application is from a {board}, this board is a {loader.board}")
+        raise RefusedError(f"this backup's application is for a {board}, this board is a {loader.board}")
     with ui.phase("Comparing") as progress:
         todo = loader.different(pages, progress) if pages else []
     cells, changes = {}, []
@@ -398,7 +399,6 @@ def _compare(loader: Any, saved: Any, areas: list[str], pages: Any) -> Any:
             ui.say(str(change))
     in_app = len(todo) - len(in_motions)
     if in_app:
-        record = Record.of(saved.data["app"])
         ui.say(
             f"application: {counted(in_app, 'flash page')} {'differs' if in_app == 1 else 'differ'}"
             + (f"; the backup holds {record}" if record else "")

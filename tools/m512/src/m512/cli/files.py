@@ -190,6 +190,7 @@ def diff(first: str, second: str, bits: str | None, board: str, as_json: bool) -
     """Say in words how the motions in FIRST and SECOND differ: which page, which step, which joint, from, to.
 
     Each is a motion file, the folder of a backup, or the port of a board. Exit code 0 when they are equal, 3 when they differ."""
+    from m512.board.ports import is_port
     from m512.pages import difference
 
     here, there = (_motions_of(word, int(bits) if bits else None, board) for word in (first, second))
@@ -200,6 +201,8 @@ def diff(first: str, second: str, bits: str | None, board: str, as_json: bool) -
     if here.bits != there.bits:
         ui.say(f"note: {first} has positions of {here.bits} bits and {second} of {there.bits}: scale one of them first (m512 convert --scale)")
     found = difference.images(here, there)
+    if is_port(first) or is_port(second):  # a running board does not send its empty pages
+        found = [change for change in found if change.what != difference.BOTH_EMPTY]
     if as_json:
         ui.show(json.dumps([change.as_dict() for change in found], indent=2))
     else:
