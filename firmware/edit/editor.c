@@ -160,9 +160,9 @@ static void print_now(void)
     }
 }
 
-/* Shows the notice after the first screen, and again when the terminal tells another size, because the redraw erases it: a PC
- * draws the first screen before the answer can come. It comes 4 s after the answer to a line that was typed before, and not
- * again after a line. */
+/* Shows the notice after the first screen, and again when the terminal tells another size, because the redraw erases it: a
+ * PC draws the first screen before the answer can come. It comes 4 s after the answer to a line that was typed before, and
+ * not again after a line. */
 static void tell_notice(void)
 {
     const bool is_answer_shown = the_dialog.row_ticks != 0;
