@@ -198,8 +198,7 @@ endfunction()
 
 # m512_pytest(<ctest name> <file, files or folder> [TIMEOUT s] [COST s] [NEEDS ...]): a pytest file, run with the interpreter of build/venv, where
 # the packages of this tree are installed (tools/dev/setup). NEEDS: as for m512_needs, or `nothing`. COST: see tests/CMakeLists.txt.
-# A file that leaves cases out is shown as skipped (tests/seen_skips.py). No other plugins: no test needs one, and pytest would rewrite the whole of hypothesis for its plugin (0.6 s a file). What Python compiles
-# is kept in build/pycache.
+# A file that leaves cases out is shown as skipped (tests/seen_skips.py). No other plugins: no test needs one.
 function(m512_pytest name path)
     cmake_parse_arguments(ARG "" "TIMEOUT;COST" "NEEDS" ${ARGN})
     if(ARG_NEEDS)
@@ -214,7 +213,7 @@ function(m512_pytest name path)
     list(TRANSFORM path PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
     add_test(NAME ${name} COMMAND ${M512_PYTHON} -m pytest -q -rs -p no:cacheprovider -p tests.seen_skips ${path})
     set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} COST ${ARG_COST} SKIP_RETURN_CODE 77
-        ENVIRONMENT "PYTHONPYCACHEPREFIX=${CMAKE_SOURCE_DIR}/build/pycache;PYTEST_DISABLE_PLUGIN_AUTOLOAD=1;M512_BUILD=${CMAKE_SOURCE_DIR}/build")
+        ENVIRONMENT "PYTEST_DISABLE_PLUGIN_AUTOLOAD=1;M512_BUILD=${CMAKE_SOURCE_DIR}/build")
 endfunction()
 
 if(NOT M512_AVR)
