@@ -94,7 +94,6 @@ test('no serious finding in any area and any dialog; the contrast holds, light a
         await page.locator('dialog[open]').waitFor({ state: 'hidden' });
     };
     await person.untilStanding();
-    await person.stopDrawing();
     await person.open('Robot');
     await person.button('Pause').click(); // the robot leaves the processor to axe
     await page.evaluate(source);

@@ -55,7 +55,7 @@ const WAVES = [
 ] as const;
 
 test('a pupil, by the tour: teaches a page by hand, names it, the firmware plays it; undo takes each thing back', async () => {
-    const pupil = await suite.come({ hasPicture: true, hasPhysics: true, screen: { width: 1280, height: 800 } });
+    const pupil = await suite.come({ hasPicture: 'drawn', hasPhysics: true, screen: { width: 1280, height: 800 } });
     await pupil.untilStanding();
     await pupil.button('Tour').click();
     await said(pupil, 'You will teach the robot to wave.');
@@ -68,7 +68,10 @@ test('a pupil, by the tour: teaches a page by hand, names it, the firmware plays
         await said(pupil, /(Take the right|Drag the) hand/);
         await dragHand(pupil, dx, dy);
         await said(pupil, /^(Press "Add step|Add this pose)/);
-        if (i === 1) await pupil.page.screenshot({ path: `${SHOTS}tour.png` });
+        if (i === 1) {
+            await pupil.page.screenshot({ path: `${SHOTS}tour.png` }); // used in the README
+            await pupil.stopDrawing();
+        }
         await addStep(pupil);
         await expect.poll(() => steps(pupil).count(), PATIENT).toBe(i + 1);
     }

@@ -92,7 +92,7 @@ function lookAt(person: Visitor): Promise<{ width: number; darkest: number; blue
 test('before the robot is there the picture is an empty room in the light: not black, and nothing sunk into the floor', async () => {
     let go = (): void => undefined;
     const person = await suite.come({
-        hasPicture: true,
+        hasPicture: 'drawn',
         isNew: true,
         before: page =>
             page.route(/board-[^/]*\.wasm/, async route => {

@@ -80,7 +80,7 @@ function coloursOfRow(canvas: HTMLElement | SVGElement, share: number): number {
 }
 
 test('no graphics chip: the page never waits for a picture of a robot that walks, and floor is below and sky above', async () => {
-    const person = await suite.come({ hasPicture: true });
+    const person = await suite.come({ hasPicture: 'drawn' });
     await person.untilStanding();
     await suite.browser.startTracing(person.page, { categories: ['gpu'] });
     await person.button('Walk').click();

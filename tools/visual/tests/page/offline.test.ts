@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The page uses no host but its own, works under any sub-path, and needs no host at all on the second visit.
-import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll, expect, test } from 'vitest';
-import { PageServer, Visitor, startBrowser } from './page-bench.ts';
+import { expect, onTestFinished, test } from 'vitest';
+import { PageServer } from './page-bench.ts';
+import { pageSuite } from './page-suite.ts';
 import { ReleasedPage } from './release.ts';
 import { comesLater, weights } from './weight.ts';
 
-let browser: Browser;
-const servers: PageServer[] = [];
-const serve = async (...options: string[]): Promise<PageServer> => {
-    const server = await PageServer.start(...options);
-    servers.push(server);
-    return server;
-};
-beforeAll(async () => {
-    browser = await startBrowser();
-});
-afterAll(async () => {
-    await browser.close();
-    for (const server of servers) await server.stop();
-});
+const suite = pageSuite();
 
 test('the first load is at most 1 MB, compressed, with both images; physics, Python, My servos and other languages come behind it', () => {
     const { first, physics, python, servos, languages } = weights();
@@ -31,16 +18,21 @@ test('the first load is at most 1 MB, compressed, with both images; physics, Pyt
 
 test('a release while the page is open, under a sub-path: it goes on with its own files, says that there is a new version, becomes it when asked, and needs no server on the next visit', async () => {
     const page = await ReleasedPage.make();
-    const server = await serve(page.folder, '--under', '/some/where');
+    onTestFinished(() => page.remove());
+    const server = await PageServer.start(page.folder, '--under', '/some/where');
+    onTestFinished(() => server.stop());
     const asked: string[] = [];
-    const visitor = await Visitor.come(browser, server.address, {
-        keepsPage: true,
-        hasPhysics: true,
-        hasPython: true,
-        before: async empty => {
-            empty.on('request', request => asked.push(request.url()));
+    const visitor = await suite.come(
+        {
+            keepsPage: true,
+            hasPhysics: true,
+            hasPython: true,
+            before: async empty => {
+                empty.on('request', request => asked.push(request.url()));
+            },
         },
-    });
+        server.address,
+    );
     await visitor.untilStanding();
     // The requests so far are the first load: no Python, My servos or other language, and every file is there.
     expect(asked.filter(url => ['python', 'servos', 'languages'].includes(comesLater(url, '') ?? ''))).toEqual([]);
@@ -67,12 +59,10 @@ test('a release while the page is open, under a sub-path: it goes on with its ow
     expect(await reload.isVisible()).toBe(false);
     expect((await caches()).filter(name => name === old)).toEqual([]);
     await visitor.leave();
-    await page.remove();
 });
 
 test('the policy holds: no code from text, in the page', async () => {
-    const server = await serve();
-    const visitor = await Visitor.come(browser, server.address);
+    const visitor = await suite.come();
     // Playwright's own scripts may bypass the policy. A text that the page runs later may not.
     const ran = await visitor.page.evaluate(async () => {
         (setTimeout as (code: string) => void)('document.title = "made from text"');
@@ -81,5 +71,4 @@ test('the policy holds: no code from text, in the page', async () => {
     });
     expect(ran).not.toBe('made from text');
     expect(visitor.faults.join()).toMatch(/content security policy/i);
-    await server.stop();
 });

@@ -42,8 +42,9 @@ export interface Visit {
     /** Screen pixels per CSS pixel. */
     readonly sharpness?: number;
     readonly screen?: Screen;
-    /** Default: the browser has no WebGL, as on an old machine (lacking.test.ts). Drawing by software doubles what a visit costs. */
-    readonly hasPicture?: boolean;
+    /** Default: the browser has no WebGL, as on an old machine (lacking.test.ts). Drawing by software doubles what a visit costs, so
+     *  true draws until the robot stands: the scene behind the picture goes on, and untilStanding() ends the drawing. */
+    readonly hasPicture?: boolean | 'drawn';
     /** Default: the robot's physics cannot be loaded. It stands without a physical body and is ready three seconds sooner. Physics doubles
      *  what a visit costs, too. 'later': the first robot lacks it, what is tried has it. */
     readonly hasPhysics?: boolean | 'later';
@@ -135,10 +136,12 @@ export class Visitor {
     readonly page: Page;
     readonly faults: string[] = [];
     private readonly context: BrowserContext;
+    private readonly isDrawn: boolean;
 
-    private constructor(context: BrowserContext, page: Page) {
+    private constructor(context: BrowserContext, page: Page, isDrawn: boolean) {
         this.context = context;
         this.page = page;
+        this.isDrawn = isDrawn;
     }
 
     static async come(browser: Browser, address: string, visit: Visit = {}): Promise<Visitor> {
@@ -172,7 +175,7 @@ export class Visitor {
             isRefused = !hasPhysics;
             return refuses ? route.abort() : route.continue();
         });
-        const visitor = new Visitor(context, await context.newPage());
+        const visitor = new Visitor(context, await context.newPage(), hasPicture === 'drawn');
         visitor.watch(new URL(address).origin, [...(hasPicture ? [] : [NO_PICTURE]), ...(hasPhysics === true ? [] : [NO_PHYSICS])]);
         await before?.(visitor.page);
         await visitor.page.goto(address);
@@ -268,7 +271,9 @@ export class Visitor {
     async untilStanding(): Promise<void> {
         await this.page.locator('status-bar .doing').filter({ hasText: STANDS }).waitFor();
         const hasPicture = (await this.page.locator('robot-view canvas').count()) > 0;
-        if (hasPicture) await this.untilDrawn(); // by software a second later
+        if (!hasPicture) return;
+        await this.untilDrawn(); // by software a second later
+        if (!this.isDrawn) await this.stopDrawing();
     }
 
     /** Waits until changes are on the screen, so that the mouse hits what is shown. */
@@ -283,10 +288,16 @@ export class Visitor {
             .evaluate((view, name) => (view as unknown as { placeOf(name: string): { x: number; y: number } }).placeOf(name), shape);
     }
 
-    /** The picture stays as it is, which saves what drawing by software costs. */
+    /** The picture stays as it is. The scene, where placeOf() and the mouse find the robot, follows it on. */
     stopDrawing(): Promise<void> {
         return this.page.locator('robot-view').evaluate(view => {
-            Object.assign((view as unknown as { scene: { renderer: object } }).scene.renderer, { render: () => undefined });
+            type Moving = { updateMatrixWorld(): void };
+            const { scene } = view as unknown as { scene: { renderer: object; aside: object | null } };
+            const render = (...parts: Moving[]): void => {
+                for (const part of parts) part.updateMatrixWorld();
+            };
+            Object.assign(scene.renderer, { render });
+            Object.assign(scene.aside ?? {}, { show: () => undefined });
         });
     }
 

@@ -3,7 +3,7 @@
 
 import { mkdir } from 'node:fs/promises';
 import type { Browser, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll } from 'vitest';
+import { afterEach, beforeAll } from 'vitest';
 import { PageServer, Visitor, startBrowser } from './page-bench.ts';
 import type { Visit } from './page-bench.ts';
 
@@ -40,12 +40,22 @@ async function told(page: Page): Promise<string> {
     return Promise.race([shows, silent]).catch((error: unknown) => `nothing: ${String(error)}`);
 }
 
-/** One browser and one server for all tests of a file. */
+/** Browser and server of all files that run in this process: to start and end them costs more than a visit. They end with the process. */
+let shared: Promise<[Browser, PageServer]> | undefined;
+
+async function start(): Promise<[Browser, PageServer]> {
+    await mkdir(SHOTS, { recursive: true });
+    process.once('SIGTERM', () => process.exit()); // from vitest, which waits half a second; Playwright ends its browser at once, then
+    const [browser, server] = await Promise.all([startBrowser(), PageServer.start()]);
+    process.once('exit', () => void server.stop());
+    return [browser, server];
+}
+
 export function pageSuite(): PageSuite {
     const suite: { browser?: Browser; server?: PageServer } = {};
     beforeAll(async () => {
-        await mkdir(SHOTS, { recursive: true });
-        [suite.browser, suite.server] = await Promise.all([startBrowser(), PageServer.start()]);
+        shared ??= start();
+        [suite.browser, suite.server] = await shared;
     });
     // The page of a failed test would keep running during the next one.
     afterEach(async ({ task }) => {
@@ -55,10 +65,6 @@ export function pageSuite(): PageSuite {
             for (const page of pages) console.log(`${page.url()} showed:\n${await told(page)}`);
         }
         for (const context of suite.browser?.contexts() ?? []) await context.close();
-    });
-    afterAll(async () => {
-        await suite.browser?.close();
-        await suite.server?.stop();
     });
     const begun = <T>(part: T | undefined): T => {
         if (part === undefined) throw new Error('asked for before the first test');

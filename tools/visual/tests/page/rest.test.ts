@@ -52,7 +52,7 @@ async function drawnBy(person: Visitor, action: () => Promise<unknown>): Promise
 const NOTHING: Count = { frames: 0, draws: 0 };
 
 test('a robot that stands still costs nothing; what changes is drawn; the LEDs on its back blink where the camera sees them', async () => {
-    const person = await suite.come({ hasPicture: true, before: page => page.addInitScript(count) });
+    const person = await suite.come({ hasPicture: 'drawn', before: page => page.addInitScript(count) });
     const { page } = person;
     await person.untilStanding();
     expect(await inASecond(person)).toEqual(NOTHING);
