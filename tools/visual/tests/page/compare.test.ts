@@ -2,6 +2,7 @@
 // Opening a file, and comparing with one, that cannot be read or whose reading is cancelled; comparing with a robot that becomes another one.
 // A cable that is pulled in a write: pages.test.ts; in live follow: stop.test.ts.
 import { expect, test } from 'vitest';
+import { misnamed } from './accessible.ts';
 import { pageSuite } from './page-suite.ts';
 
 const suite = pageSuite();
@@ -52,6 +53,7 @@ test('a file to open or to compare with: a reading that does not end is cancelle
     });
     const fifth = page.getByRole('list', { name: 'Motions that differ' }).locator('[data-page="5"]');
     await fifth.waitFor();
+    expect(await misnamed(page)).toEqual([]);
     await write.filter({ hasText: 'Write 2 motions ' }).click();
     await status.filter({ hasText: 'has changed in the robot since it was read' }).waitFor();
     await fifth.waitFor({ state: 'detached' }); // what was read then

@@ -4,6 +4,7 @@
 import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
 import { LANGUAGES } from '../../view/texts/languages.ts';
+import { misnamed } from './accessible.ts';
 import type { Screen, Visitor } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
 
@@ -180,6 +181,7 @@ test('one row of head, no word cut, at most five sizes of type and one blue butt
             await person.open(area);
             for (const px of await checkArea(person, screen, `${name}, ${area}`)) type.add(px);
             if (area === 'Links') await checkLinkList(person);
+            if (screen === DESKTOP) expect.soft(await misnamed(page), area).toEqual([]);
         }
         expect([...type].length, `${name}: ${[...type].join()}`).toBeLessThanOrEqual(5);
         expect(Math.min(...type), name).toBeGreaterThanOrEqual(LEAST_TYPE_PX);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Walks through all areas and dialogs of the page, in any language, and collects the visible text.
+// Walks through all areas and dialogs of the page, in any language, and collects the visible text and what bars somebody.
 import { readFileSync } from 'node:fs';
 import type { Page } from 'playwright-core';
 import type { Texts } from '../../view/texts/texts.ts';
+import { barriers } from './accessible.ts';
 import type { Screen, Visitor } from './page-bench.ts';
 import { PAGE_BYTES } from '../../model/motion.ts';
 import type { Tab } from '../../view/session/session.ts';
@@ -18,6 +19,11 @@ export interface Words {
     readonly plain: readonly string[];
     /** Texts that are partly invisible and cannot be scrolled into view. */
     readonly cut: readonly string[];
+}
+
+/** Words, and on the widest screen what bars somebody. */
+export interface Place extends Words {
+    readonly barred: readonly string[];
 }
 
 /** In the browser: the visible text of the page or the open dialog. */
@@ -65,8 +71,8 @@ function look(): Words {
 }
 
 /** A file whose name is not a word in any language. */
-function file(buffer: Buffer): { name: string; mimeType: string; buffer: Buffer } {
-    return { name: '1.bin', mimeType: '', buffer };
+function file(buffer: Buffer, name = '1.bin'): { name: string; mimeType: string; buffer: Buffer } {
+    return { name, mimeType: '', buffer };
 }
 
 /** Adds a trim and a damaged motion. */
@@ -80,10 +86,10 @@ export class Walk {
     private readonly page: Page;
     private readonly texts: Texts;
     private readonly screens: readonly Screen[];
-    private readonly found: (place: string, words: Words) => void;
+    private readonly found: (place: string, what: Place) => void;
 
     /** screens: at each place the page is looked at on all of them, from the narrowest on. */
-    constructor(person: Visitor, texts: Texts, screens: readonly Screen[], found: (place: string, words: Words) => void) {
+    constructor(person: Visitor, texts: Texts, screens: readonly Screen[], found: (place: string, what: Place) => void) {
         this.person = person;
         this.screens = screens;
         this.page = person.page;
@@ -95,8 +101,16 @@ export class Walk {
         for (const screen of screens) {
             await this.page.setViewportSize(screen);
             await this.person.untilSeen();
-            this.found(`${place}, ${screen.width} px`, await this.page.evaluate(look));
+            const words = await this.page.evaluate(look);
+            const barred = screen === this.screens.at(-1) ? await barriers(this.page, await this.part(place)) : [];
+            this.found(`${place}, ${screen.width} px`, { ...words, barred });
         }
+    }
+
+    /** What is new in the page. The head is the same everywhere. */
+    private async part(place: string): Promise<'body' | 'main' | 'dialog[open]'> {
+        if ((await this.page.locator('dialog[open]').count()) > 0) return 'dialog[open]';
+        return ['remote', 'menu', 'tour 14', 'sent motion'].includes(place) ? 'body' : 'main';
     }
 
     async open(area: Tab): Promise<void> {
@@ -186,6 +200,8 @@ export class Walk {
         const chooser = page.locator('files-menu input[type="file"]');
         await this.dialog('opened file', () => chooser.setInputFiles(file(withFaults(readFileSync(LIBRARY)))));
         await this.dialog('too large a file', () => chooser.setInputFiles(file(readFileSync(LARGE))));
+        await this.dialog('refused file', () => chooser.setInputFiles(file(Buffer.from('type=0\n'), '1.mtn')));
+        await this.dialog('losses', () => page.locator('files-menu select').selectOption('.mtn'));
         await this.person.closeMenu();
         await this.open('pages');
         await page.locator('page-card[data-page="2"]').click();
