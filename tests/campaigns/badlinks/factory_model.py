@@ -24,6 +24,7 @@ MAIL_FULL, MAIL_DONE = 0xAA, 0x55
 PROMPT = b"\r\n - "
 BANNER = b"\r\n\n SYSTEM O.K. (CM5 Boot loader V1.31)"
 BANNER_AT = 0x1F7E9
+SHOWN = bytes(byte if 0x20 <= byte <= 0x7F else 0x2E for byte in range(256))  # beside the hex digits of a dump
 FOREVER = float("inf")
 SHORT = {
     "flash": "f",
@@ -209,9 +210,8 @@ class Loader:
     def dump(self, memory: bytearray, arguments: list[int]):
         at = (arguments[0] if arguments else self.dump_at) % len(memory)
         for _ in range(8):
-            row = bytes(memory[(at + k) % len(memory)] for k in range(16))
-            text = bytes(byte if 0x20 <= byte <= 0x7F else 0x2E for byte in row)
-            yield from self.say(b"\r\n %08X : " % at + b"".join(b"%02X " % byte for byte in row) + text)
+            row = bytes(memory[at : at + 16] + memory[: max(0, at + 16 - len(memory))])
+            yield from self.say(b"\r\n %08X : %b " % (at, row.hex(" ").upper().encode()) + row.translate(SHOWN))
             at = (at + 16) % len(memory)
         self.dump_at = at
         yield from self.say(b"\r\n")

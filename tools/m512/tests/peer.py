@@ -32,10 +32,13 @@ class Peer:
                 if len(passes) < len(data):
                     self._count("<-", data[len(passes)])
             return
+        arrived = bytearray()
         for byte in data:
             byte = self._count("<-", byte) if self.plugged else None
             if byte is not None and self.plugged:
-                self._to_pc(bytes([byte]))
+                arrived.append(byte)
+        if self.plugged:
+            self._to_pc(bytes(arrived))
 
     def on_byte(self, byte):
         raise NotImplementedError

@@ -714,7 +714,7 @@ def test_restore_that_is_refused_leaves_the_board_as_it_was_found(m512, tmp_path
     with BlockPeer(full_flash(), board=1, state=0) as board:
         before = bytes(board.flash)
         result = m512("restore", tmp_path / "b", "-p", board.path, "--yes", "--wait", "5")
-        assert result.exit_code == 5 and "from a cm2" in result.stderr, result.stderr
+        assert result.exit_code == 5 and "application is for a cm2" in result.stderr, result.stderr
         assert bytes(board.flash) == before and board.left[-1] == 2
 
 

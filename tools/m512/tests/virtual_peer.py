@@ -17,7 +17,7 @@ from m512.board import link as real
 from m512.errors import PortError
 
 BYTE_SECONDS = 10 / 57600
-QUANTUM = 0.005
+QUANTUM = 0.016
 _names = itertools.count(1)
 _there = {}  # path -> the End that is plugged in
 
