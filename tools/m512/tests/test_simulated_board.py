@@ -485,13 +485,13 @@ def pages_in_flash(edit):
 
 @pytest.mark.parametrize("at, wait, steps", [(b"\x1e", 0, 7), (b"\x1e", 5, 7), (b"\r", 0, 7), (b"\x1e", 0, 0), (b"\x1e", 5, 0)])
 def test_put_writes_into_no_page_of_a_board_that_restarts(m512, started, tmp_path, at, wait, steps):
-    """At every fourth request, others in each case. A restarted Edit has page 1 open, and what is sent then lies there, as edits that the
+    """At every sixth request, others in each case. A restarted Edit has page 1 open, and what is sent then lies there, as edits that the
     next `save` writes over it. Without steps page 1 is as empty as the pages that are put, so that its content does not tell them apart."""
     one = "page 1 one\n" + "".join(f"  step 1s | 1..18:{300 + 20 * step}\n" for step in range(steps)) if steps else ""
     edit = started("boot-cm5.hex", "edit-cm5.hex", text=f"motion512 1\npage 2 two\n  step 1s | 1:5\n{one}", applied=True, servos=())
-    step, over = wait % 4 + (steps > 0) - 4, False
+    step, over = wait % 4 + (steps > 0) - 6, False
     while not over:
-        step += 4
+        step += 6
         number, file = 20 + step, tmp_path / f"{step}.m512"
         file.write_text(f"motion512 1\npage {number} p{step}\n" + "".join(f"  step 1s | 1..18:{400 + 9 * n}\n" for n in range(7)))
         new, before = bytes(formats.load(file)[number]), pages_in_flash(edit)
