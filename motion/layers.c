@@ -29,6 +29,7 @@ void layers_bind(layers_t *layers, player_t *main_play)
         player_is_there(main_play, layers->code.joints);
     }
     mux_forget(&layers->mux, ~layers->code.joints);
+    layers->sought = 0;
     init_play(layers);
 }
 
@@ -185,6 +186,7 @@ static uint8_t tick_plays(layers_t *layers, link_t *main_link, uint8_t *layer_ev
 {
     const uint32_t of_layer = player_is_moving(&layers->play) ? layers->play.present : 0;
     const uint8_t events = player_tick(layers->main, main_link);
+    layers->sought = layers->mux.seeking;
     *layer_events = player_tick(&layers->play, NULL);
     if ((*layer_events & PLAYER_EV_STEP) != 0 && layers->steps_begun < 2) {
         layers->steps_begun++;
@@ -195,6 +197,7 @@ static uint8_t tick_plays(layers_t *layers, link_t *main_link, uint8_t *layer_ev
     }
     if ((events & PLAYER_EV_ENDED) != 0) {
         mux_forget(&layers->mux, ~layers->code.joints); /* nobody moves them any more */
+        layers->sought = 0;
     }
     return events;
 }
@@ -237,7 +240,8 @@ bool layers_are_moving(const layers_t *layers)
 
 uint32_t layers_joints(const layers_t *layers)
 {
-    return layers->code.joints | layers->mux.seeking | (player_is_moving(&layers->play) ? layers->play.present : 0);
+    const uint32_t of_layer = player_is_moving(&layers->play) ? layers->play.present : 0;
+    return layers->code.joints | layers->mux.seeking | layers->sought | of_layer;
 }
 
 void layers_drop_joints(layers_t *layers, uint32_t joints)
@@ -245,6 +249,7 @@ void layers_drop_joints(layers_t *layers, uint32_t joints)
     player_drop_joints(&layers->play, joints);
     layers_free(layers, joints);
     mux_forget(&layers->mux, joints);
+    layers->sought &= ~joints;
 }
 
 void layers_break(layers_t *layers)

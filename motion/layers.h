@@ -40,6 +40,7 @@ typedef struct {
     /* Private. */
     player_t *main;              /* NULL: see layers_bind */
     uint16_t *goal_pos;
+    uint32_t sought;             /* joints that sought their source before this tick: one that meets it needs its goal */
     uint8_t steps_begun;         /* of the page layer: 0, 1, 2 or more */
     bool holds;                  /* paused or breaking: what the mux and code move stays where it is */
     player_joint_t joint[PAGE_JOINTS]; /* of the page layer */
@@ -86,7 +87,8 @@ void layers_plan(layers_t *layers, link_t *main_link) NOINLINE;
 /* Whether a tick of the layers may still move something: a page layer plays, a joint changes hands or swings. */
 bool layers_are_moving(const layers_t *layers);
 
-/* Joints of the page layer and of code, and joints that go back to the main play: to be sent with the joints of that. */
+/* Joints of the page layer and of code, and joints that go back to the main play or have met it in this tick: to be sent
+ * with the joints of that. */
 uint32_t layers_joints(const layers_t *layers);
 
 /* Joints are lost (a silent servo, torque off): their goals stay. */

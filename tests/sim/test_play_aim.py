@@ -126,6 +126,20 @@ def test_an_aim_holds_in_a_pause_and_after_it():
 # --- code-made motion and the rest of the robot ---
 
 
+@pytest.mark.parametrize("away", [100, 103])
+def test_a_freed_joint_that_the_page_does_not_move_comes_back_to_its_place(away):
+    board = robot(servos=WITH_HEAD, pages=pages())
+    ask(board, f"play {LOOP}")
+    board.run(ms=2000)
+    before = row_of(board, 19)[-1:]
+    ask(board, f"aim 19 {512 - away} 240")
+    board.run(ms=800)
+    assert row_of(board, 19)[-1] == 512 - away
+    ask(board, "free 19")
+    board.run(ms=3000)
+    assert row_of(board, 19)[-1] == 512 and where(board)["page"] == str(LOOP) and before in ([], [512])
+
+
 def test_a_joint_that_is_freed_in_an_approach_goes_to_the_first_pose_slowly():
     board = robot()
     ask(board, "aim 8 0")
