@@ -215,6 +215,19 @@ def test_backup_restore_brings_back_every_byte(m512, peer, motions, tmp_path):
     assert bytes(peer.flash) == before and peer.eeprom[:0xFF0] == eeprom[:0xFF0]
 
 
+def test_a_board_whose_motions_are_read_runs_again_and_one_that_waited_waits(m512, peer, motions):
+    peer.state = RUNS
+    peer.eeprom[0xFFF] = 0x11  # the loader starts the application
+    for words in (("pages", peer.path, "list"), ("diff", peer.path, motions)):
+        result = m512(*words)
+        peer.pass_time(1)
+        assert "MODE" in result.stderr and "The controller restarts." in result.stderr and peer.state == RUNS, result.stderr
+    result = m512("pages", peer.path, "delete", "100", "--yes")  # nothing to write, but it might have been
+    assert "waits in its boot loader; `m512 run`" in result.stderr and peer.state == PROMPTED
+    result = m512("pages", peer.path, "list")
+    assert "restarts" not in result.stderr and "waits" not in result.stderr and peer.state == PROMPTED
+
+
 def test_restore_asks_the_application_for_its_board_and_not_the_manifest_alone(m512, tmp_path):
     with BlockPeer() as cm5:
         assert m512("flash", hex_file(tmp_path / "cm5.hex", (0, make_app())), "-p", cm5.path).exit_code == 0

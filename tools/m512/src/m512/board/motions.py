@@ -18,8 +18,9 @@ from m512.files.page import EMPTY, PAGE_BYTES, Page
 from m512.files.wording import named_pages_text, pages_text
 
 
-def read_motions(url: str, board: str = "") -> Image:
-    """Reads all motions. board: the board according to the user (banner.py)."""
+def read_motions(url: str, board: str = "", goes_on: bool = False) -> Image:
+    """Reads all motions. board: the board according to the user (banner.py). The board is left as it was found. goes_on: it stays in a
+    boot loader, because the caller may write there, and nobody shall press MODE twice."""
     with Link(url, image="edit") as link:
         try:
             client = Client(link)
@@ -27,11 +28,15 @@ def read_motions(url: str, board: str = "") -> Image:
             from m512.board import loaders
 
             loader = loaders.enter(link, ui.say, board=board)
-            try:
-                with ui.phase("Reading") as progress:
-                    data = loader.read(*MOTIONS, progress)
-            finally:
-                loader.leave(STAY)  # the next command finds the loader at its prompt
+            with loaders.as_found(loader), ui.phase("Reading") as progress:
+                data = loader.read(*MOTIONS, progress)
+            if loader.was_at_prompt:
+                loader.leave(STAY)
+            elif goes_on:
+                loader.leave(STAY)
+                ui.say(loaders.WAITS)
+            else:
+                ui.say(loaders.restart(loader))
             return from_bytes(data)
         return _read_pages(client)
 

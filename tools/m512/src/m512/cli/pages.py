@@ -28,6 +28,7 @@ class Source:
 
     def __init__(self, word: str, bits: int | None, which_board: str = ""):
         self.word, self.bits, self.which_board = word, bits, which_board
+        self.goes_back = False  # the result is written to where it comes from
 
     @cached_property
     def board(self) -> bool:
@@ -40,7 +41,7 @@ class Source:
         if self.board:
             from m512.board.motions import read_motions
 
-            image = read_motions(self.word, self.which_board)
+            image = read_motions(self.word, self.which_board, self.goes_back)
             self.found = image.copy()
             return image
         if Path(self.word).is_dir():
@@ -101,6 +102,7 @@ def changes(function: Any) -> Any:
             raise click.UsageError("-o FILE or --in-place: say one of the two")
         if not (options["output"] or options["in_place"] or source.board):
             raise click.UsageError("say where the result goes: -o FILE, or --in-place")
+        source.goes_back = not options["output"]
         if options["output"]:
             formats.must_be_writable(Path(options["output"]), options["force"])
         elif not source.board:
