@@ -4,6 +4,7 @@
 import pytest
 
 from cm5sim import PowerCut
+from tests.sim.boot_board import Blocks, noise, prompt_board
 from tests.sim.lab_board import MS_IN_EIGHT_CYCLES, PAGE, Lab
 
 BOOT_PAGE = 0x1FD00  # in the boot section, not used by lab.c
@@ -198,3 +199,16 @@ def test_reset_tears_a_page_but_not_an_eeprom_byte():
     lab.reset()
     lab.run(ms=9)
     assert lab.eeprom[0x123] == 0x45
+
+
+def test_names_of_an_application_that_is_replaced_are_not_told():
+    """Its functions are named until the loader erases one of them; motion pages have none."""
+    board = prompt_board("play-cm5.hex")
+    vector = board.function("__vector_18")
+    blocks = Blocks(board)
+    blocks.update(0xE0, noise(256))
+    assert board.function_at(vector) == "__vector_18"
+    blocks.update(vector // 256, noise(256))
+    assert board.function_at(vector) == "?" and board.function_at(0x1E000) != "?"
+    with pytest.raises(KeyError):
+        board.function("__vector_18")

@@ -55,6 +55,13 @@ bool symbols_load(symbols_t *symbols, const char *path, bool boot)
 
 void symbols_free(symbols_t *symbols) { (void)symbols; }
 
+void symbols_erased(symbols_t *symbols, uint32_t address, uint32_t count)
+{
+    (void)symbols;
+    (void)address;
+    (void)count;
+}
+
 const symbol_t *symbols_find(const symbols_t *symbols, const char *name, bool function)
 {
     (void)symbols;

@@ -111,6 +111,17 @@ bool symbols_load(symbols_t *symbols, const char *path, bool boot)
     return read;
 }
 
+void symbols_erased(symbols_t *symbols, uint32_t address, uint32_t count)
+{
+    for (size_t i = 0; i < symbols->count; i++) {
+        const symbol_t *symbol = &symbols->items[i];
+        if (symbol->function && symbol->address < address + count && address < symbol->address + symbol->size) {
+            drop_image(symbols, symbol->boot);
+            return;
+        }
+    }
+}
+
 void symbols_free(symbols_t *symbols)
 {
     for (size_t i = 0; i < symbols->count; i++) {

@@ -27,6 +27,10 @@ typedef struct {
 bool symbols_load(symbols_t *symbols, const char *path, bool boot);
 void symbols_free(symbols_t *symbols);
 
+/* Drops the symbols of an image of which the firmware has erased a function in these `count` bytes: what it writes there
+ * has other names. */
+void symbols_erased(symbols_t *symbols, uint32_t address, uint32_t count);
+
 /* NULL if there is none. By name: an exact match, else a match up to a dot. By address: the nearest function before
  * it. */
 const symbol_t *symbols_find(const symbols_t *symbols, const char *name, bool function);

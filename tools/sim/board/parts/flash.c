@@ -221,6 +221,7 @@ static void erase_page(flash_t *flash)
 {
     uint32_t page = flash->address / M128_PAGE_BYTES;
     memset(&flash->machine->avr->flash[flash->address], 0xFF, M128_PAGE_BYTES);
+    symbols_erased(&flash->machine->symbols, flash->address, M128_PAGE_BYTES);
     if (++flash->wear[page] > ENDURANCE) {
         violation_note(flash->machine, VIOLATION_FLASH_WORN, "flash page %u erased %u times", (unsigned)page,
                        (unsigned)flash->wear[page]);
