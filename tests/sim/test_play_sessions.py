@@ -17,3 +17,10 @@ def test_session(path):
     if os.environ.get("M512_RECORD"):
         path.write_text(went)
     assert went == wanted
+
+
+def test_words_and_short_words_are_all_different():
+    """Of two equal ones only the first would be found."""
+    help_text = (SESSIONS / "play_words.txt").read_text().partition("] help\n")[2].partition(" OK\n")[0]
+    words = [word for line in help_text.splitlines() for word in (line[:10].strip(), line[10:15].strip()) if word]
+    assert {"play", "p", "help", "?"} <= set(words) and len(words) == len(set(words))
