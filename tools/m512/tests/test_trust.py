@@ -260,6 +260,20 @@ def test_an_address_is_for_raw_binaries(m512, tmp_path, name):
     assert m512("flash", source, "--address", "0xE000", "--dry-run", "-p", "none").exit_code == 5
 
 
+@pytest.mark.parametrize("words", [[], ["--address", "0"]])
+def test_an_elf_file_is_not_flashed_as_code(m512, tmp_path, words):
+    """Its header would become the program's first instructions."""
+    (tmp_path / "x.elf").write_bytes(b"\x7fELF" + bytes(300))
+    result = m512("flash", tmp_path / "x.elf", *words, "--dry-run", "-p", "none")
+    assert result.exit_code == 4 and "is an ELF file. Flash the Intel HEX" in result.stderr, result.stderr
+
+
+def test_code_without_an_address_is_told_about_it(m512, tmp_path):
+    (tmp_path / "x.bin").write_bytes(bytes(300))
+    result = m512("flash", tmp_path / "x.bin", "-p", "none")
+    assert result.exit_code == 4 and "A raw binary of code needs --address, such as 0x0" in result.stderr, result.stderr
+
+
 def test_an_address_below_the_flash_is_refused(tmp_path):
     (tmp_path / "x.bin").write_bytes(bytes(300))
     with pytest.raises(RefusedError, match="no address -5"):

@@ -22,6 +22,7 @@ JOURNAL = (0x0C000, 0x0E000)
 MOTIONS = (0x0E000, 0x1E000)
 BOOT = (0x1E000, 0x20000)
 EEPROM_BYTES = 4096
+ELF = b"\x7fELF"
 RECORD_AT, RECORD_BYTES = 0x8C, 16
 BOARDS = {1: "cm5", 2: "cm2"}
 KINDS = {1: "play", 2: "edit", 255: "other"}
@@ -123,9 +124,12 @@ def plan(path: Path, address: int | None = None, board: str | None = None, with_
 
 def _segments(path: Path, data: bytes, address: int | None, out: Plan, with_trim: bool, damaged: str) -> Segments:
     is_hex = data[:200].lstrip(b"\xef\xbb\xbf \r\n").startswith(b":")
+    if data.startswith(ELF):
+        raise FileError(f"{path} is an ELF file. Flash the Intel HEX that is made of it: avr-objcopy -O ihex IN.elf OUT.hex")
     if address is not None:
         _must_be_raw(path, data)
     elif not is_hex:
+        _must_be_motions(path, data)
         return _motions(path, formats.decode(data, path), out, with_trim, damaged)
     segments = hex_segments(data.decode("ascii", "replace")) if address is None else [(address, data)]
     if segments and segments[0][0] >= 0x20000:
@@ -135,6 +139,13 @@ def _segments(path: Path, data: bytes, address: int | None, out: Plan, with_trim
     code = [(start, piece[: MOTIONS[0] - start]) for start, piece in segments if start < MOTIONS[0]]
     motions = [(max(start, MOTIONS[0]), piece[max(MOTIONS[0] - start, 0) :]) for start, piece in segments if start + len(piece) > MOTIONS[0]]
     return code + (_placed_motions(path, motions, out, with_trim, damaged) if motions else [])
+
+
+def _must_be_motions(path: Path, data: bytes) -> None:
+    try:
+        formats.recognise(data, path)
+    except FileError as error:
+        raise FileError(f"{error}. A raw binary of code needs --address, such as 0x0" if data else str(error)) from None
 
 
 def _must_be_raw(path: Path, data: bytes) -> None:
