@@ -189,7 +189,7 @@ def test_put_goes_on_where_one_was_broken_off_over_erased_flash_which_is_a_new_p
     assert bytes(edit.board.flash[0xE000 + 3 * 512 : 0xE000 + 4 * 512]) == new
     sent((0, b"mine"))
     result = m512("put", motions, "nod:3", "--yes", "-p", edit.path)
-    assert result.exit_code != 0 and "unsaved edits" in result.stderr, result.stderr
+    assert result.exit_code != 0 and "unsaved edits. In Edit, SAVE keeps them" in result.stderr, result.stderr
     assert bytes(edit.board.flash[0xE000 + 3 * 512 : 0xE000 + 4 * 512]) == new
 
 

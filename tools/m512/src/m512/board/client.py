@@ -123,6 +123,8 @@ class Client:
             text = f"{image.capitalize()} does not know {word}" + (f", {other} does" if other else "")
             if other and self.version.get("board") != "pc":  # the programs for an adapter cannot be flashed
                 text += f": m512 run {self.file_of(other)}"
+        if number == ERR_EDITS:
+            text += ". In Edit, SAVE keeps them; PAGE and a number opens another page and asks whether to discard them"
         if self.version.get("board") == "pc":  # each command starts the program anew, and that searches
             text = text.replace("then search again", f"then {self.link.remedy}")
         error = BoardError(text or f"error {number}", number)
