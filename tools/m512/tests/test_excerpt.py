@@ -3,6 +3,7 @@
 
 import json
 import random
+import re
 
 import pytest
 from mtn_files import Block, made, step
@@ -58,6 +59,10 @@ def test_every_walk_meets_the_same_pages(seed):
     assert all(part.moved[n] == n for n in part.moved if n < 128)  # pages that fit keep their numbers
     assert sorted(part.left) == sorted(set(image.used()) - set(part.moved))
     assert len(part.image.used()) == len(part.moved)
+    ended = {(new, getattr(image[old], label)) for old, new in part.moved.items() for label in LABELS if not getattr(part.image[new], label)}
+    assert {(int(loss.split()[1]), int(re.search(r" (\d+) becomes none", loss)[1])) for loss in part.losses} == {
+        (new, target) for new, target in ended if target
+    }
 
 
 def test_what_leads_everywhere_is_refused_with_the_figures():
@@ -128,6 +133,7 @@ def test_a_roboplus_file_of_240_pages(m512, tmp_path):
         'note: pages 11 "m11", 12 "m12", 202 "m202", 203 "m203" and 204 "m204": taken too, because what was asked for leads there',
         "note: renumbered: pages 201..204 become 1..4",
         "note: pages 1..8, 13..200 and 205..241: left out",
+        'loss: page 1 "m201": exit 250 becomes none, because page 250 holds no motion',
     ]
     listed = json.loads(m512("pages", tmp_path / "y.bin", "list", "--json").stdout)
     assert [row["page"] for row in listed] == [1, 2, 3, 4, 9, 10, 11, 12]

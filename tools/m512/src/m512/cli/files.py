@@ -114,6 +114,7 @@ def convert(
         part = excerpt(whole, wanted, count and int(count) or conversion.fitting(whole, target))
         image, moved, left = part.image, part.moved, part.left
         notes += part.notes(whole, wanted)
+        losses += part.losses
     if joints is not None or scale:
         from m512.files import scale12
     if joints is not None:

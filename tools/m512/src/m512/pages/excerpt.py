@@ -3,7 +3,7 @@
 
 A page keeps its number if the new image has it. The others get free numbers, in order. Links and blend partners follow; link codes and a
 page's own remote code stay. A link to a page that holds nothing, where a play ends, becomes empty, because another page may take that
-number.
+number; it is listed as a loss.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from m512.errors import RefusedError
 from m512.files.image import Image
 from m512.files.page import Page
-from m512.files.wording import named_pages_text, pages_text
+from m512.files.wording import field_text, named_pages_text, pages_text
 
 LINKS = Page.LINKS + Page.PARTNERS
 
@@ -24,6 +24,7 @@ class Excerpt:
     image: Image
     moved: dict[int, int] = field(default_factory=dict)  # old number -> new one, of all pages taken
     left: list[int] = field(default_factory=list)  # pages that hold something and were not taken
+    losses: list[str] = field(default_factory=list)  # links that became empty
 
     def notes(self, whole: Image, wanted: Iterable[int]) -> list[str]:
         """What was taken, renumbered and left out, in words."""
@@ -51,11 +52,12 @@ def excerpt(image: Image, wanted: Iterable[int], count: int) -> Excerpt:
     out.given = None if image.given is None else set(moved.values())
     if image.first == 0:
         out[0] = image[0]
+    losses = []
     for old, new in moved.items():
         out[new] = image[old]
         if not image[old].fault(image.kind):
-            _follow(out[new], moved)
-    return Excerpt(out, moved, sorted(used - taken - {0}))
+            losses += _follow(out[new], new, moved)
+    return Excerpt(out, moved, sorted(used - taken - {0}), losses)
 
 
 def _reached(image: Image, start: set[int], used: set[int]) -> set[int]:
@@ -68,10 +70,16 @@ def _reached(image: Image, start: set[int], used: set[int]) -> set[int]:
     return found
 
 
-def _follow(page: Page, moved: dict[int, int]) -> None:
+def _follow(page: Page, number: int, moved: dict[int, int]) -> list[str]:
+    """Returns the losses, with the page's new number."""
+    losses = []
     for link in LINKS:
-        setattr(page, link, moved.get(getattr(page, link), 0))
+        target = getattr(page, link)
+        if target and target not in moved:
+            losses.append(f'page {number} "{page.title}": {field_text(link)} {target} becomes none, because page {target} holds no motion')
+        setattr(page, link, moved.get(target, 0))
     page.seal()
+    return losses
 
 
 def _named(image: Image, numbers: list[int]) -> str:
