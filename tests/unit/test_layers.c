@@ -334,6 +334,26 @@ static void test_layers_refuse_and_change_nothing(void)
     TEST_ASSERT_EQUAL(LAYERS_OK, layers_aim(&layers, 7, 520, 0)); /* replaces the aim of the same joint */
 }
 
+/* The layer goes on with its other joint. */
+static void test_layers_free_gives_a_joint_of_a_layer_to_the_main_play(void)
+{
+    play_alone(PLAYER_LAW_EXACT);
+    layers_init(&layers, goal_pos);
+    start(PLAYER_LAW_EXACT);
+    TEST_ASSERT_EQUAL(LAYERS_OK, layers_start(&layers, WAVE, LAYER_JOINTS));
+    TEST_ASSERT_EQUAL(LAYERS_OK, layers_aim(&layers, 2, 560, 0));
+    layers_free(&layers, 1ul << 2);
+    for (uint16_t t = 0; t < RUN; t++) {
+        (void)tick();
+        expect_undisturbed(t);
+    }
+    TEST_ASSERT_EQUAL_HEX32(1ul << 3, layers_joints(&layers));
+    for (uint8_t t = 0; t < CYCLE; t++) {
+        (void)tick();
+        TEST_ASSERT_EQUAL_UINT16(player_goal(&player, 2), goal_pos[2]);
+    }
+}
+
 static void test_layers_aim_works_while_nothing_plays(void)
 {
     for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
