@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * The line of the shell: keys and recall. */
+#include <string.h>
 #include "shell_stage.h"
 #include "unity.h"
 
@@ -166,4 +167,29 @@ static void test_shell_history_keeps_words_whole_and_repeats_once(void)
     shell_clear(&shell);
     keys("\x01\r");
     TEST_ASSERT_EQUAL_STRING("off 1,2", line);
+}
+
+static void test_shell_an_empty_line_leaves_the_history(void)
+{
+    enter_and_clear("list");
+    enter_and_clear("");
+    keys("\x01\r");
+    TEST_ASSERT_EQUAL_STRING("list", line);
+}
+
+/* Play's and Edit's lines are longer than their history. The list of lines ends with two NULs. */
+static void test_shell_a_line_longer_than_the_history_is_not_kept(void)
+{
+    char small[1 + 10 + 1];
+    for (uint8_t length = 7; length <= 12; length++) {
+        const char *text = &"123456789012"[12 - length];
+        memset(small, 'x', sizeof small);
+        shell_init(&shell, line, sizeof line, small + 1, 10);
+        enter_and_clear("ab");
+        enter_and_clear(text);
+        keys("\x01\r");
+        TEST_ASSERT_EQUAL_STRING(length + 2u <= 10 ? text : "ab", line);
+        TEST_ASSERT_EQUAL_CHAR('x', small[0]);
+        TEST_ASSERT_EQUAL_CHAR('x', small[11]);
+    }
 }
