@@ -10,6 +10,7 @@ import time
 from contextlib import suppress
 from pathlib import Path
 
+import pexpect
 import pytest
 
 from m512.board.bus import wrong_file
@@ -160,3 +161,34 @@ def test_an_adapter_pulled_during_a_play_is_a_lost_port(m512, motions):
     assert process.returncode == 6, said
     assert "was unplugged, which ends any motion" in said and "`m512 torque on -p bus:" in said and "say `on`" not in said
     assert "no such port" in m512("play", "nod", "-p", "BUS", code=6)
+
+
+def test_edits_that_end_with_the_terminal_are_asked_for(m512, tmp_path):
+    environment = dict(os.environ, M512_ROBOT=str(tmp_path / "robot"), TERM="xterm")
+    words = ["-m", "m512", "term", "-p", f"bus:{m512.robot.port}"]
+    with pexpect.spawn(sys.executable, words, env=environment, encoding="utf-8", timeout=120) as child:
+        child.expect("to quit")
+        child.send("page 3\r")
+        child.expect("H0003")
+        child.send("name mine\r")
+        child.expect("unsaved")
+        child.send("\x1dq")
+        child.expect("edits that are not saved. q again")
+        child.send("x")
+        child.send("save\r")  # the key that stays does not go to Edit
+        child.expect("save OK")
+        child.send("name other\r")
+        child.expect("unsaved")
+        child.send("\x1dq")
+        child.expect("q again")
+        child.send("q")
+        child.expect(pexpect.EOF)
+    assert "mine" in m512("pages", "BUS", "list")
+
+
+def test_edits_that_end_with_the_lines_of_a_pipe_are_told(m512, tmp_path):
+    for lines, is_told in (("page 3\nname mine\n", True), ("page 3\nname mine\nsave\n", False)):
+        environment = dict(os.environ, M512_ROBOT=str(tmp_path / "robot"))
+        words = [sys.executable, "-m", "m512", "term", "-p", f"bus:{m512.robot.port}"]
+        said = subprocess.run(words, input=lines, capture_output=True, text=True, check=True, env=environment).stderr
+        assert ("edits that were not saved; they are lost" in said) == is_told, said

@@ -16,6 +16,8 @@ from itertools import chain
 from pathlib import Path
 from typing import Any, BinaryIO, Callable
 
+from m512 import ui
+from m512.board.client import Client
 from m512.board.factory_line import PROMPT
 from m512.board.link import Link
 from m512.board.loaders import BANNER
@@ -96,18 +98,16 @@ class Terminal:
         if isinstance(sys.stdin, io.TextIOWrapper):
             sys.stdin.reconfigure(errors="replace")  # a terminal set to Latin-1 sends bytes that are no UTF-8
         self._say(f"{self.link.url}, 57600 8N1. Ctrl-] h for help, Ctrl-] q to quit.")
-        reader = threading.Thread(target=self._read, args=(console,), daemon=True)
         console.setup()
         try:
-            reader.start()
+            self._begin_reading(console)
             if send:
                 self._begin(lambda: self._send_lines(send, data))
             self._keys(console)
         finally:
-            self.running = False
             self._end("the terminal ends")
             console.cleanup()
-            reader.join(1)
+            self._end_reading()
             self.link.close()
             self._close_log()
         if self.trouble:
@@ -123,6 +123,8 @@ class Terminal:
                 sys.stdout.buffer.write(bytes(b for b in answer if b not in HIDDEN))
                 sys.stdout.buffer.flush()
                 self._to_log(answer)
+            if self.link.program and self._has_edits():
+                ui.say("note: Edit's page had edits that were not saved; they are lost. End the lines with `save`")
         finally:
             self.link.close()
             self._close_log()
@@ -131,6 +133,15 @@ class Terminal:
     def _say(text: str) -> None:
         sys.stderr.write("\r\n-- " + text.replace("\n", "\r\n") + "\r\n")
         sys.stderr.flush()
+
+    def _begin_reading(self, console: Any) -> None:
+        self.running = True
+        self.reader = threading.Thread(target=self._read, args=(console,), daemon=True)
+        self.reader.start()
+
+    def _end_reading(self) -> None:
+        self.running = False
+        self.reader.join(1)
 
     def _read(self, console: Any) -> None:
         """Copies what the board sends to the screen, unchanged."""
@@ -192,7 +203,7 @@ class Terminal:
         """Acts on the key after Ctrl-]. Returns False for quit."""
         key = console.getkey().lower()
         if key == "q":
-            return False
+            return not self._may_quit(console)
         if key == KEY:
             self.link.write(KEY.encode())
         elif key == "l":
@@ -206,6 +217,24 @@ class Terminal:
             self._toggle_log(console)
         else:
             self._say(HELP)
+        return True
+
+    def _has_edits(self) -> bool:
+        try:
+            return Client(self.link).has_edits()
+        except M512Error:  # an answer that does not come keeps nobody here
+            return False
+
+    def _may_quit(self, console: Any) -> bool:
+        """Asks if edits would be lost: the program for an adapter ends with the terminal, but a board's Edit goes on."""
+        if not self.link.program:
+            return True
+        self._end_reading()
+        if self._has_edits():
+            self._say("Edit ends with this terminal, and its page has edits that are not saved. q again: lose them; any other key: go on")
+            if console.getkey().lower() != "q":
+                self._begin_reading(console)
+                return False
         return True
 
     def _call(self) -> None:
