@@ -182,5 +182,8 @@ def test_what_plays_in_play_goes_on(m512, board):
 
 def test_a_program_without_the_channel_is_told_to_be_replaced(m512, board):
     """The monitor has no channel, like older versions of Play and Edit."""
-    result = m512("pose", "-p", board("monitor-cm5.hex").path)
+    port = board("monitor-cm5.hex").path
+    result = m512("pose", "-p", port)
     assert result.exit_code != 0 and "an older Play or Edit" in result.stderr and "m512 flash play-cm5.hex" in result.stderr, result.stderr
+    examined = m512("doctor", "-p", port).stdout
+    assert "an older Play or Edit, or another program" in examined and "-> Write a new one" in examined, examined

@@ -12,7 +12,7 @@ from contextlib import suppress
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Callable
 
-from m512.board.client import Client
+from m512.board.client import OLDER, Client
 from m512.errors import M512Error, NoAnswerError, RefusedError
 from m512.files.wording import counted, ranges
 
@@ -97,8 +97,8 @@ def _board(url: str, add: Add, meet: Callable[..., Client]) -> None:
     with Link(url) as link:
         try:
             client = meet(link)
-        except NoAnswerError:
-            _loader(link, add)
+        except NoAnswerError as error:
+            _loader(link, add, str(error))
             return
         except RefusedError as error:
             add("board", WARN, *str(error).split(": ", 1))
@@ -115,7 +115,8 @@ def _board(url: str, add: Add, meet: Callable[..., Client]) -> None:
                 add(look.__name__.strip("_"), BAD, str(error), "repeat; if it stays, restart the controller (MODE)")
 
 
-def _loader(link: Link, add: Add) -> None:
+def _loader(link: Link, add: Add, why: str) -> None:
+    """`why`: the error of a board on which neither Play nor Edit has answered."""
     from m512.board import download, loaders
 
     is_there = loaders.at_prompt(link)
@@ -141,6 +142,9 @@ def _loader(link: Link, add: Add) -> None:
             loader.leave()
         return
     heard = link.drain(0.3, 1.0)
+    if why.startswith(OLDER):
+        add("board", BAD, *OLDER.split(". ", 1))
+        return
     add(
         "board",
         BAD,
