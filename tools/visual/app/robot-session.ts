@@ -418,15 +418,25 @@ export class RobotSession implements Session {
     }
 
     useSimulated(): void {
-        this.sources.useSimulated();
+        void this.changeRobot(() => this.sources.useSimulated());
     }
 
     connectYours(): Promise<void> {
-        return this.sources.connectYours();
+        return this.changeRobot(() => this.sources.connectYours());
     }
 
     connectServos(): Promise<void> {
-        return this.sources.connectServos();
+        return this.changeRobot(() => this.sources.connectServos());
+    }
+
+    /** The program of my servos ends with the change. Never rejects. */
+    private async changeRobot(change: () => void | Promise<void>): Promise<void> {
+        try {
+            if (this.state.get().source === 'servos') await this.images.mustHaveNoEdits();
+        } catch (error) {
+            return this.messages.fail(error);
+        }
+        await change();
     }
 
     runImage(image: ImageName): void {

@@ -48,7 +48,7 @@ function scripted(image: 'play' | 'edit', aim = '00000000', state = 'idle') {
         if (word === 'remote') packets.push(bytes.join());
         else setTimeout(() => port.push(answer), 5);
     });
-    return { port, sent, packets };
+    return { port, sent, packets, answers };
 }
 
 beforeEach(() => {
@@ -223,7 +223,7 @@ test.each([
 /** The page drives servos. */
 async function servos(aim?: string, state?: string) {
     const { session } = await page('play');
-    const { port, sent } = scripted('play', aim, state);
+    const { port, sent, answers } = scripted('play', aim, state);
     vi.spyOn(ServosSource.prototype, 'choose').mockResolvedValue(true);
     vi.spyOn(ServosSource.prototype, 'start').mockResolvedValue();
     vi.spyOn(ServosSource.prototype, 'close').mockResolvedValue();
@@ -238,7 +238,7 @@ async function servos(aim?: string, state?: string) {
         tab.hidden = isHidden;
         for (const look of tab.looks) look();
     };
-    return { session, sent, hide };
+    return { session, sent, answers, hide };
 }
 
 test.each([
@@ -253,6 +253,24 @@ test.each([
     expect(sent.includes('@break')).toBe(ends);
     hide(false);
     expect(session.state.get().message?.text).toBe(ends ? TEXTS.robot.errors['was-hidden'] : undefined);
+});
+
+test('another robot is not chosen while the Edit of My servos, which would end, has edits', async () => {
+    const { session, answers } = await servos();
+    const version = { version: '1.0.0', board: 'pc', protocol: 1, can: new Set<string>(), image: 'edit' };
+    session.state.set({ connection: 'ready', image: 'edit', version });
+    for (const [crc, source] of [
+        ['1234', 'servos'], // of no page that is stored
+        [answers['@crc'] ?? '', 'simulated'],
+    ] as const) {
+        answers['@crc'] = crc;
+        session.state.set({ message: null });
+        await session.connectServos(); // the same adapter once more
+        session.useSimulated();
+        await soon();
+        expect(session.state.get().source).toBe(source);
+        expect(session.state.get().message?.text).toBe(source === 'servos' ? TEXTS.robot.errors['page-unsaved'] : undefined);
+    }
 });
 
 test('a motion that waits until My servos are found does not begin in a hidden page', async () => {
