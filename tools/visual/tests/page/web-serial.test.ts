@@ -394,6 +394,9 @@ test.skipIf(why !== null)(
             const ours = distinct(posesOf(servos.frames()));
             const board = await goalsOfBoard('wave');
             expect(ours).toEqual(board.slice(board.indexOf(ours[0] ?? '')));
+            await person.button('Tour').click();
+            await person.page.getByRole('region', { name: 'Tour' }).getByText('This is about the robot in the page').waitFor();
+            await person.button('End the tour').click();
 
             await person.button('Walk').click();
             await person.untilDoing(/Playing motion 2[0-9]/);

@@ -3,7 +3,7 @@
 // its button. It never acts for the user.
 
 import type { RobotState } from '../../robot/robot-state.ts';
-import { define, handOver, make, pictureCanvas } from '../element.ts';
+import { define, handOver, make, pictureCanvas, setText } from '../element.ts';
 import type { Store } from '../store.ts';
 import type { Editing } from './editing.ts';
 import { TEXTS } from '../texts/texts.ts';
@@ -86,11 +86,21 @@ export class TourCard extends SessionElement {
         const { at } = this.place;
         this.armBefore = this.arm();
         this.heading.textContent = TEXTS.tour.title(at + 1, this.stops.length);
-        this.text.textContent = this.stop?.text ?? '';
         this.next.textContent = at === this.stops.length - 1 ? TEXTS.tour.done : at === 0 ? TEXTS.tour.start : TEXTS.tour.next;
-        this.send.hidden = this.stop?.goal !== 'send';
+        this.write();
         this.lead(this.stop?.target ?? '');
         this.showRing();
+    }
+
+    /** What the card says is true of the robot in the page: its arm is dragged in the picture, and Play writes to it. */
+    private get isForThisRobot(): boolean {
+        return this.session.state.get().source === 'simulated';
+    }
+
+    private write(): void {
+        setText(this.text, this.isForThisRobot ? (this.stop?.text ?? '') : TEXTS.robotPane.onlyInPage);
+        this.next.hidden = !this.isForThisRobot;
+        this.send.hidden = !this.isForThisRobot || this.stop?.goal !== 'send';
     }
 
     /** Moves the card out of the way of a target in the picture; scrolls a target in an area into view. */
@@ -107,7 +117,8 @@ export class TourCard extends SessionElement {
 
     private look(): void {
         if (this.hidden || !this.stop) return;
-        if (this.place.isOver(this.isReached(this.stop))) this.go(this.place.at + 1);
+        this.write();
+        if (this.isForThisRobot && this.place.isOver(this.isReached(this.stop))) this.go(this.place.at + 1);
         else this.showRing();
     }
 
@@ -155,8 +166,7 @@ export class TourCard extends SessionElement {
     }
 
     private showRing(): void {
-        const { stop } = this;
-        const target = stop?.target ?? '';
+        const target = this.isForThisRobot ? (this.stop?.target ?? '') : '';
         const box = target.startsWith('#') ? this.boxOf(target.slice(1)) : this.boxOfShape(target);
         this.ring.hidden = box === null;
         if (!box) return;
