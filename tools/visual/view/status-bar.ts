@@ -26,7 +26,10 @@ export class StatusBar extends SessionElement {
 
     connectedCallback(): void {
         this.replaceChildren(this.doing, this.message, this.facts, this.unkept, this.spoken);
+        const sizes = new ResizeObserver(() => document.documentElement.style.setProperty('--status-bar-height', `${this.offsetHeight}px`));
+        sizes.observe(this); // tour.css
         this.disposals.push(
+            () => sizes.disconnect(),
             this.session.state.watch(state => this.render(state)),
             this.session.onFrame(({ hasFallen, isHeld }) => {
                 if (hasFallen === this.posture.hasFallen && isHeld === this.posture.isHeld) return;

@@ -267,7 +267,9 @@ test('on a tablet and a phone: the robot stands as high over the bar of motions 
     await card.getByText('Take the right hand').waitFor();
     const sheet = await box(page, 'tour-card');
     expect(sheet.height).toBeLessThanOrEqual(TOUR_PX);
-    expect(sheet.y + sheet.height).toBe(PHONE.height);
+    // Not over the bar below, which says what the robot refuses.
+    const statusTop = async (): Promise<number> => (await box(page, 'status-bar')).y;
+    expect(sheet.y + sheet.height).toBeCloseTo(await statusTop(), 0);
     // The ring moves with the hand, which the camera still follows.
     const ringAboveBar = async (): Promise<number> => {
         const ring = await box(page, '.tour-ring');
