@@ -192,6 +192,24 @@ def test_the_button_counts_at_any_moment_of_the_wait(m512, peer, tenths):
     assert result.exit_code == 0 and "Press the MODE button" in result.stderr, result.stderr
 
 
+@pytest.mark.parametrize("gap", [n / 20 for n in range(1, 10)])
+def test_a_button_pressed_twice_is_waited_for_again(m512, peer, gap):
+    """The second press takes the loader away while it is called or identified. The third comes after a while."""
+    peer.state, peer.presses_mode, presses, on_silence = 0, False, [], peer.on_silence
+
+    def person(seconds):
+        if peer.app_heard.endswith(b"##") and not presses:
+            presses.extend(peer.now() + after for after in (1, 1 + gap, 8))
+        if presses and peer.now() >= presses[0] and (len(presses) > 1 or peer.state == 0):
+            presses[0:1] = [] if len(presses) > 1 else [float("inf")]
+            peer.press_mode()
+        on_silence(seconds)
+
+    peer.on_silence = person
+    result = m512("run", "-p", peer.path, "--wait", "20")
+    assert result.exit_code == 0 and "Press the MODE button" in result.stderr, result.stderr
+
+
 def test_flash_says_what_it_waits_for_and_gives_up(m512, motions, peer):
     peer.state, peer.presses_mode = 0, False
     result = m512("flash", motions, "-p", peer.path, "--wait", "0.5")

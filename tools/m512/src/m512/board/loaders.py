@@ -163,15 +163,16 @@ def enter(link: Link, say: Callable[[str], None], seconds: float = WAIT_SECONDS,
         except NoAnswerError:
             pass
         said = _restarted(link, say, may)  # a board that somebody had just restarted did not listen yet
-    if said is None:
-        say(f"Press the MODE button of the controller (reset). Waiting for its boot loader, up to {seconds:.0f} s; Ctrl-C gives up.")
-        said = _awaited(link, say, seconds, may)
-    if said is None:
+    if said is not None:
+        return identify(link, said, board)
+    say(f"Press the MODE button of the controller (reset). Waiting for its boot loader, up to {seconds:.0f} s; Ctrl-C gives up.")
+    loader = _awaited(link, say, seconds, may, board)
+    if loader is None:
         raise NoAnswerError(
             f"no boot loader answered within {seconds:.0f} s. Is the controller on, the cable in its PC "
             "socket, and this the right port? (m512 doctor looks at each)"
         )
-    return identify(link, said, board)
+    return loader
 
 
 def _restarted(link: Link, say: Callable[[str], None], may: May) -> bytes | None:
@@ -179,16 +180,26 @@ def _restarted(link: Link, say: Callable[[str], None], may: May) -> bytes | None
     return call_by_hash(link, RESTART_SECONDS) if reset_by_application(link, say, may) else None
 
 
-def _awaited(link: Link, say: Callable[[str], None], seconds: float, may: May) -> bytes | None:
-    """The loader's output after somebody has pressed MODE, or after Play or Edit has begun to answer and restarted. None: neither."""
-    deadline = link.now() + seconds
-    while True:
+def _awaited(link: Link, say: Callable[[str], None], seconds: float, may: May, board: str) -> Loader | None:
+    """The loader after somebody has pressed MODE, or after Play or Edit has begun to answer and restarted. None: neither. A second press
+    of MODE may take a loader away while it is being identified."""
+    deadline, failure = link.now() + seconds, None
+    while link.now() < deadline:
         said = call_by_hash(link, deadline - link.now(), asks=True)
-        if said is None or ANSWER not in said.translate(None, FLOW):
-            return said
-        said = _restarted(link, say, may)
-        if said is not None:
-            return said
+        if said is not None and ANSWER in said.translate(None, FLOW):
+            said = _restarted(link, say, may)
+        if said is None:
+            continue
+        try:
+            return identify(link, said, board)
+        except NoAnswerError as error:
+            if failure:
+                raise
+            failure = error
+            say("A boot loader began to answer and stopped. If MODE was pressed twice, press it once more.")
+    if failure:
+        raise failure
+    return None
 
 
 def give_back(loader: Loader) -> str:
