@@ -166,13 +166,13 @@ def enter(link: Link, say: Callable[[str], None], seconds: float = WAIT_SECONDS,
     if said is not None:
         return identify(link, said, board)
     say(f"Press the MODE button of the controller (reset). Waiting for its boot loader, up to {seconds:.0f} s; Ctrl-C gives up.")
-    loader = _awaited(link, say, seconds, may, board)
-    if loader is None:
+    awaited = _awaited(link, say, seconds, may, board)
+    if awaited is None:
         raise NoAnswerError(
             f"no boot loader answered within {seconds:.0f} s. Is the controller on, the cable in its PC "
             "socket, and this the right port? (m512 doctor looks at each)"
         )
-    return loader
+    return awaited
 
 
 def _restarted(link: Link, say: Callable[[str], None], may: May) -> bytes | None:
