@@ -168,6 +168,8 @@ def test_edits_that_end_with_the_terminal_are_asked_for(m512, tmp_path):
     words = ["-m", "m512", "term", "-p", f"bus:{m512.robot.port}"]
     with pexpect.spawn(sys.executable, words, env=environment, encoding="utf-8", timeout=120) as child:
         child.expect("to quit")
+        child.send("\x1dl")
+        child.expect("no board with a boot loader")
         child.send("page 3\r")
         child.expect("H0003")
         child.send("name mine\r")

@@ -260,6 +260,12 @@ def test_an_address_is_for_raw_binaries(m512, tmp_path, name):
     assert m512("flash", source, "--address", "0xE000", "--dry-run", "-p", "none").exit_code == 5
 
 
+def test_a_file_of_motion_2_is_named(m512, tmp_path):
+    (tmp_path / "x.mtnx").write_text("<?xml version='1.0'?>")
+    result = m512("convert", tmp_path / "x.mtnx", tmp_path / "y.m512")
+    assert result.exit_code == 4 and "x.mtnx: a file of R+ Motion 2" in result.stderr, result.stderr
+
+
 @pytest.mark.parametrize("words", [[], ["--address", "0"]])
 def test_an_elf_file_is_not_flashed_as_code(m512, tmp_path, words):
     """Its header would become the program's first instructions."""

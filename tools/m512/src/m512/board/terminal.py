@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any, BinaryIO, Callable
 
 from m512 import ui
+from m512.board.bus import NO_LOADER
 from m512.board.client import Client
 from m512.board.factory_line import PROMPT
 from m512.board.link import Link
@@ -206,6 +207,8 @@ class Terminal:
             return not self._may_quit(console)
         if key == KEY:
             self.link.write(KEY.encode())
+        elif key == "l" and self.link.program:
+            self._say(NO_LOADER)
         elif key == "l":
             self._say(f"Press MODE; '#' is sent for {CALL_SECONDS} s, or until you press a key")
             self._begin(self._call)

@@ -36,6 +36,8 @@ def recognise(data: bytes, path: Path) -> str:
         return TEXT
     if len(data) in raw.SIZES:
         return BINARY
+    if path.suffix.lower() == ".mtnx":
+        raise FileError(f"{path}: a file of R+ Motion 2, which this program cannot read. It reads .mtn files of RoboPlus Motion")
     kind = BY_SUFFIX.get(path.suffix.lower())
     if kind in (None, BINARY):
         raise FileError(
