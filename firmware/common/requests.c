@@ -173,7 +173,7 @@ static uint8_t do_move(const shell_args_t *args)
     uint16_t to_pos[PAGE_JOINTS] = {0};
     const uint32_t joints = parse_pose((uint8_t)args->number[1], shell_word(args, 3), to_pos);
     if (joints == 0) {
-        return requests_refuse(REQUEST_ERR_RANGE, TEXT_P("Positions must be 000..3FF or ---, up to ID 30"));
+        return requests_refuse(REQUEST_ERR_RANGE, TEXT_P("Positions are 000..3FF or ---, up to ID 30"));
     }
     return requests_refusal(performer_move(requests_image.performer, to_pos, joints, args->number[0]));
 }

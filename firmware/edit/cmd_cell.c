@@ -43,6 +43,9 @@ static void put(const here_t *here, uint16_t value)
         return;
     }
     session_begin();
+    if (here->address == PAGE_AT_STEPS) {
+        session_set_steps((uint8_t)value);
+    }
     session_set_byte(here->address, (uint8_t)value);
     if (here->kind == CELL_POSITION) {
         session_set_byte(here->address + 1u, (uint8_t)(value >> 8));

@@ -61,13 +61,18 @@ static NOINLINE void tell_namesake(uint8_t named, uint8_t own)
     }
 }
 
+static bool ask_trim(void)
+{
+    return dialog_ask(TEXT_P("Page 0 holds the trim"));
+}
+
 COMMAND(cmd_copy)
 {
     if (!dialog_ask_unsaved()) {
         return DIALOG_TO_ASK;
     }
     uint8_t from = (uint8_t)args->number[0];
-    if (the_session.page == 0 && from != 0 && !dialog_ask(TEXT_P("Page 0 holds the trim. "))) {
+    if (the_session.page == 0 && from != 0 && !ask_trim()) {
         return DIALOG_TO_ASK;
     }
     session_begin();
@@ -78,7 +83,7 @@ COMMAND(cmd_copy)
 
 COMMAND(cmd_new)
 {
-    if (!dialog_ask(TEXT_P("The page would be emptied. "))) {
+    if (!dialog_ask(TEXT_P("The page would be emptied"))) {
         return DIALOG_TO_ASK;
     }
     session_begin();
@@ -129,17 +134,17 @@ static bool page_is_sound(void)
 static bool overwriting_is_meant(uint8_t page)
 {
     if (page == 0 && the_session.page != 0) {
-        return dialog_ask(TEXT_P("Page 0 holds the trim. "));
+        return ask_trim();
     }
     if (page != the_session.page) {
-        return session_is_empty(page) || dialog_ask(TEXT_P("That page is not empty. "));
+        return session_is_empty(page) || dialog_ask(TEXT_P("That page is not empty"));
     }
-    return !page_store_is_damaged(&the_pages, page) || dialog_ask(TEXT_P("The stored page is damaged. "));
+    return !page_store_is_damaged(&the_pages, page) || dialog_ask(TEXT_P("The stored page is damaged"));
 }
 
 static uint8_t save_by_mailbox(uint8_t page)
 {
-    if (!dialog_ask(TEXT_P("SAVE restarts (5 s). "))) {
+    if (!dialog_ask(TEXT_P("SAVE restarts (5 s)"))) {
         return DIALOG_TO_ASK;
     }
     page_save_by_mailbox(page, the_session.cells);

@@ -12,7 +12,9 @@ static void send_step(const uint8_t step[PAGE_STEP_BYTES])
 {
     uint32_t missing = robot_send(step);
     session_set_byte(CELLS_POSE_AT + PAGE_STEP_AT_PAUSE, step[PAGE_STEP_AT_PAUSE]);
-    session_set_byte(CELLS_POSE_AT + PAGE_STEP_AT_SPEED, step[PAGE_STEP_AT_SPEED]);
+    if (step[PAGE_STEP_AT_SPEED] != 0) { /* an unused step may have none (session_set_steps) */
+        session_set_byte(CELLS_POSE_AT + PAGE_STEP_AT_SPEED, step[PAGE_STEP_AT_SPEED]);
+    }
     dialog_tell_joints(TEXT_P("No value, not moved"), missing);
 }
 
@@ -22,7 +24,7 @@ COMMAND(cmd_go)
     if (cmd_step_is_trim(step)) {
         return SHELL_ERR_REPORTED;
     }
-    if (step >= the_session.cells[PAGE_AT_STEPS] && !dialog_ask(TEXT_P("That step is not used. "))) {
+    if (step >= the_session.cells[PAGE_AT_STEPS] && !dialog_ask(TEXT_P("That step is not used"))) {
         return DIALOG_TO_ASK;
     }
     the_session.go_step = step;

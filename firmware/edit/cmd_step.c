@@ -10,14 +10,14 @@
 #define LAST_STEP (PAGE_STEPS - 1u)
 #define POSE_STEP PAGE_STEPS       /* 7 in MOVE: the work pose */
 
-static void set_count(uint8_t steps)
-{
-    session_set_byte(PAGE_AT_STEPS, steps);
-}
-
 static uint8_t refuse_unused(void)
 {
     return dialog_refuse(TEXT_P("That step is not used"));
+}
+
+static uint8_t refuse_full(void)
+{
+    return dialog_refuse(TEXT_P("No room: 7 steps at most"));
 }
 
 /* Byte `at` of a page: from RAM while it is open. */
@@ -51,7 +51,7 @@ bool cmd_step_is_trim(uint8_t step)
 static bool is_trim_page(void)
 {
     if (the_session.page == 0) {
-        TEXT("Page 0 is the trim: its columns stay in their places");
+        TEXT("Page 0 is the trim: its columns stay");
     }
     return the_session.page == 0;
 }
@@ -100,7 +100,7 @@ static void write_pose(uint8_t step)
 COMMAND(cmd_step)
 {
     session_begin();
-    set_count((uint8_t)args->number[0]);
+    session_set_steps((uint8_t)args->number[0]);
     return dialog_edited();
 }
 
@@ -110,14 +110,14 @@ COMMAND(cmd_write)
     if (args->count > 1) {
         step = (uint8_t)args->number[0];
     } else if (step >= PAGE_STEPS) {
-        return dialog_refuse(TEXT_P("All 7 steps are used"));
+        return refuse_full();
     }
     if (cmd_step_is_trim(step)) {
         return SHELL_ERR_REPORTED;
     }
     session_begin();
     if (args->count == 1) {
-        set_count(step + 1u);
+        session_set_steps(step + 1u);
     }
     write_pose(step);
     update_trim(step);
@@ -133,7 +133,7 @@ COMMAND(cmd_insert)
     }
     session_begin_turn(UNDO_TURN(UNDO_TURN_UP, step, LAST_STEP));
     if (step < steps && steps < PAGE_STEPS) {
-        set_count(steps + 1u);
+        session_set_steps(steps + 1u);
     }
     write_pose(step);
     if (steps >= PAGE_STEPS && !the_session.is_begun) {
@@ -151,7 +151,7 @@ static uint8_t delete_step(uint8_t step)
         return refuse_unused();
     }
     session_begin_turn(UNDO_TURN(UNDO_TURN_DOWN, step, LAST_STEP));
-    set_count((uint8_t)(steps - 1u));
+    session_set_steps((uint8_t)(steps - 1u));
     if (step < LAST_STEP) {
         copy_step(LAST_STEP - 1u, LAST_STEP);
     }
@@ -171,7 +171,7 @@ COMMAND(cmd_delete)
         return dialog_refuse(TEXT_P("There is no step"));
     }
     session_begin();
-    set_count((uint8_t)(steps - 1u));
+    session_set_steps((uint8_t)(steps - 1u));
     return dialog_edited();
 }
 
@@ -258,19 +258,19 @@ COMMAND(cmd_paste)
     }
     uint8_t count = the_dialog.take_count;
     if (the_dialog.take_crc != crc_of_noted()) {   /* also if nothing was ever noted */
-        return dialog_refuse(TEXT_P("Nothing noted, or it has changed: TAKE first"));
+        return dialog_refuse(TEXT_P("Nothing noted, or it changed: TAKE first"));
     }
     const uint8_t to = args->count > 1 ? (uint8_t)args->number[0] : steps;
     const uint8_t end = (uint8_t)(to + count);
     if (end > PAGE_STEPS) {
-        return dialog_refuse(TEXT_P("No room: 7 steps at most"));
+        return refuse_full();
     }
     if (to > steps) {   /* the empty steps between would be played, too */
         return refuse_unused();
     }
     session_begin();
     if (end > steps) {
-        set_count(end);
+        session_set_steps(end);
     }
     /* Copies upwards or downwards, so that overlapping steps of a page are read before they are overwritten. */
     for (uint8_t i = 0; i < count; i++) {

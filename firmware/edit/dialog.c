@@ -81,7 +81,7 @@ bool dialog_ask(const char *question_P)
     }
     the_screen.lead = true;
     text_P(question_P);
-    TEXT("Are you sure?[y/N]");
+    TEXT(". Are you sure?[y/N]");
     the_dialog.stale_bytes = console_waiting();
     the_dialog.quiet_since = tick_now16();
     return false;
@@ -89,7 +89,7 @@ bool dialog_ask(const char *question_P)
 
 bool dialog_ask_unsaved(void)
 {
-    return !the_session.is_changed || dialog_ask(TEXT_P("The edits would be lost. "));
+    return !the_session.is_changed || dialog_ask(TEXT_P("The edits would be lost"));
 }
 
 uint8_t dialog_refuse(const char *sentence_P)

@@ -48,7 +48,7 @@ REQUEST(do_data)
     const uint8_t count = parse_bytes(shell_word(args, 2), bytes);
     if (count == 0 || offset + count > PAGE_BYTES) {
         return requests_refuse(REQUEST_ERR_RANGE,
-                               TEXT_P("Data must be 1..32 hexadecimal bytes, within the page"));
+                               TEXT_P("Data is 1..32 hex bytes, within the page"));
     }
     memcpy(&the_session.cells[offset], bytes, count);
     session_replaced();

@@ -58,6 +58,9 @@ void session_open(uint8_t page);
 void session_begin(void);
 void session_set_byte(uint16_t address, uint8_t byte);
 void session_set_word(uint16_t address, uint16_t word);
+/* Sets the number of steps. A step that comes into use with time 0, as in the empty pages of a file, gets the time of a new
+ * page: one tick for any distance would be a leap. */
+void session_set_steps(uint8_t steps);
 /* Updates is_changed. false: the change is done but cannot be undone. */
 bool session_end(void);
 
@@ -87,6 +90,9 @@ uint16_t session_step_at(uint8_t step);
 
 /* Word of joint in step 0..6. */
 uint16_t session_word(uint8_t step, uint8_t joint);
+
+/* The time (or speed) of a new page's steps. */
+#define SESSION_NEW_TIME 64u
 
 /* Byte `offset` of a new page. */
 uint8_t session_new_byte(uint16_t offset);

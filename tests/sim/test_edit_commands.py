@@ -65,7 +65,7 @@ from tests.sim.edit_robot import new_page, robot, seal
         ("sav 300", "Page must be 0..127"),
         ("undo", "Nothing to undo"),
         ("redo", "Nothing to redo"),
-        ("paste", "Nothing noted, or it has changed: TAKE first"),
+        ("paste", "Nothing noted, or it changed: TAKE first"),
         ("help foo", "No such command: HELP"),
         ("take 3 1", "Say the lower number first"),
         ("take 0 3", "That step is not used"),

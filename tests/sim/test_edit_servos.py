@@ -233,7 +233,7 @@ def test_the_columns_of_page_0_stay_in_their_places(line):
         r.line("step 3")
         r.line("on")
         before = r.show().splitlines()[:30]
-        assert r.line(line) == f"{line} Page 0 is the trim: its columns stay in their places"
+        assert r.line(line) == f"{line} Page 0 is the trim: its columns stay"
         assert r.show().splitlines()[:30] == before
 
 

@@ -10,11 +10,41 @@ from tests.sim.edit_robot import UNUSED, changed, robot, seal, word
 # ---- steps ----
 
 
+def time_at(k):
+    return 64 + 64 * k + 63
+
+
 def test_step_sets_the_count(r):
-    r.line("step 5")
-    assert bytes_of(r) == changed(BASE, {20: 5})
+    r.line("step 2")
+    assert bytes_of(r) == changed(BASE, {20: 2})
     r.line("s 0")
     assert bytes_of(r) == changed(BASE, {20: 0})
+
+
+@pytest.mark.parametrize("how", ["step", "set", "key"])
+def test_a_step_that_comes_into_use_has_time_for_its_move(r, how):
+    """Unused steps of a file have time 0 (PAGE_FORMAT.md), which the player takes as one tick. Times that somebody has set stay."""
+    r.line("goto 2 32")
+    r.line("set 0")
+    if how == "step":
+        r.line("step 5")
+    else:
+        r.line("goto 9 9")
+        assert r.cell(9, 9) == "003"
+        r.line("set 5") if how == "set" else r.keys("]]")
+    assert bytes_of(r) == changed(BASE, {time_at(1): 0, 20: 5, time_at(3): 64, time_at(4): 64})
+    r.line("undo")
+    r.line("undo" if how == "key" else "re")
+    assert bytes_of(r) == changed(BASE, {time_at(1): 0})
+
+
+def test_go_to_an_unused_step_leaves_the_work_pose_its_time(r):
+    r.line("on")
+    before = r.cell(0, 32)
+    r.line("go 5")
+    r.keys("y")
+    assert r.cell(0, 32) == before != "000"
+    r.line("off")
 
 
 def pose_step(r):
@@ -46,7 +76,7 @@ def test_write_appends_the_work_pose(r):
     data[20] = 4
     assert bytes_of(r) == seal(data)
     r.line("step 7")
-    assert r.line("w") == "w All 7 steps are used"
+    assert r.line("w") == "w No room: 7 steps at most"
     r.line("off")
 
 
@@ -164,7 +194,7 @@ def test_paste_within_a_page_reads_before_it_writes(r):
     assert bytes_of(r) == seal(stored(BASE.data, {k: step(BASE.data, k + 1) for k in range(2)}))
 
 
-CHANGED = "paste 0 Nothing noted, or it has changed: TAKE first"
+CHANGED = "paste 0 Nothing noted, or it changed: TAKE first"
 
 
 @pytest.fixture
