@@ -92,7 +92,7 @@ ACCIDENTS = {
     "the mark taken off, a line end added": ("byte-order mark removed, something blank added", lambda data: data[3:] + b"\n"),
     "CR LF": ("line ends now CR LF", _crlf),
     "CR LF, no mark, line end added": ("byte-order mark removed, line ends now CR LF, something blank added", lambda data: _crlf(data)[3:] + b"\r\n"),
-    "written with CR LF": ("as it was written", lambda data: _crlf(data)[:-2] + checksum(_crlf(data)[:-2])),
+    "written with CR LF": ("", lambda data: _crlf(data)[:-2] + checksum(_crlf(data)[:-2])),
     "written without the mark": ("", lambda data: data[3:-2] + checksum(data[3:-2])),
     "the mark added to a file that had none": ("byte-order mark added", lambda data: BOM + data[3:-2] + checksum(data[3:-2])),
     "the checksum saved as UTF-8": ("the checksum saved as text", lambda data: data[:-2] + data[-2:].decode("latin-1").encode()),

@@ -70,8 +70,8 @@ def _must_end_here(data: bytes, end: int, where: str) -> None:
 
 
 def _judge(data: bytes, end: int) -> list[str]:
-    """The result of the checksum in one sentence; empty if the file is as RoboPlus wrote it."""
-    if data[:-2].endswith(LAST + b"\n") and file_checksum(data[:-2]) == data[-2:]:
+    """The result of the checksum in one sentence; empty if the sum is that of the file's own bytes."""
+    if data[:-2].endswith((LAST + b"\n", LAST + b"\r\n")) and file_checksum(data[:-2]) == data[-2:]:
         return []
     for changes, body, trailer in _as_it_was(data, end):
         if file_checksum(body) == trailer:
