@@ -161,6 +161,14 @@ def test_script_mistakes_are_named_with_their_lines_all_at_once(tmp_path):
         assert f"script.txt:{number}: " in told_line and says in told_line
 
 
+def test_script_of_an_editor_that_marks_its_files(tmp_path):
+    """A byte-order mark of UTF-8 is skipped. UTF-16, which PowerShell writes, is named."""
+    for text, code, says in (("\ufeff".encode() + b'expect "ready"\r\n', 0, b""), ('expect "ready"'.encode("utf-16"), 2, b"save it as UTF-8")):
+        (tmp_path / "marked.txt").write_bytes(text)
+        done = run(ROBOT, "--script", tmp_path / "marked.txt")
+        assert done.returncode == code and says in done.stderr, done.stderr
+
+
 def test_script_presses_no_button_of_a_board_without_a_panel(tmp_path):
     (tmp_path / "press.txt").write_text("press START\n")
     done = run("play-cm2.hex", "--board", "cm2", "--script", tmp_path / "press.txt")

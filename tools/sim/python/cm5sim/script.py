@@ -4,9 +4,11 @@ run."""
 
 from __future__ import annotations
 
+import codecs
 import operator
 import sys
 from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, NoReturn
 
 from . import words
@@ -372,14 +374,16 @@ class Script:
         self._next = self._ended = 0
         self._begun: int | None = None
         mistakes = []
-        with open(path, "rb") as file:
-            for number, line in enumerate(file, 1):
-                try:
-                    step = parse(line, number)
-                except ValueError as error:
-                    mistakes.append(f"{path}:{number}: {error}")
-                else:
-                    self._steps += [step] if step else []
+        text = Path(path).read_bytes()
+        if text.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+            raise ValueError(f"{path}: UTF-16 text: in an editor, save it as UTF-8")
+        for number, line in enumerate(text.removeprefix(codecs.BOM_UTF8).split(b"\n"), 1):
+            try:
+                step = parse(line, number)
+            except ValueError as error:
+                mistakes.append(f"{path}:{number}: {error}")
+            else:
+                self._steps += [step] if step else []
         if mistakes:
             raise ValueError("\n".join(mistakes))
 

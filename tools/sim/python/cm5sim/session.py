@@ -140,7 +140,7 @@ class Session:
 
     def servo(self, number: int) -> Servo:
         if number not in self.board.servos:
-            raise scripts.Failed(f"there is no servo {number}")
+            raise scripts.Failed(f"there is no servo {number}; --servos says which there are")
         return self.board.servos[number]
 
     def send(self, data: bytes) -> None:
