@@ -6,8 +6,8 @@ import { GamePad, padOf } from '../view/game-pad.ts';
 const NOTHING = { buttons: [], stick: null };
 
 /** A pad with these buttons pressed and its stick this far to the right. */
-function pad(pressed: readonly number[], right = 0) {
-    return { axes: [right, 0], buttons: Array.from({ length: 16 }, (_, i) => ({ pressed: pressed.includes(i) })) };
+function pad(pressed: readonly number[], right = 0, index = 0) {
+    return { index, axes: [right, 0], buttons: Array.from({ length: 16 }, (_, i) => ({ pressed: pressed.includes(i) })) };
 }
 
 test('buttons and stick drive; a pad that is unplugged lets go', () => {
@@ -35,6 +35,17 @@ test('a stick drives when it has been at rest once, on each pad that is plugged 
     expect(one.read(pad([], 1), 'remote').stick).toEqual({ x: 1, y: -0 });
     one.read(null, 'remote');
     expect(one.read(pad([], 1), 'remote').stick).toBeNull();
+});
+
+test('a pad that takes the place of another one, with its stick or a button pushed, drives when all was let go', () => {
+    for (const pushed of [pad([], 1, 1), pad([12], 0, 1), pad([12], 1, 1)]) {
+        const one = new GamePad();
+        one.read(pad([]), 'remote');
+        for (let i = 0; i < 3; i++) expect(one.read(pushed, 'remote')).toEqual(NOTHING);
+        expect(one.read(pad([0], 1, 1), 'remote')).toEqual({ buttons: ['b6'], stick: null });
+        one.read(pad([], 0, 1), 'remote');
+        expect(one.read(pad([12], 1, 1), 'remote')).toEqual({ buttons: ['up'], stick: { x: 1, y: -0 } });
+    }
 });
 
 test('a keyboard that the browser lists as a pad does not take the place of a real one; a pad of another layout is better than none', () => {

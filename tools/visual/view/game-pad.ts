@@ -32,14 +32,20 @@ export function padOf<P extends Pick<Gamepad, 'mapping'>>(pads: readonly (P | nu
     return pads.find(pad => pad?.mapping === 'standard') ?? pads.find(pad => pad !== null) ?? null;
 }
 
+type Pad = Pick<Gamepad, 'axes' | 'index'> & { readonly buttons: readonly Pick<GamepadButton, 'pressed'>[] };
+
 export class GamePad {
     /** What was pushed while the pad was for something else drives only when all was let go. */
     private mustRest = false;
     /** A wheel or a worn stick may have no rest where it is expected, and would drive as soon as the browser shows it. */
     private canRest = false;
+    private index: number | null = null;
 
     /** pad: null if there is none. tab: the open area; null: the pad is for a dialog or for another window. */
-    read(pad: (Pick<Gamepad, 'axes'> & { readonly buttons: readonly Pick<GamepadButton, 'pressed'>[] }) | null, tab: Tab | null): PadInput {
+    read(pad: Pad | null, tab: Tab | null): PadInput {
+        if (pad !== null && this.index !== null && pad.index !== this.index) this.mustRest = true; // it takes another one's place
+        if (pad?.index !== this.index) this.canRest = false;
+        this.index = pad?.index ?? null;
         const drives = tab !== null && DRIVES.includes(tab); // otherwise it only stops the robot
         const [x = 0, y = 0] = pad?.axes ?? [];
         const buttons = BUTTONS.filter(([index]) => pad?.buttons[index]?.pressed).map(([, name]) => name);
