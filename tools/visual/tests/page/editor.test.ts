@@ -96,7 +96,11 @@ test('a pupil, by the tour: teaches a page by hand, names it, the firmware plays
     // robot time since Edit started.
     expect(11 * 4 + 5 * 8 + begunS).toBeLessThan(120);
     expect(farthest(await pupil.positions(ARM), lifted)).toBeLessThan(25); // where the hand had put it
+    await pupil.open('Motions');
+    await pupil.page.getByRole('option', { name: /^motion 2 bow/ }).click(); // only to look at it
+    await pupil.open('Steps');
     await pupil.button('Send it to a friend').click();
+    expect(await name.inputValue()).toBe('hello');
     expect(await pupil.page.getByRole('textbox', { name: 'Link' }).inputValue()).toContain('#'); // opened by a friend: files.test.ts
     await pupil.page.keyboard.press('Escape');
     await pupil.button('Done').click();

@@ -28,10 +28,12 @@ export class TourCard extends SessionElement {
     private readonly place = new TourPlace(this.stops.length);
     private robot: RobotState | null = null;
     private armBefore: readonly number[] = [];
+    /** The one that got its steps here. The user may have chosen another one since. */
+    private motion: number | null = null;
     private readonly heading = make('h2', {});
     private readonly text = make('p', { role: 'status', 'aria-label': TEXTS.tour.tour });
     private readonly next = make('button', { onclick: () => this.go(this.place.at + 1) }, TEXTS.tour.next);
-    private readonly send = make('button', { class: 'primary', onclick: () => this.onSend() }, TEXTS.tour.send);
+    private readonly send = make('button', { class: 'primary', onclick: () => this.sendMotion() }, TEXTS.tour.send);
     private readonly ring = make('div', { class: 'tour-ring', 'aria-hidden': true });
 
     connectedCallback(): void {
@@ -65,6 +67,7 @@ export class TourCard extends SessionElement {
 
     start(): void {
         this.hidden = false;
+        this.motion = null;
         this.go(0);
         this.next.focus();
     }
@@ -72,6 +75,7 @@ export class TourCard extends SessionElement {
     /** Starts at the stop for a new motion, in Steps, for users who want to teach. */
     teach(): void {
         this.hidden = false;
+        this.motion = null;
         this.session.show('steps');
         this.go(this.stops.findIndex(({ goal }) => goal === 'new-page'));
         this.look();
@@ -118,8 +122,14 @@ export class TourCard extends SessionElement {
     private look(): void {
         if (this.hidden || !this.stop) return;
         this.write();
-        if (this.isForThisRobot && this.place.isOver(this.isReached(this.stop))) this.go(this.place.at + 1);
-        else this.showRing();
+        if (!this.isForThisRobot || !this.place.isOver(this.isReached(this.stop))) return this.showRing();
+        if (this.stop.goal === 'add') this.motion = this.session.editor.state.get().page;
+        this.go(this.place.at + 1);
+    }
+
+    private sendMotion(): void {
+        if (this.motion !== null) this.session.editor.select({ page: this.motion });
+        this.onSend();
     }
 
     private arm(): number[] {
