@@ -21,7 +21,7 @@ export function rememberAdapter(port: SerialPort): void {
 
 /** Runs `work`, which needs Web Serial and a port chosen by the person. false: the chooser was closed. Rejects with RobotError. */
 export async function withPort(work: () => Promise<void>): Promise<boolean> {
-    if (!('serial' in navigator)) throw new RobotError('no-serial');
+    if (!('serial' in navigator)) throw new RobotError(globalThis.isSecureContext === false ? 'plain-http' : 'no-serial');
     try {
         await work();
         return true;

@@ -7,6 +7,7 @@ export type RobotErrorCode =
     | 'not-connected' // no port is open
     | 'port-lost' // the cable was pulled or the port failed
     | 'no-serial' // this browser has no Web Serial
+    | 'plain-http' // browsers offer Web Serial to pages of https and localhost only
     | 'old-browser' // no JavaScript Promise Integration, which lets a program in C wait; My servos needs it
     | 'port-busy' // the port cannot be opened: another program has it, or no permission
     | 'adapter-out' // the servo adapter is unplugged, so no program for My servos can start

@@ -5,6 +5,7 @@ import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { makeDocuments } from '../app/document-parts.ts';
 import { DocumentEditor } from '../app/editor.ts';
 import { holdDocument } from '../app/hold-document.ts';
+import { withPort } from '../app/serial-ports.ts';
 import { TabLocks } from '../app/tab-locks.ts';
 import { copyText } from '../view/clipboard.ts';
 import { PassingStorage } from '../view/document-storage.ts';
@@ -17,6 +18,13 @@ beforeEach(() => {
 });
 afterEach(() => {
     vi.unstubAllGlobals();
+});
+
+test('the serial ports are missing for the sake of http, which is said; a browser without them is another matter', async () => {
+    vi.stubGlobal('isSecureContext', false);
+    await expect(withPort(() => Promise.resolve())).rejects.toMatchObject({ code: 'plain-http' });
+    vi.stubGlobal('isSecureContext', true);
+    await expect(withPort(() => Promise.resolve())).rejects.toMatchObject({ code: 'no-serial' });
 });
 
 test('the first document opens, and the next one is another', async () => {

@@ -200,6 +200,8 @@ const DE: Texts = {
             'second-tab':
                 'Ein anderer Tab dieser Seite steuert deine Servos. Mach dort weiter, oder schließe ihn und wähle noch einmal „Meine Servos …“.',
             'old-browser': 'Dieser Browser ist zu alt für „Meine Servos …“. Nötig ist Chromium, Chrome oder Edge ab Version 137.',
+            'plain-http':
+                'Diese Seite kam über einfaches http. Browser geben serielle Anschlüsse nur Seiten von https oder von diesem Rechner (localhost). Der Roboter auf der Seite funktioniert auch hier.',
             'no-serial':
                 'Dieser Browser kann keinen seriellen Anschluss benutzen. Er braucht Web Serial, das es in Chromium gibt. Der Roboter auf der Seite funktioniert auch hier.',
             foreign:

@@ -48,6 +48,8 @@ const errors: Record<Exclude<RobotErrorCode, 'needs-edit'>, string> = {
     'adapter-out': 'The servo adapter is unplugged. Plug it in, then choose "My servos …" again.',
     'second-tab': 'Another tab of this page drives your servos. Go on there, or close it and choose "My servos …" again.',
     'old-browser': 'This browser is too old for My servos. It needs Chromium, Chrome or Edge 137 or later.',
+    'plain-http':
+        'This page came over plain http. Browsers give serial ports only to pages from https or from this computer (localhost). The robot in the page works here, too.',
     'no-serial': 'This browser cannot reach a serial port. It needs Web Serial, which Chromium has. The robot in the page works here, too.',
     foreign: 'Something answers there, but it is not Motion512. Flash our firmware: m512 flash edit-cm5.hex (CM-2: edit-cm2.hex)',
     'other-board':

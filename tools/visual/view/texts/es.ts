@@ -196,6 +196,8 @@ const ES: Texts = {
             'adapter-out': 'El adaptador de servos está desconectado. Conéctalo y elige otra vez «Mis servos …».',
             'second-tab': 'Otra pestaña de esta página mueve tus servos. Sigue allí, o ciérrala y elige otra vez «Mis servos …».',
             'old-browser': 'Este navegador es demasiado antiguo para «Mis servos …». Hace falta Chromium, Chrome o Edge 137 o posterior.',
+            'plain-http':
+                'Esta página llegó por http sin cifrar. Los navegadores dan puertos serie solo a páginas de https o de este ordenador (localhost). El robot de la página también funciona aquí.',
             'no-serial':
                 'Este navegador no puede usar un puerto serie. Hace falta Web Serial, que existe en Chromium. El robot de la página también funciona aquí.',
             foreign: 'Algo responde ahí, pero no es Motion512. Graba nuestro firmware: m512 flash edit-cm5.hex (CM-2: edit-cm2.hex)',

@@ -193,6 +193,8 @@ const KO: Texts = {
             'adapter-out': '서보 어댑터가 빠져 있습니다. 꽂은 다음 “내 서보 …”를 다시 고르세요.',
             'second-tab': '이 페이지의 다른 탭이 서보를 움직이고 있습니다. 그 탭에서 계속하거나, 그 탭을 닫고 “내 서보 …”를 다시 고르세요.',
             'old-browser': '이 브라우저는 너무 오래되어 “내 서보 …”를 쓸 수 없습니다. Chromium, Chrome 또는 Edge 137 이상이 필요합니다.',
+            'plain-http':
+                '이 페이지는 암호화되지 않은 http로 열렸습니다. 브라우저는 https 또는 이 컴퓨터(localhost)의 페이지에만 시리얼 포트를 허용합니다. 이 페이지의 로봇은 여기서도 쓸 수 있습니다.',
             'no-serial':
                 '이 브라우저는 시리얼 포트를 쓸 수 없습니다. Chromium이 지원하는 Web Serial이 필요합니다. 이 페이지의 로봇은 여기서도 쓸 수 있습니다.',
             foreign: '무언가 응답하지만 Motion512가 아닙니다. Motion512 펌웨어를 올리세요: m512 flash edit-cm5.hex (CM-2: edit-cm2.hex)',
