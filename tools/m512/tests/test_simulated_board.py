@@ -285,6 +285,15 @@ def test_a_board_that_answers_while_the_button_is_awaited_restarts_by_itself(m51
     assert board.now() < hears_from + 10
 
 
+@pytest.mark.parametrize("words", [("aim", "2:584"), ("swing", "2", "512", "40", "1s"), ("layer", "walk", "--joints", "2")])
+def test_what_moves_single_joints_waits_for_the_first_pose_of_a_play(m512, robot, words):
+    """Play refuses it until then, and a script has it right behind `m512 play`."""
+    start(m512, robot)
+    assert m512("play", "walk", "-p", robot.path).exit_code == 0
+    result = m512(*words, "-p", robot.path)
+    assert result.exit_code == 0, result.stderr
+
+
 @pytest.mark.parametrize("words", [("swing", "3", "512", "40", "1s"), ("aim", "3:900", "--speed", "5")])
 def test_flash_does_not_restart_a_board_whose_joints_are_moved_by_code(m512, robot, motions, words):
     """Play refuses @reset while joints move (PROTOCOL.md, ERR 4). m512 then typed `#` into Play and asked for the MODE button."""

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 SECOND_MS = 1000
 AMPLITUDES = (0, 511)
 AIMED_MOST = 4  # joints that code can move at the same time
+APPROACH_SECONDS = 60.0
 
 
 def must_last(what: str, options: dict[str, Any]) -> None:
@@ -28,6 +29,13 @@ def must_last(what: str, options: dict[str, Any]) -> None:
     from m512.board import bus
 
     bus.refuse_lasting(options["port"] or "", what)
+
+
+def past_approach(client: Client) -> None:
+    """Waits while the robot is on its way to a first pose, as right after `m512 play`: Play refuses layers, aims and swings then."""
+    until = client.link.now() + APPROACH_SECONDS
+    while client.where()["state"] in ("ready", "approach") and client.link.now() < until:
+        client.link.sleep(0.1)
 
 
 def show_shape(client: Client, as_json: bool) -> None:
@@ -57,6 +65,8 @@ def layer(page: str, joints: Any, **options: Any) -> None:
     must_last("a layer", options)
     with robot(options) as client:
         number = "off" if page == "off" else client.motion(page)
+        if page != "off":
+            past_approach(client)
         client.ask(" ".join(map(str, ["layer", number, *chosen])))
         show_shape(client, options["as_json"])
         if chosen:
@@ -89,6 +99,7 @@ def aim(positions: Sequence[str], speed: int | None, **options: Any) -> None:
     must_last("an aim", options)
     with robot(options) as client:
         must_be_there(client, wanted)
+        past_approach(client)
         held: list[int] = []
         for joint, at in wanted.items():
             try:
@@ -118,6 +129,7 @@ def swing(joint: Any, centre: Any, amplitude: str, period: Any, phase: Any, **op
     line = f"swing {joint} {at} {_amplitude(amplitude)} {_milliseconds(period)}" + (f" {phase}" if phase else "")
     must_last("a swing", options)
     with robot(options) as client:
+        past_approach(client)
         client.ask(line)
         show_shape(client, options["as_json"])
 
