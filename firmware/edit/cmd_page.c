@@ -17,7 +17,7 @@
 static uint8_t open_asking(uint16_t page)
 {
     if (page >= PAGE_COUNT) {
-        return dialog_refuse(TEXT_P("There is no such page"));
+        return dialog_refuse(TEXT_P("No such page"));
     }
     if (!dialog_ask_unsaved()) {
         return DIALOG_TO_ASK;
@@ -139,7 +139,7 @@ static bool overwriting_is_meant(uint8_t page)
     if (page != the_session.page) {
         return session_is_empty(page) || dialog_ask(TEXT_P("That page is not empty"));
     }
-    return !page_store_is_damaged(&the_pages, page) || dialog_ask(TEXT_P("The stored page is damaged"));
+    return !page_store_is_damaged(&the_pages, page) || dialog_ask(TEXT_P("That page is damaged"));
 }
 
 static uint8_t save_by_mailbox(uint8_t page)

@@ -10,6 +10,12 @@
 #define LAST_STEP (PAGE_STEPS - 1u)
 #define POSE_STEP PAGE_STEPS       /* 7 in MOVE: the work pose */
 
+/* For steps that are written in the same command, with their times. NOINLINE: saves 20 bytes of Edit. */
+static NOINLINE void set_count(uint8_t steps)
+{
+    session_set_byte(PAGE_AT_STEPS, steps);
+}
+
 static uint8_t refuse_unused(void)
 {
     return dialog_refuse(TEXT_P("That step is not used"));
@@ -117,7 +123,7 @@ COMMAND(cmd_write)
     }
     session_begin();
     if (args->count == 1) {
-        session_set_steps(step + 1u);
+        set_count(step + 1u);
     }
     write_pose(step);
     update_trim(step);
@@ -133,7 +139,7 @@ COMMAND(cmd_insert)
     }
     session_begin_turn(UNDO_TURN(UNDO_TURN_UP, step, LAST_STEP));
     if (step < steps && steps < PAGE_STEPS) {
-        session_set_steps(steps + 1u);
+        set_count(steps + 1u);
     }
     write_pose(step);
     if (steps >= PAGE_STEPS && !the_session.is_begun) {
@@ -151,7 +157,7 @@ static uint8_t delete_step(uint8_t step)
         return refuse_unused();
     }
     session_begin_turn(UNDO_TURN(UNDO_TURN_DOWN, step, LAST_STEP));
-    session_set_steps((uint8_t)(steps - 1u));
+    set_count((uint8_t)(steps - 1u));
     if (step < LAST_STEP) {
         copy_step(LAST_STEP - 1u, LAST_STEP);
     }
@@ -171,7 +177,7 @@ COMMAND(cmd_delete)
         return dialog_refuse(TEXT_P("There is no step"));
     }
     session_begin();
-    session_set_steps((uint8_t)(steps - 1u));
+    set_count((uint8_t)(steps - 1u));
     return dialog_edited();
 }
 
@@ -258,7 +264,7 @@ COMMAND(cmd_paste)
     }
     uint8_t count = the_dialog.take_count;
     if (the_dialog.take_crc != crc_of_noted()) {   /* also if nothing was ever noted */
-        return dialog_refuse(TEXT_P("Nothing noted, or it changed: TAKE first"));
+        return dialog_refuse(TEXT_P("Nothing noted, or changed: TAKE first"));
     }
     const uint8_t to = args->count > 1 ? (uint8_t)args->number[0] : steps;
     const uint8_t end = (uint8_t)(to + count);
@@ -270,7 +276,7 @@ COMMAND(cmd_paste)
     }
     session_begin();
     if (end > steps) {
-        session_set_steps(end);
+        set_count(end);
     }
     /* Copies upwards or downwards, so that overlapping steps of a page are read before they are overwritten. */
     for (uint8_t i = 0; i < count; i++) {

@@ -67,7 +67,7 @@ REQUEST(do_save)
 {
     uint16_t crc;
     if (!shell_parse(shell_word(args, 2), true, &crc)) {
-        return requests_refuse(REQUEST_ERR_RANGE, TEXT_P("CRC must be hexadecimal"));
+        return requests_refuse(REQUEST_ERR_RANGE, TEXT_P("CRC must be hex"));
     }
     if (crc != page_save_crc(the_session.cells)) {
         return requests_refuse(REQUEST_ERR_CRC, TEXT_P("The CRC does not fit the page in RAM"));

@@ -53,7 +53,7 @@ def test_lists_of_edit_end_at_the_last_page(make, files):
             robot.send("\r")
     at = len(robot.console)
     robot.send("next\r")
-    robot.expect("There is no such page", at)
+    robot.expect("No such page", at)
 
 
 def test_paste_copies_a_step_of_the_last_page(make, files):

@@ -65,7 +65,7 @@ from tests.sim.edit_robot import new_page, robot, seal
         ("sav 300", "Page must be 0..127"),
         ("undo", "Nothing to undo"),
         ("redo", "Nothing to redo"),
-        ("paste", "Nothing noted, or it changed: TAKE first"),
+        ("paste", "Nothing noted, or changed: TAKE first"),
         ("help foo", "No such command: HELP"),
         ("take 3 1", "Say the lower number first"),
         ("take 0 3", "That step is not used"),
@@ -105,9 +105,9 @@ def test_next_and_before(r):
     assert r.text(2, 76, 4) == "0001"
     r.line("before")
     assert r.text(2, 76, 4) == "0000"
-    assert r.line("b") == "b There is no such page"
+    assert r.line("b") == "b No such page"
     r.line("page 127")
-    assert r.line("n") == "n There is no such page"
+    assert r.line("n") == "n No such page"
 
 
 @pytest.mark.parametrize("command", ["page 2", "next", "before", "copy 2", "exit"])

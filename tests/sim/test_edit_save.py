@@ -96,7 +96,7 @@ def test_damaged_page_is_saved_only_after_a_question_and_repaired():
     with robot(pages={1: OLD, 2: torn}) as r:
         r.line("page 2")
         r.line("save", "n")
-        assert "The stored page is damaged." in r.command and r.flash_page(2) == bytes(torn.data)
+        assert "That page is damaged." in r.command and r.flash_page(2) == bytes(torn.data)
         r.line("save", "y")
         assert r.flash_page(2) == seal(torn.data) and r.fault == ""
 

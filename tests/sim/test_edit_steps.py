@@ -38,6 +38,17 @@ def test_a_step_that_comes_into_use_has_time_for_its_move(r, how):
     assert bytes_of(r) == changed(BASE, {time_at(1): 0})
 
 
+def test_steps_that_are_shifted_or_pasted_keep_a_time_of_0(r):
+    r.line("goto 3 32")
+    r.line("set 0")
+    r.line("insert 0")
+    assert bytes_of(r)[time_at(3)] == 0
+    r.line("take 3")
+    assert r.line("paste") == "paste"
+    data = bytes_of(r)
+    assert data[20] == 5 and data[time_at(3)] == data[time_at(4)] == 0
+
+
 def test_go_to_an_unused_step_leaves_the_work_pose_its_time(r):
     r.line("on")
     before = r.cell(0, 32)
@@ -194,7 +205,7 @@ def test_paste_within_a_page_reads_before_it_writes(r):
     assert bytes_of(r) == seal(stored(BASE.data, {k: step(BASE.data, k + 1) for k in range(2)}))
 
 
-CHANGED = "paste 0 Nothing noted, or it changed: TAKE first"
+CHANGED = "paste 0 Nothing noted, or changed: TAKE first"
 
 
 @pytest.fixture

@@ -38,6 +38,17 @@ static int *steps_used(void)
     return &editor.now.field[FIELD_STEPS];
 }
 
+/* A step that comes into use without a time gets that of a new page (DIFFERENCES.md). */
+static void use_steps(int steps)
+{
+    const int used = *steps_used();
+    for (int step = used == UNKNOWN ? 0 : used; step < steps; step++) {
+        int *time = &editor.now.cell[step + 1][ROW_TIME];
+        *time = used == UNKNOWN ? UNKNOWN : *time == 0 ? 64 : *time;
+    }
+    *steps_used() = steps;
+}
+
 /* Column 0 is the work pose, column k + 1 is step k. The stored value of a missing joint is left open. */
 static void store_pose(unsigned to)
 {
@@ -226,7 +237,7 @@ static void run_name(void)
 static void run_step(void)
 {
     editor_edit_begins();
-    *steps_used() = editor.number[1];
+    use_steps(editor.number[1]);
     editor_edit_ends();
 }
 
@@ -243,7 +254,9 @@ static void go(void)
         editor.torque[id] = to == UNKNOWN ? UNKNOWN : to != OFF;
     }
     editor.now.cell[0][ROW_PAUSE] = editor.now.cell[column][ROW_PAUSE];
-    editor.now.cell[0][ROW_TIME] = editor.now.cell[column][ROW_TIME];
+    if (editor.now.cell[column][ROW_TIME] != 0) {
+        editor.now.cell[0][ROW_TIME] = editor.now.cell[column][ROW_TIME];
+    }
     editor.now.go_step = editor.number[1];
     editor.message = ANY;
 }
@@ -407,6 +420,9 @@ void editor_put(int value)
         return;
     }
     editor_edit_begins();
+    if (x == 9 && y - 3 == FIELD_STEPS) {
+        use_steps(value);
+    }
     *editor_cell() = value;
     editor_edit_ends();
     if (x == 9 && y - 3 == FIELD_SCHEDULE) {
