@@ -57,6 +57,7 @@ LATE, FAULT = "The computer came 0.1 s late: breaking off", "Ended for the fault
         (f"{LATE}\nBroken off in page 2", LATE),
         ("Nobody drives any more: stopping\nPage 2 step 1 repetition 9\nStopped after page 2", "Nobody drives any more: stopping"),
         ("Ended. Page 3 is damaged", "Ended. Page 3 is damaged"),
+        ("\nMotion512 Play 1.0.0 for CM-5, last reset: external\n18 servos: 1-18", "the board has restarted (external)"),
         (f"Servo 5 does not answer\nServo 5 answers again\n{FAULT}", f"Servo 5 does not answer; {FAULT}"),
     ],
 )

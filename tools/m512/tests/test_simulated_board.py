@@ -294,6 +294,25 @@ def test_what_moves_single_joints_waits_for_the_first_pose_of_a_play(m512, robot
     assert result.exit_code == 0, result.stderr
 
 
+@pytest.mark.parametrize("image, words", [("play", ("play", "walk", "--wait")), ("play", ("pose", "1:900")), ("edit", ("pose", "1:900"))])
+def test_a_motion_that_a_restart_of_the_board_ends_is_told(m512, started, image, words):
+    board = started("boot-cm5.hex", f"{image}-cm5.hex", text=OLD, applied=True)
+    board.pass_time(3)
+    pressed, pass_time = [], board.pass_time
+
+    def with_mode(seconds):
+        pass_time(seconds)
+        if not pressed and any(servo.moving for servo in board.board.servos):
+            pressed.append(True)
+            board.board.press("MODE")
+            pass_time(0.1)
+            board.board.release("MODE")
+
+    board.pass_time = with_mode
+    result = m512(*words, "-p", board.path)
+    assert result.exit_code == 8 and "has broken off the motion: the board has restarted" in result.stderr, result.stderr
+
+
 @pytest.mark.parametrize("words", [("swing", "3", "512", "40", "1s"), ("aim", "3:900", "--speed", "5")])
 def test_flash_does_not_restart_a_board_whose_joints_are_moved_by_code(m512, robot, motions, words):
     """Play refuses @reset while joints move (PROTOCOL.md, ERR 4). m512 then typed `#` into Play and asked for the MODE button."""

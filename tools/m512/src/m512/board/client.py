@@ -40,7 +40,9 @@ AS_ASKED = re.compile(r"(Ended|Stopped) after .*|The pose is reached")
 BROKEN_OFF = re.compile(
     r"Ended for the fault .*|Ended\. Page \d+ is damaged.*|The computer came .* late.*|The servo adapter is gone.*|Nobody drives .*"
 )
+RESTARTED = re.compile(r"Motion512 Play .*, last reset: (.*)|.*HELP explains, EXIT leaves.*")  # what Play and Edit begin with
 CAUSE = re.compile(r"Servo \d+ (does not|reports (?!no error)|has lost).*")
+GREETING_TRIES = 50  # 5 s: Edit draws its screen first
 SAID_BYTES = 4096  # more than the sentences of one end
 LISTED = r' (\d+):(\d+|!):"([^"]*)"'  # an entry of @list
 DAMAGED = "{} came damaged, " + f"{TRIES} times. Is the cable good?"
@@ -144,6 +146,7 @@ class Client:
             raw, ended = self.link.look_for(b"\n", left)
             if not ended:
                 self.heard += raw
+                self.said = (self.said + raw.translate(None, FLOW))[-SAID_BYTES:]
                 return None
             before, framed_here, answer = raw.translate(None, FLOW).rpartition(BEGIN)
             self.said = (self.said + (before if framed_here else answer))[-SAID_BYTES:]
@@ -374,9 +377,12 @@ class Client:
 
     def why_broken_off(self) -> str:
         """Why the motion that this Client has begun, and that has ended, did not come to its end. Empty: it did, or somebody has stopped it."""
-        for _ in range(TRIES):
+        may_be_restarted = b"\xff" in self.said  # a controller begins with it; so may noise
+        for _ in range(GREETING_TRIES if may_be_restarted else TRIES):
+            if restart := next(filter(None, map(RESTARTED.fullmatch, self._said_lines())), None):
+                return "the board has restarted" + (f" ({restart[1]})" if restart[1] else "")
             faulty = int(self.where().get("faulty", "0"), 16)
-            if self.version["image"] != "play" or self._has_said(END):
+            if self._has_said(END) or self.version["image"] != "play" and not may_be_restarted:
                 break
             self.link.sleep(0.1)  # Play prints the end soon after its state is idle; Edit does not print that of a program's motion
         if not self._has_said(BROKEN_OFF) and (self._has_said(AS_ASKED) or not faulty):
