@@ -302,38 +302,25 @@ def free_port():
         return probe.getsockname()[1]
 
 
-def test_gdb_finds_the_chip_at_its_first_instruction_and_stops_at_a_function():
+def debugged(port, *commands):
+    """What avr-gdb prints."""
+    words = [word for command in ("set remotetimeout 300", f"target remote :{port}", *commands) for word in ("-ex", command)]
+    command = ["avr-gdb", "-batch", *words, ROBOT.with_suffix(".elf")]
+    return subprocess.run(command, capture_output=True, text=True, timeout=300, check=False).stdout
+
+
+@pytest.mark.parametrize(
+    "commands, says",
+    [
+        (("info registers pc", "break say", "continue", "backtrace"), ("pc             0x0 ", "Breakpoint 1, say (", "in main ()")),
+        (("break say", "continue", "rwatch heard_head", "continue"), ("read watchpoint 2: heard_head", "Value = ")),
+    ],
+)
+def test_gdb_stops_at_the_first_instruction_at_a_function_and_at_memory(commands, says):
     port = free_port()
     with Running(ROBOT, f"--gdb={port}", "--time", "200ms") as robot:
         robot.message("(waiting for avr-gdb)")
         time.sleep(0.5)
-        gdb = subprocess.run(
-            [
-                "avr-gdb",
-                "-batch",
-                "-ex",
-                "set remotetimeout 300",
-                "-ex",
-                f"target remote :{port}",
-                "-ex",
-                "info registers pc",
-                "-ex",
-                "break say",
-                "-ex",
-                "continue",
-                "-ex",
-                "backtrace",
-                "-ex",
-                "delete",
-                "-ex",
-                "detach",
-                ROBOT.with_suffix(".elf"),
-            ],
-            capture_output=True,
-            text=True,
-            timeout=300,
-            check=False,
-        )
-        assert "pc             0x0 " in gdb.stdout
-        assert "Breakpoint 1, say (" in gdb.stdout and "in main ()" in gdb.stdout
+        printed = debugged(port, *commands, "delete", "detach")
+        assert all(text in printed for text in says), printed
         assert robot.process.wait(300) == 0

@@ -99,7 +99,7 @@ static void run_one(cpu_t *cpu)
     if (note & NOTE_RETI) {
         interrupt_return(&cpu->interrupts);
     }
-    if (avr->state != cpu_Running) {
+    if (avr->state != cpu_Running && (!avr->gdb || machine_take_error(machine))) {
         crashed(machine);
     }
 }
@@ -148,8 +148,9 @@ static void step_under_gdb(cpu_t *cpu)
     }
     bool single = avr->state == cpu_Step;
     avr->state = cpu_Running;
+    (void)machine_take_error(&cpu->machine); /* an older one */
     run_one(cpu);
-    if (single) {
+    if (single && avr->state == cpu_Running) {
         avr->state = cpu_StepDone;
     }
 }

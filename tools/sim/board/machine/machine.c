@@ -8,13 +8,24 @@
 
 #include "opcode.h"
 
+/* Of the thread, as the run of a chip is. */
+static _Thread_local const avr_t *with_error;
+
 /* Violations report more than the log of libsimavr. */
-static void no_log(struct avr_t *avr, const int level, const char *format, va_list arguments)
+static void log_error(struct avr_t *avr, const int level, const char *format, va_list arguments)
 {
-    (void)avr;
-    (void)level;
     (void)format;
     (void)arguments;
+    if (level == LOG_ERROR) {
+        with_error = avr;
+    }
+}
+
+bool machine_take_error(const machine_t *machine)
+{
+    const bool found = with_error == machine->avr;
+    with_error = NULL;
+    return found;
 }
 
 /* simavr detects a store beyond the SRAM, but executes it. Space for every address of a 16-bit pointer, and one more
@@ -32,7 +43,7 @@ static bool widen_data_space(avr_t *avr)
 
 static avr_t *make_chip(void)
 {
-    avr_global_logger_set(no_log);
+    avr_global_logger_set(log_error);
     avr_t *avr = avr_make_mcu_by_name("atmega128");
     if (avr && avr_init(avr) == 0 && widen_data_space(avr)) {
         avr->frequency = M128_HZ;

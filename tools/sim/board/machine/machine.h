@@ -77,6 +77,10 @@ void machine_code_changed(machine_t *machine, uint32_t address, uint32_t count);
 void machine_mark(machine_t *machine, uint32_t address, unsigned mark);
 void machine_unmark(machine_t *machine, uint32_t address, unsigned mark);
 
+/* Whether simavr has logged an error for the chip since the last call. Under GDB its state does not tell a bad access from a
+ * watchpoint. */
+bool machine_take_error(const machine_t *machine);
+
 /* true: the run must end, and the caller leaves the chip's state alone. */
 __attribute__((format(printf, 3, 4)))
 bool violation_note(machine_t *machine, violation_kind_t kind, const char *format, ...);
