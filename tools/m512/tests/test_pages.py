@@ -656,6 +656,16 @@ def test_diff_images_of_different_size():
     assert [str(change) for change in images(a, b)] == ['page 200 "walk": only in the second']
 
 
+def test_check_names_motions_that_their_code_never_calls(m512, tmp_path):
+    """A code calls the lowest playable page that has it (REMOTE.md)."""
+    step = "  step 1s | 1:512\n"
+    text = f"motion512 1\npage 3 empty\n  code U\npage 20 a\n  code U\n{step}page 21 b\n  code D\n{step}page 40 c\n  code U\n{step}"
+    (tmp_path / "x.m512").write_text(text)
+    result = m512("pages", tmp_path / "x.m512", "check")
+    told = 'note: page 40 "c": code U calls page 20, which has it, too, and never this one\n'
+    assert result.exit_code == 0 and result.stderr == told, result.stderr
+
+
 def test_check_says_once_what_holds_for_many_pages(m512, tmp_path):
     pages = "".join(f"page {n} p{n}\n  speed {21 if n < 40 else 64}\n  step 1s | 1:512\n" for n in range(10, 42))
     (tmp_path / "a.m512").write_text("motion512 1\n" + pages)

@@ -9,6 +9,7 @@ from m512.errors import EmptyPageError, RefusedError, WordError
 from m512.files.image import Image, is_erased
 from m512.files.page import JOINTS, SCHEDULE_TIME, STEPS, Page, is_used
 from m512.files.selection import means_pages, page_number
+from m512.files.text.words import code_text
 from m512.files.wording import field_text, named_pages_text, pages_text
 from m512.motion.player import page_seconds
 
@@ -60,7 +61,10 @@ def _partner_problems(image: Image, page: Page) -> list[str]:
 def remarks(image: Image) -> list[tuple[int, str]]:
     """(page, remark) about correct pages that may surprise."""
     out = []
+    called: dict[int, int] = {}  # code -> the page that it calls: the lowest one (firmware/common/REMOTE.md)
     for number, page in image.items():
+        if number and page.code and not page.fault(image.kind) and page.is_playable and called.setdefault(page.code, number) != number:
+            out.append((number, f"code {code_text(page.code)} calls page {called[page.code]}, which has it, too, and never this one"))
         if number and not page.fault(image.kind) and page.is_playable and page.schedule == SCHEDULE_TIME and page.speed != NOMINAL_SPEED:
             factor = page.speed / NOMINAL_SPEED
             out.append(
