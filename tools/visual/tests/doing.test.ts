@@ -24,6 +24,15 @@ test('Edit says where its screen is, before its first answer and after it, until
     expect(doingText(state('play'), where('idle'))).toBe('The robot stands and waits.');
 });
 
+test('speed and size that are not as stored are said while something plays', () => {
+    const said = (rate: number, amplitude: number, now: PlayState = 'playing'): string =>
+        doingText(state('play'), { ...where(now), shape: { rate, amplitude, blend: 30 } });
+    expect(said(100, 100)).toBe('Playing motion 2 (bow), step 1.');
+    expect(said(400, 0)).toBe('Playing motion 2 (bow), step 1. Speed: 400 %. Size: 0 %.');
+    expect(said(100, 50)).toBe('Playing motion 2 (bow), step 1. Size: 50 %.');
+    expect(said(400, 0, 'idle')).not.toMatch(/%/);
+});
+
 test('a robot that goes to a pose, as in live follow, plays no motion: not even motion 0, which is the trim', () => {
     const now = { state: 'approach', page: 0, step: 0 } as Where;
     expect(doingText(state('play'), now)).toBe('Going slowly to a pose.');

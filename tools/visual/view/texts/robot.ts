@@ -73,10 +73,16 @@ function robotText(state: SessionState, where: Where | null): string {
         case 'paused':
             return status.paused(motionTitle(state, where.page), where.step);
         case 'playing':
-            return status.playing(motionTitle(state, where.page), where.step);
+            return `${status.playing(motionTitle(state, where.page), where.step)}${changedText(where)}`;
         default:
             return where.state satisfies never;
     }
+}
+
+/** Speed and size that are not as stored: a motion of size 0 does not move. */
+function changedText({ shape }: Where): string {
+    const changed = (['rate', 'amplitude'] as const).filter(name => shape && shape[name] !== 100);
+    return changed.map(name => ` ${TEXTS.remote.shapes[name]}: ${shape?.[name]} %.`).join('');
 }
 
 /** That the robot in the page lies or is held; '' otherwise. What it reported last is not true of another robot, which may not answer. */
