@@ -298,6 +298,8 @@ def test_allowed_violation_passes():
         (["robot.hex", "--allow", "fun"], "no such violation"),
         (["robot.hex", "--tcp=99999"], "ports are"),
         (["robot.hex", "--bus-pty"], "servos alone"),
+        (["--bus-pty", "--flash", "f.bin"], "--flash is for a board"),
+        (["--bus-pty", "--gdb=3399"], "--gdb is for a board"),
         (["robot.hex", "--no-stdio"], "run for ever"),
     ],
 )

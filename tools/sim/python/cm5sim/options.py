@@ -190,6 +190,9 @@ def _parser() -> Parser:
     return parser
 
 
+OF_A_BOARD = ("motions", "flash", "eeprom", "gdb", "rc", "allow", "summary")
+
+
 def _refuse_shared_files(parser: argparse.ArgumentParser, options: Options) -> None:
     """Ends the process if a file that the run writes is one that it reads, or writes for another option."""
     read = [("the image", name) for name in options.images] + [("--script", options.script), ("--motions", options.motions)]
@@ -210,6 +213,8 @@ def parse(arguments: list[str]) -> Options:
     on_console = options.pty is not None or options.tcp is not None
     if options.bus_pty is not None and (options.images or options.script or on_console):
         parser.error("--bus-pty runs the servos alone: no images, script or console with it")
+    if options.bus_pty is not None and (of_board := [name for name in OF_A_BOARD if getattr(options, name) not in (None, False, [])]):
+        parser.error(f"--bus-pty runs the servos alone: --{of_board[0]} is for a board")
     if options.bus_pty is None and not options.images and options.flash is None:
         parser.error("no image given (for example play-cm5.hex); --help shows examples")
     if (options.body and options.bus_pty is not None) or (options.view and not options.body):
