@@ -101,6 +101,16 @@ def test_an_aim_that_one_joint_cannot_take_says_which_and_what_was_moved(m512, j
     assert ("holds joint 1 now" in result.stderr and "m512 free" in result.stderr) == bool(asked), result.stderr
 
 
+@pytest.mark.parametrize(
+    "answer, code, says", [("1:500:1 2:?:0", 0, "no answer from servos 2: the step leaves them out"), ("1:?:1", 8, "no servo answers")]
+)
+def test_a_pose_as_text_names_the_servos_that_do_not_answer(m512, monkeypatch, answer, code, says):
+    monkeypatch.setattr(PlayPeer, "do_pose", lambda _: f"{answer} OK")
+    with PlayPeer() as robot:
+        result = m512("pose", "--text", "-p", robot.path)
+    assert result.exit_code == code and says in result.stderr and result.stdout == ("" if code else "step 1s | 1:500\n"), result.stderr
+
+
 @pytest.mark.parametrize("words", [("play", "2"), ("play", "2", "--wait"), ("pose", "1:900")])
 def test_ctrl_c_while_the_start_is_answered_stops_the_robot(m512, words):
     with PlayPeer(play=[CTRL_C], move=[CTRL_C]) as robot:

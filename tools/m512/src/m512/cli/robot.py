@@ -263,12 +263,15 @@ def pose(positions: Sequence[str], speed: int, as_text: bool, **options: Any) ->
 
             failed = _follow(client, start, True, _is_ours(options))
         found = client.pose()
-    if not found:
+    silent = [joint for joint, (at, _) in found.items() if at is None]
+    if not found or as_text and len(silent) == len(found):
         raise BoardError("no servo answers; is their power on? m512 doctor looks")
     if options["as_json"]:
         ui.show(json.dumps({joint: {"position": at, "torque": on} for joint, (at, on) in found.items()}, indent=2))
     elif as_text:
         ui.show("step 1s | " + " ".join(f"{joint}:{at}" for joint, (at, _) in found.items() if at is not None))
+        if silent:
+            ui.say(f"note: no answer from servos {' '.join(map(str, silent))}: the step leaves them out")
     else:
         for joint, (at, on) in found.items():
             degrees = "" if at is None else f"{(at - 512) * 300 / 1024:+7.1f} deg"
