@@ -88,5 +88,13 @@ test('a link or a file is opened with the cursor in a field, or the page is left
     expect(await name.inputValue()).toBe('');
     await comeBack();
     expect(await listed(shown)).toBe(kept);
+
+    // The motions of a file are added while the focus is on a card: the first added one is chosen, not the card's again.
+    await person.open('Motions');
+    await page.getByRole('option', { name: /^motion 1 / }).click();
+    const text = 'motion512 1\nrow 1..3\npage 9 mine\n  step 1s | 500 512 512\n';
+    await page.getByLabel('Motion file').setInputFiles({ name: 'mine.m512', mimeType: 'text/plain', buffer: Buffer.from(text) });
+    await person.button('Add to free places').click();
+    await page.getByRole('option', { name: /mine/, selected: true }).waitFor();
     await person.leave();
 });

@@ -115,7 +115,15 @@ export class FilesMenu extends SessionElement {
                     this.closing(TEXTS.page.cancel),
                 ],
             );
-        else this.dialog.close();
+        else this.close();
+    }
+
+    /** The card in Motions that gets the focus back would choose its motion in place of one that was added. */
+    private close(): void {
+        const { editor } = this.session;
+        const { page } = editor.state.get();
+        this.dialog.close();
+        if (editor.state.get().page !== page) editor.select({ page });
     }
 
     /** The focus is not on Cancel, or an Enter that is held a little too long would press it. */
