@@ -10,7 +10,7 @@
 #define SHORT 3u /* page 3: one step of 20 ticks, then it ends */
 #define CYCLE 48u
 #define RECORDED 24u
-#define MARKED 4u /* ticks */
+#define MARKED 5u /* ticks */
 #define RUN (5u * CYCLE)
 #define LAYER_JOINTS 0xCul
 /* 60 degrees/s are 1.6 units a tick. */
@@ -71,7 +71,7 @@ static void expect_undisturbed(uint16_t tick)
 {
     const uint16_t at = mark(tick);
     if (at != RUN) {
-        TEST_ASSERT_EQUAL_UINT16_MESSAGE(alone[at], marked, "a joint of the walk is disturbed");
+        TEST_ASSERT_EQUAL_UINT16_MESSAGE(alone[at], marked, "the walk is disturbed");
     }
 }
 
@@ -335,7 +335,7 @@ static void test_layers_refuse_and_change_nothing(void)
 }
 
 /* The layer goes on with its other joint. */
-static void test_layers_free_gives_a_joint_of_a_layer_to_the_main_play(void)
+static void test_layers_free_ends_in_the_main_play(void)
 {
     play_alone(PLAYER_LAW_EXACT);
     layers_init(&layers, goal_pos);

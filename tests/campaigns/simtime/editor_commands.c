@@ -38,7 +38,7 @@ static int *steps_used(void)
     return &editor.now.field[FIELD_STEPS];
 }
 
-/* A step that comes into use without a time gets that of a new page (DIFFERENCES.md). */
+/* A step that comes into use without a time gets that of a new page (firmware/edit/DIFFERENCES.md). */
 static void use_steps(int steps)
 {
     const int used = *steps_used();
