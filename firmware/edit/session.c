@@ -10,7 +10,7 @@
 session_t the_session;
 
 /* A new page: ORIGINAL.md section 1. */
-enum { NEW_PLAY_COUNT = 1, NEW_LAST_SOFTNESS_AT = 63, ERASED = 0xFF };
+enum { NEW_PLAY_COUNT = 1, NEW_STEP_SPEED = 64, NEW_LAST_SOFTNESS_AT = 63, ERASED = 0xFF };
 
 uint8_t session_new_byte(uint16_t offset)
 {
@@ -31,7 +31,7 @@ uint8_t session_new_byte(uint16_t offset)
     }
     uint8_t place = offset % PAGE_STEP_BYTES;
     if (place >= PAGE_STEP_AT_PAUSE) {
-        return place == PAGE_STEP_AT_SPEED ? SESSION_NEW_TIME : 0;
+        return place == PAGE_STEP_AT_SPEED ? NEW_STEP_SPEED : 0;
     }
     return (place & 1u) != 0 ? (uint8_t)(PAGE_POS_UNUSED >> 8) : 0;
 }
@@ -121,7 +121,7 @@ void session_set_steps(uint8_t steps)
     for (uint8_t step = the_session.cells[PAGE_AT_STEPS]; step < steps; step++) {
         const uint16_t time_at = session_step_at(step) + PAGE_STEP_AT_SPEED;
         if (the_session.cells[time_at] == 0) {
-            session_set_byte(time_at, SESSION_NEW_TIME);
+            session_set_byte(time_at, NEW_STEP_SPEED);
         }
     }
     session_set_byte(PAGE_AT_STEPS, steps);
@@ -245,7 +245,7 @@ void session_init(void)
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         session_set_pose(joint, PAGE_POS_UNUSED);
     }
-    the_session.cells[CELLS_POSE_AT + PAGE_STEP_AT_SPEED] = SESSION_NEW_TIME;
+    the_session.cells[CELLS_POSE_AT + PAGE_STEP_AT_SPEED] = NEW_STEP_SPEED;
     session_open(1);
 }
 

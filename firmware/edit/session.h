@@ -91,9 +91,6 @@ uint16_t session_step_at(uint8_t step);
 /* Word of joint in step 0..6. */
 uint16_t session_word(uint8_t step, uint8_t joint);
 
-/* The time (or speed) of a new page's steps. */
-#define SESSION_NEW_TIME 64u
-
 /* Byte `offset` of a new page. */
 uint8_t session_new_byte(uint16_t offset);
 
