@@ -264,6 +264,8 @@ def test_a_file_of_motion_2_is_named(m512, tmp_path):
     (tmp_path / "x.mtnx").write_text("<?xml version='1.0'?>")
     result = m512("convert", tmp_path / "x.mtnx", tmp_path / "y.m512")
     assert result.exit_code == 4 and "x.mtnx: a file of R+ Motion 2" in result.stderr, result.stderr
+    result = m512("flash", tmp_path / "x.mtnx", "--dry-run", "-p", "none")
+    assert result.exit_code == 4 and result.stderr.rstrip().endswith("It reads .mtn files of RoboPlus Motion"), result.stderr
 
 
 @pytest.mark.parametrize("words", [[], ["--address", "0"]])

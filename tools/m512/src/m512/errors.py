@@ -26,6 +26,10 @@ class FileError(M512Error):
     """A file cannot be read as its expected kind."""
 
 
+class UnknownKindError(FileError):
+    """A file's bytes are of no kind that is known here: they may be anything, such as code."""
+
+
 class TextError(FileError):
     """A line of the text format is wrong."""
 

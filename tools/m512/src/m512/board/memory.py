@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from m512.crc16 import crc16
-from m512.errors import FileError, RefusedError
+from m512.errors import FileError, RefusedError, UnknownKindError
 from m512.files import conversion, formats, scale12, storage
 from m512.files.image import Image, hex_segments, is_erased
 from m512.files.page import PAGE_BYTES, Page
@@ -129,8 +129,7 @@ def _segments(path: Path, data: bytes, address: int | None, out: Plan, with_trim
     if address is not None:
         _must_be_raw(path, data)
     elif not is_hex:
-        _must_be_motions(path, data)
-        return _motions(path, formats.decode(data, path), out, with_trim, damaged)
+        return _motions(path, _motions_of(path, data), out, with_trim, damaged)
     segments = hex_segments(data.decode("ascii", "replace")) if address is None else [(address, data)]
     if segments and segments[0][0] >= 0x20000:
         raise RefusedError(f"{path.name} begins at 0x{segments[0][0]:05X}, beyond this board's flash (a CM-510 image?)")
@@ -141,11 +140,11 @@ def _segments(path: Path, data: bytes, address: int | None, out: Plan, with_trim
     return code + (_placed_motions(path, motions, out, with_trim, damaged) if motions else [])
 
 
-def _must_be_motions(path: Path, data: bytes) -> None:
+def _motions_of(path: Path, data: bytes) -> Image:
     try:
-        formats.recognise(data, path)
-    except FileError as error:
-        raise FileError(f"{error}. A raw binary of code needs --address, such as 0x0" if data else str(error)) from None
+        return formats.decode(data, path)
+    except UnknownKindError as error:
+        raise FileError(f"{error}. A raw binary of code needs --address, such as 0x0") from None
 
 
 def _must_be_raw(path: Path, data: bytes) -> None:

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from m512.errors import FileError, RefusedError
+from m512.errors import FileError, RefusedError, UnknownKindError
 from m512.files import image as raw
 from m512.files import scale12, storage
 from m512.files.image import Image
@@ -21,7 +21,8 @@ BY_SUFFIX = {".m512": TEXT, ".bin": BINARY, ".img": BINARY, ".hex": HEX, ".ihex"
 
 
 def recognise(data: bytes, path: Path) -> str:
-    """The kind of a file, from its contents. The suffix decides only if the contents do not. FileError: no known kind."""
+    """The kind of a file, from its contents. The suffix decides only if the contents do not. FileError: empty, or a kind that is
+    not read. UnknownKindError: no known kind."""
     if not data:
         raise FileError(f"{path}: empty, so it holds no motions")
     start = data[:400].lstrip(b"\xef\xbb\xbf \t\r\n")
@@ -40,7 +41,7 @@ def recognise(data: bytes, path: Path) -> str:
         raise FileError(f"{path}: a file of R+ Motion 2, which this program cannot read. It reads .mtn files of RoboPlus Motion")
     kind = BY_SUFFIX.get(path.suffix.lower())
     if kind in (None, BINARY):
-        raise FileError(
+        raise UnknownKindError(
             f"{path}: {counted(len(data), 'byte')} that {'makes' if len(data) == 1 else 'make'} no motion file this program knows "
             "(image, Intel HEX, .mtn or text)"
         )
