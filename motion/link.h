@@ -13,7 +13,8 @@
 #define LINK_CODE_NONE 0u
 #define LINK_CODE_STOP 255u
 
-typedef enum { LINK_LATCH = 0, LINK_HOLD } link_mode_t;
+/* LINK_DRIVE is as LINK_LATCH here: the source of the codes leaves out the buttons that steer. */
+typedef enum { LINK_LATCH = 0, LINK_HOLD, LINK_DRIVE } link_mode_t;
 
 /* Which link was taken (for the status line). */
 typedef enum { LINK_NEXT = 0, LINK_EXIT, LINK_LINKED1, LINK_LINKED2, LINK_END_OF_EXIT_LOOP, LINK_ENDED } link_taken_t;

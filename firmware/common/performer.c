@@ -104,7 +104,10 @@ static performer_status_t refusal(performer_t *performer, player_status_t status
 
 static NOINLINE void call_link(performer_t *performer, uint8_t code)
 {
-    link_init(&performer->link, performer->settings->remote_mode == LINK_HOLD ? LINK_HOLD : LINK_LATCH);
+    STATIC_ASSERT((int)SETTINGS_REMOTE_LATCH == (int)LINK_LATCH && (int)SETTINGS_REMOTE_HOLD == (int)LINK_HOLD &&
+                      (int)SETTINGS_REMOTE_DRIVE == (int)LINK_DRIVE,
+                  "the setting is the mode");
+    link_init(&performer->link, (link_mode_t)performer->settings->remote_mode);
     link_call(&performer->link, code);
 }
 

@@ -9,12 +9,11 @@
 #define TYPED_XON 16u
 enum { AT_STOP = 8, AT_PAUSE };   /* in recent_ticks, behind the eight buttons */
 
-void inputs_init(inputs_t *inputs, performer_t *performer, const page_store_t *pages, const settings_t *settings)
+void inputs_init(inputs_t *inputs, performer_t *performer, const page_store_t *pages)
 {
     memset(inputs, 0, sizeof *inputs);
     inputs->performer = performer;
     inputs->pages = pages;
-    inputs->settings = settings;
     inputs->remote_held.spent = UINT8_MAX;   /* a button already held is not a press */
     remote_init(&inputs->remote);
     ring_init(&inputs->typed, inputs->typed_bytes, INPUTS_TYPED_BYTES);
@@ -117,10 +116,10 @@ bool inputs_next_refusal(inputs_t *inputs, inputs_refusal_t *refusal)
     return true;
 }
 
-/* Whether L and R steer instead of being part of the code. */
+/* Whether L and R steer the present play instead of being part of the code. */
 static bool steers(const inputs_t *inputs)
 {
-    return inputs->settings->remote_mode == SETTINGS_REMOTE_DRIVE && steer_is_possible(inputs->performer);
+    return inputs->performer->link.mode == LINK_DRIVE && steer_is_possible(inputs->performer);
 }
 
 /* Stop or pause. It counts once, when pressed. was_empty: the packet before had no button. Behind one a stop counts at once:

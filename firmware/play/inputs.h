@@ -12,7 +12,6 @@
 #include "performer.h"
 #include "remote.h"
 #include "ring.h"
-#include "settings.h"
 #include "steer.h"
 
 #define INPUTS_TYPED_BYTES 128u
@@ -42,7 +41,6 @@ typedef struct {
     /* Private. */
     performer_t *performer;
     const page_store_t *pages;
-    const settings_t *settings;
     remote_t remote;
     uint8_t remote_act;        /* remote_act_t of the last packet, to detect presses */
     inputs_held_t remote_held; /* the first eight buttons */
@@ -61,7 +59,7 @@ typedef struct {
     uint8_t typed_bytes[INPUTS_TYPED_BYTES];
 } inputs_t;
 
-void inputs_init(inputs_t *inputs, performer_t *performer, const page_store_t *pages, const settings_t *settings);
+void inputs_init(inputs_t *inputs, performer_t *performer, const page_store_t *pages);
 
 /* Call in every turn of the main loop: takes the console's bytes. With the setting `flow`, sends XOFF while the shell
  * cannot keep up. A PC that ignores it loses typed bytes, never remote packets. */

@@ -246,7 +246,7 @@ static NOINLINE void start(void)
     servo_link_init(&the_play.servos);
     performer_init(&the_play.performer, &the_play.pages.source, &the_play.servos, &the_play.store.settings);
     performer_set_layers(&the_play.performer, &the_play.layers);
-    inputs_init(&the_play.inputs, &the_play.performer, &the_play.pages, &the_play.store.settings);
+    inputs_init(&the_play.inputs, &the_play.performer, &the_play.pages);
     shell_init(&the_play.shell, the_play.line, sizeof the_play.line, the_play.history, sizeof the_play.history);
     console_set_flow(the_play.store.settings.flow != 0);
     if (the_play.store.settings.fast_line != 0) {

@@ -172,13 +172,23 @@ def test_nobody_drives_in_a_pause_and_nothing_moves_before_the_resume():
     board.expect("Nobody drives any more", ms=1500)
 
 
-def test_remote_drive_steers_and_comes_back_to_straight():
+def hold(board, buttons):
+    """The remote repeats its packet for 1.2 s."""
+    for _ in range(13):
+        board.rc(buttons)
+        board.run(ms=90)
+
+
+def test_remote_drive_steers_the_next_play_and_comes_back_to_straight():
     board = looping()
     ask(board, "remote drive")
-    board.rc(UP | LEFT)
-    for _ in range(13):
-        board.run(ms=90)
-        board.rc(UP | LEFT)
+    hold(board, UP | LEFT)
+    assert where(board)["blend"] == "0"  # a play keeps the mode with which it began
+    ask(board, "break")
+    board.run(ms=1000)
+    ask(board, f"play {LOOP}")
+    board.run(ms=3000)
+    hold(board, UP | LEFT)
     assert where(board)["blend"] == "-100"
     assert where(board)["page"] == str(LOOP)
     board.rc(UP)

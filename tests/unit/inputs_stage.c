@@ -11,7 +11,6 @@
 inputs_t inputs;
 performer_t performer;
 page_store_t pages;
-settings_t settings;
 char told[128];
 uint8_t start_status, partner;
 
@@ -92,14 +91,13 @@ void setUp(void)
     fake_panel_reset();
     panel_init();
     memset(&performer, 0, sizeof performer);
-    memset(&settings, 0, sizeof settings);
     memset(told, 0, sizeof told);
     performer.source = &source;
     performer.since_stop_ticks = UINT8_MAX;
     shape_init(&performer.shape);
     partner = 0;
     start_status = PERFORMER_OK;
-    inputs_init(&inputs, &performer, &pages, &settings);
+    inputs_init(&inputs, &performer, &pages);
     ticks(INPUTS_SILENCE_TICKS);   /* no button is held at the start */
 }
 

@@ -9,7 +9,6 @@
 extern inputs_t inputs;
 extern performer_t performer;
 extern page_store_t pages;
-extern settings_t settings;
 extern char told[128];         /* log of the performer's calls: "start 5 16;" */
 extern uint8_t start_status;   /* what the performer returns for a start */
 extern uint8_t partner;        /* right partner of the playing page; 0: none */

@@ -128,16 +128,6 @@ static void test_inputs_hold_mode_hears_silence_after_500_ms(void)
     TEST_ASSERT_EQUAL_STRING("code 1 0;code 0 0;", told);
 }
 
-static void test_inputs_silence_stops_a_hold_play_whatever_is_set_meanwhile(void)
-{
-    performer.link.mode = LINK_HOLD;
-    performer.state = PERFORMER_PLAY;
-    settings.remote_mode = LINK_LATCH;
-    remote(1);
-    ticks(64);
-    TEST_ASSERT_EQUAL_STRING("code 1 0;code 0 0;", told);
-}
-
 static void test_inputs_hold_mode_repeated_packets_keep_it_alive(void)
 {
     performer.link.mode = LINK_HOLD;
@@ -204,10 +194,10 @@ static void test_inputs_play_that_fails_before_the_next_packet_is_not_started_ag
 
 static void test_inputs_silence_makes_the_same_button_a_press(void)
 {
-    const uint8_t modes[] = {LINK_LATCH, LINK_HOLD, SETTINGS_REMOTE_DRIVE};
+    const uint8_t modes[] = {LINK_LATCH, LINK_HOLD, LINK_DRIVE};
     for (uint8_t i = 0; i < sizeof modes; i++) {
         setUp();
-        settings.remote_mode = modes[i];
+        performer.link.mode = modes[i];
         hold(1, 3);
         end_play();
         remote(1);
@@ -291,7 +281,7 @@ static void test_inputs_fingers_that_leave_a_chord_do_not_call_back_a_play_that_
 
 static void test_inputs_steering_is_no_press(void)
 {
-    settings.remote_mode = SETTINGS_REMOTE_DRIVE;
+    performer.link.mode = LINK_DRIVE;
     performer.state = PERFORMER_PLAY;
     partner = 3;
     hold(1 + 4, 3);   /* L steers, so the play gets code 1 */
@@ -363,7 +353,7 @@ static void test_inputs_stop_of_one_remote_starts_nothing_that_the_other_holds(v
     for (uint8_t since_start = 0; since_start < 2; since_start++) {
         setUp();
         if (since_start) {
-            inputs_init(&inputs, &performer, &pages, &settings);
+            inputs_init(&inputs, &performer, &pages);
         } else {
             performer.state = PERFORMER_PLAY;
         }
@@ -525,16 +515,16 @@ static void test_inputs_no_button_that_is_let_go_after_a_stop_starts_a_play(void
 /* Restarts the program, as MODE or power-on does. */
 static void start_anew(void)
 {
-    inputs_init(&inputs, &performer, &pages, &settings);
+    inputs_init(&inputs, &performer, &pages);
     memset(told, 0, sizeof told);
 }
 
 static void test_inputs_button_held_at_the_start_is_no_press(void)
 {
-    const uint8_t modes[] = {LINK_LATCH, LINK_HOLD, SETTINGS_REMOTE_DRIVE};
+    const uint8_t modes[] = {LINK_LATCH, LINK_HOLD, LINK_DRIVE};
     for (uint8_t i = 0; i < sizeof modes; i++) {
         setUp();
-        settings.remote_mode = modes[i];
+        performer.link.mode = modes[i];
         start_anew();
         hold(1, 100);
         TEST_ASSERT_EQUAL_STRING("", told);
@@ -710,7 +700,7 @@ static void test_inputs_button_held_at_power_on_is_no_press(void)
 {
     fake_panel_press(PANEL_UP);
     panel_init();
-    inputs_init(&inputs, &performer, &pages, &settings);
+    inputs_init(&inputs, &performer, &pages);
     ticks(50);
     TEST_ASSERT_EQUAL_STRING("", told);
     fake_panel_press(0);
@@ -727,7 +717,7 @@ static void test_inputs_start_button_stops_under_an_arrow_held_since_power_on(vo
         setUp();
         fake_panel_press(held);
         panel_init();
-        inputs_init(&inputs, &performer, &pages, &settings);
+        inputs_init(&inputs, &performer, &pages);
         performer.state = PERFORMER_PLAY;
         ticks(5);
         fake_panel_press(PANEL_UP | PANEL_LEFT);

@@ -257,6 +257,19 @@ static void test_performer_hold_mode_stops_when_the_hand_lets_go(void)
     TEST_ASSERT_EQUAL_UINT8(PERFORMER_END_STOPPED, end_reason());
 }
 
+static void test_performer_play_keeps_the_mode_of_its_start(void)
+{
+    for (uint8_t mode = 0; mode <= SETTINGS_REMOTE_DRIVE; mode++) {
+        setUp();
+        settings.remote_mode = mode;
+        start(2, 1);
+        reach(PERFORMER_PLAY);
+        settings.remote_mode = mode == LINK_LATCH ? LINK_HOLD : LINK_LATCH;
+        ticks(10);
+        TEST_ASSERT_EQUAL_UINT8(mode, performer.link.mode);
+    }
+}
+
 static void test_performer_hold_mode_let_go_during_the_approach(void)
 {
     settings.remote_mode = LINK_HOLD;

@@ -16,7 +16,7 @@ static void hold(uint16_t buttons, uint8_t count)
 
 static void drive_mode(uint8_t partner_page)
 {
-    settings.remote_mode = SETTINGS_REMOTE_DRIVE;
+    performer.link.mode = LINK_DRIVE;
     partner = partner_page;
     performer.state = PERFORMER_PLAY;
     performer.page = 4;
@@ -55,10 +55,10 @@ static void test_steer_page_without_partners_is_not_steered(void)
     TEST_ASSERT_EQUAL_STRING("code 4 0;code 4 0;", told);
 }
 
-static void test_steer_only_the_setting_drive_steers(void)
+static void test_steer_only_a_play_in_drive_mode_steers(void)
 {
     drive_mode(6);
-    settings.remote_mode = SETTINGS_REMOTE_LATCH;
+    performer.link.mode = LINK_LATCH;
     hold(REMOTE_LEFT, 8);
     TEST_ASSERT_EQUAL_INT8(0, performer.shape.blend_percent);
     TEST_ASSERT_EQUAL_STRING("code 4 0;", told);
