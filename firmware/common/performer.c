@@ -85,7 +85,7 @@ static void get_ready(performer_t *performer, uint32_t joints)
     performer->faulty = 0;
     performer->leaving = false;
     performer->battery_reported = false;
-    performer->heat_reported = false;
+    performer->is_hot = false;   /* a hot servo is named again in each play */
     performer->since_stop_ticks = UINT8_MAX;
     performer->end_reason = PERFORMER_END_DONE;
     performer->state = PERFORMER_READY;

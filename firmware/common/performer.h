@@ -59,7 +59,8 @@ typedef struct {
     bool leaving;           /* a break is in progress, or has ended the play. Read only for callers */
     bool slopes_due;        /* PLAY: set the compliance of the pages again in this tick */
     bool is_driven;         /* performer_drive has set the shape */
-    bool battery_reported, heat_reported; /* each is reported once per play. Read only for callers */
+    bool battery_reported;  /* once per play. Read only for callers */
+    bool is_hot;            /* a servo has reached the setting hot; until all are 3 degrees below. Read only for callers */
     uint16_t move_deg_s;        /* a move's speed limit; 0: a play */
     uint32_t joints;            /* the joints that this play may drive; the goals of a move are in player.next_pos */
     uint32_t ready_left;        /* READY: joints not asked yet */

@@ -37,7 +37,8 @@ typedef enum {
     PERFORMER_EV_UNREADY,    /* a: servo ID that cannot be driven: it is silent, or does not obey, such as a hot one;
                               * b: it stands outside its angle limits (servo_link_t.outside) */
     PERFORMER_EV_BATTERY,    /* a: lowest voltage of all servos, 0.1 V */
-    PERFORMER_EV_HOT,        /* a: servo ID, b: degrees C */
+    PERFORMER_EV_HOT,        /* a: ID of the hottest servo, b: degrees C */
+    PERFORMER_EV_COOL,       /* no servo is hot any more */
     PERFORMER_EV_LAYER_ENDED, /* a: the page in which it ended */
     PERFORMER_EV_TICKS_LATE, /* a tick was 0.1 s late; all motion is broken off */
     PERFORMER_EV_BUS_LOST,   /* the bus adapter was unplugged; all joints count as switched off by hand */

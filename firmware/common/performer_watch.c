@@ -8,6 +8,9 @@
 /* Errors that trigger the fault rule. A voltage error is only reported: the battery is low long before it is empty. */
 #define ERRORS_GRAVE (DXL_ERR_ANGLE | DXL_ERR_HEAT | DXL_ERR_OVERLOAD)
 
+/* A reading that wavers at the limit is not news each time. */
+enum { HEAT_BAND_DEGREES = 2 };
+
 static void tell(performer_t *performer, uint8_t kind, uint8_t a, uint8_t b)
 {
     performer_event_put(&performer->events, kind, a, b, 0);
@@ -78,9 +81,11 @@ static void watch_heat(performer_t *performer)
 {
     const uint8_t limit = performer->settings->hot_degrees;
     const uint8_t now = performer->servos->hottest_degrees;
-    if (!performer->heat_reported && limit != 0 && now >= limit) {
-        performer->heat_reported = true;
-        tell(performer, PERFORMER_EV_HOT, performer->servos->hottest_id, now);
+    const uint8_t band = performer->is_hot ? HEAT_BAND_DEGREES : 0;
+    const bool is_hot = (uint8_t)(now + band) > (uint8_t)(limit - 1u);   /* limit 0, off: nothing is above 255 */
+    if (is_hot != performer->is_hot) {
+        performer->is_hot = is_hot;
+        tell(performer, is_hot ? PERFORMER_EV_HOT : PERFORMER_EV_COOL, performer->servos->hottest_id, now);
     }
 }
 

@@ -166,6 +166,9 @@ void report_event(const performer_event_t *event)
         text_number(event->b);
         TEXT(" C");
         break;
+    case PERFORMER_EV_COOL:
+        TEXT("No servo is hot any more");
+        break;
     case PERFORMER_EV_BATTERY:
         TEXT("Battery is low: ");
         report_voltage(a);

@@ -60,17 +60,15 @@ enum { BIT_SILENT = 3, BIT_LIMP = 4, BIT_OUTSIDE = 6 };
 
 static uint8_t state_of(uint8_t joint)
 {
-    const servo_link_t *servos = &the_servos;
-    if (servo_link_has(&servos->silent, joint)) {
+    if (servo_link_has(&the_servos.silent, joint)) {
         return 1u << BIT_SILENT;
     }
-    uint8_t state = servos->errors[joint];
-    if (joint == servos->hottest_id && the_settings_store.settings.hot_degrees != 0 &&
-        servos->hottest_degrees >= the_settings_store.settings.hot_degrees) {
+    uint8_t state = the_servos.errors[joint];
+    if (the_performer.is_hot && joint == the_servos.hottest_id) {
         state |= DXL_ERR_HEAT;
     }
     if (state == 0 && servo_link_has(&the_performer.faulty, joint)) {
-        return servo_link_has(&servos->outside, joint) ? 1u << BIT_OUTSIDE : 1u << BIT_LIMP;
+        return servo_link_has(&the_servos.outside, joint) ? 1u << BIT_OUTSIDE : 1u << BIT_LIMP;
     }
     return state;
 }
@@ -183,7 +181,7 @@ void cmd_play_events(bool line_is_free)
     if (performer_next_event(&the_performer, &event)) {
         if (event.kind == PERFORMER_EV_ENDED) {
             play_ended(&event);
-        } else if (event.kind >= PERFORMER_EV_SILENT && event.kind <= PERFORMER_EV_HOT) {
+        } else if (event.kind >= PERFORMER_EV_SILENT && event.kind <= PERFORMER_EV_COOL) {
             the_dialog.faults_due = !the_screen.hidden;
         } else if (event.kind == PERFORMER_EV_STEP) {
             /* the row keeps the message of a key, and servo faults until they were read */

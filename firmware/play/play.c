@@ -34,8 +34,7 @@ static void show_lamps(const performer_t *performer)
     show_traffic(PANEL_LED_RXD, console_received(), &received);
     const bool dark = performer_is_paused(performer) && (tick_now16() >> BLINK_TICKS_LOG2) % 2 != 0;
     panel_set(PANEL_LED_PLAY, !performer_is_still(performer) && !dark);
-    const bool hot = performer->heat_reported && performer->servos->hottest_degrees >= performer->settings->hot_degrees;
-    panel_set(PANEL_LED_AUX, performer->faulty != 0 || performer->battery_reported || hot);
+    panel_set(PANEL_LED_AUX, performer->faulty != 0 || performer->battery_reported || performer->is_hot);
 }
 
 /* ---- urgent work ---- */

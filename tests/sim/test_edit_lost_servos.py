@@ -46,6 +46,21 @@ def test_all_that_is_wrong_stands_in_one_row():
         assert r.board.servos[12].torque
 
 
+def test_heat_goes_from_the_row_when_it_goes_from_the_servo():
+    with start() as r:
+        r.line("on")
+        r.board.servos[8].fault("overheating")
+        r.settle(1500)
+        assert r.message.strip() == "Hot: ID 8"
+        r.board.servos[8].clear()
+        for _ in range(60):
+            if r.board.servos[8].temperature < 67:
+                break
+            r.board.run(ms=1000)
+        r.settle(1500)
+        assert r.message.strip() == "Lost torque: ID 8"
+
+
 def play_until(r, fault):
     """Starts a play that this fault of servo 4 ends."""
     r.keys("play 8\r", ms=2500)

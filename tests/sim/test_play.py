@@ -403,6 +403,16 @@ def test_aux_goes_out_when_the_servo_is_well_and_on_again(fault):
     assert board.servos[5].torque and "aux" not in board.leds
 
 
+def test_aux_goes_out_when_heat_is_no_longer_watched():
+    board = robot()
+    ask(board, "settings hot 25")
+    board.expect("is hot", ms=1000)
+    assert "aux" in board.leds
+    ask(board, "settings hot 0")
+    board.expect("No servo is hot any more", ms=1000)
+    assert "aux" not in board.leds
+
+
 # --- text delays nothing ---
 
 

@@ -186,6 +186,31 @@ static void test_performer_hot_servo_is_named(void)
     TEST_ASSERT_FALSE(has_event(PERFORMER_EV_HOT));
 }
 
+static void test_performer_servo_is_cool_three_degrees_below(void)
+{
+    servos.hottest_degrees = 70;
+    ticks(2);
+    for (servos.hottest_degrees = 68; servos.hottest_degrees <= 70; servos.hottest_degrees++) {
+        ticks(2);
+        TEST_ASSERT_FALSE(has_event(PERFORMER_EV_COOL));
+    }
+    servos.hottest_degrees = 67;
+    ticks(2);
+    (void)expect_event(PERFORMER_EV_COOL);
+    TEST_ASSERT_FALSE(performer.is_hot);
+}
+
+static void test_performer_without_a_limit_no_servo_is_hot(void)
+{
+    servos.hottest_degrees = 70;
+    ticks(2);
+    TEST_ASSERT_TRUE(performer.is_hot);
+    settings.hot_degrees = 0;
+    servos.hottest_degrees = 255;
+    ticks(2);
+    TEST_ASSERT_FALSE(performer.is_hot);
+}
+
 /* ---- the computer ---- */
 
 /* Runs the main loop for a tick that is late by `late` ticks. */
