@@ -6,10 +6,9 @@ import sys
 
 
 def main() -> None:
-    """Runs the command line. Before it is imported and once the command is done, a signal ends the program at once: an exception in the
+    """Runs the command line. Before the command begins and once it is done, a signal ends the program at once: an exception in the
     middle of an import, or of Python's own end, would be shown and could be lost."""
-    on_interrupt = signal.getsignal(signal.SIGINT)
-    if on_interrupt is not signal.SIG_IGN:
+    if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
     try:
         from m512.streams import fill_closed
@@ -17,7 +16,6 @@ def main() -> None:
         fill_closed()
         from m512.cli import main as command_line
 
-        signal.signal(signal.SIGINT, on_interrupt)
         command_line()
     except KeyboardInterrupt:
         print("m512: stopped", file=sys.stderr)

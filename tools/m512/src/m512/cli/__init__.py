@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from m512 import __version__
+from m512 import __version__, signals
 
 # name -> (module, first line of help). The order is the order of `m512 --help`.
 COMMANDS = {
@@ -37,12 +37,6 @@ COMMANDS = {
 }
 
 
-def _end(number: int, _: Any) -> None:
-    if number == signal.SIGTERM:  # after SIGHUP there is no terminal to read it
-        click.echo("m512: stopped by SIGTERM", err=True)
-    sys.exit(128 + number)
-
-
 class LazyGroup(click.Group):
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(COMMANDS)
@@ -52,7 +46,8 @@ class LazyGroup(click.Group):
             return None
         from importlib import import_module
 
-        module = import_module(f"m512.cli.{COMMANDS[name][0]}")
+        with signals.held_back():
+            module = import_module(f"m512.cli.{COMMANDS[name][0]}")
         return getattr(module, name)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
@@ -75,10 +70,7 @@ class LazyGroup(click.Group):
     def invoke(self, ctx: click.Context) -> Any:
         from m512.errors import EXIT_CANCELLED, M512Error
 
-        # The simulator and a driven robot must not outlive this program. A signal that nohup has set to be ignored stays ignored.
-        for name in ("SIGTERM", "SIGHUP"):
-            if hasattr(signal, name) and signal.getsignal(getattr(signal, name)) is not signal.SIG_IGN:
-                signal.signal(getattr(signal, name), _end)
+        signals.end_with_exceptions()  # the simulator and a driven robot must not outlive this program
         try:
             return super().invoke(ctx)
         except M512Error as error:
@@ -89,6 +81,10 @@ class LazyGroup(click.Group):
         except (KeyboardInterrupt, click.Abort):
             click.echo("m512: stopped", err=True)
             sys.exit(EXIT_CANCELLED)
+        except signals.SignalExit as end:
+            if end.number == signal.SIGTERM:  # after SIGHUP there is no terminal to read it
+                click.echo("m512: stopped by SIGTERM", err=True)
+            raise
         except BrokenPipeError:  # the reader of the results has gone, as with `| head`: an early end, not a success
             from m512.streams import end_results
 
