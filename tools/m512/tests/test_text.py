@@ -306,7 +306,14 @@ def test_text_only_a_line_end_ends_a_comment(sign):
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"], ids=ascii)
 def test_text_every_line_end_counts_once(end):
     assert error(end.join(["motion512 1", "page 5 \\", "name", "", "hallo"])).startswith("text:5: ")
+    assert error(end.join(["motion512 1", "page 5 \\", "name \\", "", "hallo"])).startswith("text:5: ")
     assert "the last line ends in a backslash" in error(end.join(["motion512 1", "page 5 \\", ""]))
+
+
+def test_an_error_in_a_line_that_is_continued_names_all_its_lines():
+    assert error("motion512 1\npage 5\n step 1 | 512 \\\n 5l2 \\\n 512\n").startswith("text:3-5: ")
+    assert error("motion512 1\npage 5 \\\nname; repeat 1\nrepeat 2").endswith("is here a second time, after line 2")
+    assert error("motion512 1\npage 5 \\\nname \\\n").startswith("text:3: the last line ends in a backslash")
 
 
 def included(tmp_path, main, other):

@@ -31,10 +31,10 @@ class UnknownKindError(FileError):
 
 
 class TextError(FileError):
-    """A line of the text format is wrong."""
+    """A line of the text format is wrong, or lines line..last that are one statement."""
 
-    def __init__(self, message: str, where: str = "", line: int = 0):
-        super().__init__(f"{where}:{line}: {message}" if line else message)
+    def __init__(self, message: str, where: str = "", line: int = 0, last: int = 0):
+        super().__init__(f"{where}:{line}{f'-{last}' if last > line else ''}: {message}" if line else message)
         self.line = line
 
 

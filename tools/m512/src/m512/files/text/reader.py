@@ -50,8 +50,9 @@ class Reader(JointWords):
         self.where, self.folder, self.line = where, folder, 0
         started, quoted = False, False
         held: list[str] = []
-        for self.line, line in enumerate(StringIO(text, newline=None), 1):
+        for last, line in enumerate(StringIO(text, newline=None), 1):
             line = line.rstrip("\n")
+            self.line = last - len(held)
             goes_on, quoted = continues(line, quoted)
             if goes_on:
                 held.append(line[:-1] + " ")
@@ -65,9 +66,9 @@ class Reader(JointWords):
                     else:
                         self._statement(statement)
             except WordError as error:
-                raise TextError(str(error), where, self.line) from None
+                raise TextError(str(error), where, self.line, last) from None
         if held:
-            raise TextError("the last line ends in a backslash: what it goes on with is missing", where, self.line)
+            raise TextError("the last line ends in a backslash: what it goes on with is missing", where, last)
         if not started:
             raise FileError(f'{where}: empty; a motion text starts with "motion512 {VERSION}"')
         self.where, self.line, self.folder = outer
