@@ -75,7 +75,7 @@ static void holds(hand_t *hand, unsigned buttons)
     const unsigned code = is_stop ? CODE_STOP : buttons == BUTTON_PAUSE ? NO_CODE : down;
     const unsigned held = surely_held();
     const unsigned still = hand == &presses.remote ? down | held : down;
-    hand->spent &= still;
+    hand->spent &= still & (hand == &presses.remote ? hand->down | held : down);   /* released since the last packet */
     if (code != 0 && code < CODE_STOP && code != hand->code && (down & ~hand->spent) != 0 && (held & STOP) == 0) {
         calls_pressed(code);
         hand->press_tick = session.tick;
