@@ -167,7 +167,9 @@ export class RobotTransfer implements Transfer {
      *  in this one. The backup and what was compared are then not of these pages. */
     continuesWith(crcs: readonly number[]): boolean {
         const { under } = this;
-        return under !== null && crcs.every((crc, page) => under.crcs[page]?.includes(crc));
+        if (under === null) return false;
+        const now = new Map(Array.from(under.write.known, ([page, bytes]) => [page, this.parts.format.crc(bytes)])); // perhaps half saved
+        return crcs.every((crc, page) => crc === now.get(page) || under.crcs[page]?.includes(crc));
     }
 
     private async begin(
@@ -193,7 +195,7 @@ export class RobotTransfer implements Transfer {
         return { write: new PageWrite(wanted, format, this.sent), crcs };
     }
 
-    /** Records the written pages as the robot's, even if the rest failed. */
+    /** Records the written pages and the half saved ones as the robot's, even if the rest failed. */
     private async run(write: PageWrite, left: AbortSignal): Promise<void> {
         const changed = (): void => {
             const done = [...write.account.values()].filter(account => account === 'written' || account === 'verified').length;
@@ -204,8 +206,8 @@ export class RobotTransfer implements Transfer {
             changed();
             await write.run(this.parts.requests(), { signal: this.stop.signal, changed, putBack });
         } finally {
-            const written = new Map(write.written.map(({ page, after }) => [page, after]));
-            if (!left.aborted) this.parts.setRobot(this.parts.robot().map((bytes, page) => written.get(page) ?? bytes) as Uint8Array[]);
+            const { known } = write;
+            if (!left.aborted) this.parts.setRobot(this.parts.robot().map((bytes, page) => known.get(page) ?? bytes) as Uint8Array[]);
         }
     }
 

@@ -65,12 +65,16 @@ export async function askRamCrc(requests: Ask): Promise<number> {
     return crcOf(await requests.ask('@crc'));
 }
 
-/** Saves the page in RAM under this number if its CRC matches. Rejects with RobotError save-failed if the board cannot save. */
+/** Saves the page in RAM under this number if its CRC matches. Rejects with RobotError save-failed if the board cannot save; save-pending
+ *  if until its next start, which tries again, a page is half saved: this one, which is in `words`, or one before it. */
 export async function savePage(requests: Ask, page: number, crc: number): Promise<void> {
     try {
         await requests.ask(`@save ${page} ${crc.toString(16).padStart(4, '0')}`, { timeoutMs: SAVE_MS });
     } catch (error) {
-        throw error instanceof RobotError && error.number === ERR_SAVE ? new RobotError('save-failed', '', { cause: error }) : error;
+        if (!(error instanceof RobotError) || error.number !== ERR_SAVE) throw error;
+        const isPending = error.words.includes('the next start tries again');
+        const code = isPending || error.words.includes('an earlier save is pending') ? 'save-pending' : 'save-failed';
+        throw new RobotError(code, isPending ? String(page) : '', { cause: error });
     }
 }
 

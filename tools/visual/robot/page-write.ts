@@ -8,14 +8,17 @@
 //                                                                       |
 //                |                 the line was lost: checked at the next run()
 //                +--ERR 11--> refused (old)         a written page that is the old one when all are verified is lost (old)
+//                +--ERR 11, tried again at the next start--> lost (half new; from now on that is the old one)
 //
-// The pages behind one that is refused or lost are written all the same. The next run() tries it once more.
+// The pages behind one that is refused or lost are written all the same. The next run() tries it once more. Behind one that is half saved
+// the board takes no other until it is restarted: run() ends there, and the next one writes the others first.
 
 import type { PageFormat } from '../model/page-format.ts';
 import { HalfSent, isOpened, isSame } from './half-sent.ts';
 import type { SentPage } from './half-sent.ts';
 import { ERR_CRC, askPageCrcs, askRamCrc, openPage, savePage } from './page-requests.ts';
 import type { Ask } from './page-requests.ts';
+import { askPage } from './protocol.ts';
 import { RobotError } from './robot-error.ts';
 
 export type PageAccount = 'waiting' | 'sending' | 'saving' | 'written' | 'verified' | 'refused' | 'lost';
@@ -35,9 +38,11 @@ const TRIES = 3;
 
 export class PageWrite {
     readonly account: Map<number, PageAccount>;
-    private readonly pages: readonly PageToWrite[];
+    private pages: readonly PageToWrite[];
     private readonly format: PageFormat;
     private readonly sent: HalfSent;
+    /** Pages that the board has half saved. */
+    private readonly half = new Set<number>();
 
     /** sent: of this write and those before it. */
     constructor(pages: readonly PageToWrite[], format: PageFormat, sent: HalfSent = new HalfSent(format)) {
@@ -51,14 +56,16 @@ export class PageWrite {
         return [...this.account.values()].every(state => state === 'verified');
     }
 
-    /** Pages that are certainly in the robot. */
-    get written(): PageToWrite[] {
-        return this.pages.filter(({ page }) => ['written', 'verified'].includes(this.account.get(page) ?? ''));
+    /** The robot's pages, by number, of those that are certainly in it and those that it has half saved. */
+    get known(): Map<number, Uint8Array> {
+        const isWritten = (page: number): boolean => ['written', 'verified'].includes(this.account.get(page) ?? '');
+        const known = this.pages.filter(({ page }) => isWritten(page) || this.half.has(page));
+        return new Map(known.map(({ page, before, after }) => [page, isWritten(page) ? after : before]));
     }
 
     /** Writes the remaining pages, then verifies all of them. Rejects with RobotError: page-changed, page-unsaved or page-mixed before
      *  that page is touched, cancelled between two pages, or an error of the line; save-failed, pages-refused or page-not-saved when all
-     *  others are written. Call it again to continue. */
+     *  others are written, save-pending when they wait for a restart of the board. Call it again to continue. */
     async run(line: Ask, options: WriteOptions = {}): Promise<void> {
         if (this.pages.length === 0) return;
         const requests = patient(line);
@@ -67,12 +74,16 @@ export class PageWrite {
             options.changed?.();
         };
         await this.look(requests, set);
-        for (const one of this.pages) {
+        let last: number | null = null;
+        for (const one of [...this.pages].sort((a, b) => Number(this.half.has(a.page)) - Number(this.half.has(b.page)))) {
             if (this.account.get(one.page) !== 'waiting') continue;
             if (options.signal?.aborted) throw new RobotError('cancelled');
-            await this.write(requests, one, set, options);
+            if (await this.write(requests, one, set, options)) continue;
+            last = one.page;
+            break;
         }
         await this.verify(requests, set);
+        if (last !== null) throw new RobotError('save-pending', this.numbers('lost').join(', ') || String(last));
         this.mustBeDone();
     }
 
@@ -105,7 +116,7 @@ export class PageWrite {
         const crcs = await this.crcs(requests, ({ after }) => [after]);
         for (const { page, after } of this.pages) {
             if (crcs.get(page) === this.format.crc(after)) set(page, 'verified');
-            else if (this.account.get(page) !== 'refused') set(page, 'lost');
+            else if (this.account.get(page) === 'written' || this.half.has(page)) set(page, 'lost');
         }
     }
 
@@ -118,12 +129,13 @@ export class PageWrite {
         return new Map((await askPageCrcs(requests, first, last, { isExpected })).map((crc, i) => [first + i, crc]));
     }
 
+    /** false: the board takes no other page until it is restarted. */
     private async write(
         requests: Ask,
         one: PageToWrite,
         set: (page: number, state: PageAccount) => void,
         { putBack }: WriteOptions,
-    ): Promise<void> {
+    ): Promise<boolean> {
         const { page, after } = one;
         const crc = this.format.crc(after);
         for (let tries = 1; tries <= TRIES; tries++) {
@@ -135,12 +147,30 @@ export class PageWrite {
             set(page, 'saving');
             const end = await saved(requests, page, crc);
             if (end === 'restarted' && (await askPageCrcs(requests, page, page))[0] !== crc) continue;
+            if (end instanceof RobotError) {
+                if (end.words !== '') this.half.add(page);
+                await this.empty(requests, one);
+                set(page, 'waiting');
+                return false;
+            }
             // Edit has no edits now, unless it refuses the page, or had a page open that looked the same, since a restart.
             await this.open(requests, page);
             this.sent.end(one);
-            return set(page, end === 'refused' ? 'refused' : 'written');
+            set(page, end === 'refused' ? 'refused' : 'written');
+            return true;
         }
         throw new RobotError('dropped');
+    }
+
+    /** Gives Edit's RAM what flash has of the page now, perhaps half of each, so that no edits are left there. */
+    private async empty(requests: Ask, one: PageToWrite): Promise<void> {
+        const { page } = one;
+        const now = { ...one, before: await askPage(requests, page, bytes => this.format.crc(bytes)) };
+        this.pages = this.pages.map(other => (other === one ? now : other));
+        this.sent.end(one);
+        this.sent.begin(now);
+        await this.open(requests, page);
+        this.sent.end(now);
     }
 
     /** Unsaved edits in Edit's RAM are dropped if they are ours: of a transfer that a pulled cable, a restart or a reload has interrupted.
@@ -159,13 +189,14 @@ export class PageWrite {
     }
 }
 
-/** refused: for good. restarted: RAM has another page than a moment ago. */
-async function saved(requests: Ask, page: number, crc: number): Promise<'saved' | 'refused' | 'restarted'> {
+/** refused: for good. restarted: RAM has another page than a moment ago. RobotError: save-pending. */
+async function saved(requests: Ask, page: number, crc: number): Promise<'saved' | 'refused' | 'restarted' | RobotError> {
     try {
         await savePage(requests, page, crc);
         return 'saved';
     } catch (error) {
         if (error instanceof RobotError && error.code === 'save-failed') return 'refused';
+        if (error instanceof RobotError && error.code === 'save-pending') return error;
         if (error instanceof RobotError && error.number === ERR_CRC) return 'restarted';
         throw error;
     }

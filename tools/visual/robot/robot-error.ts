@@ -28,6 +28,7 @@ export type RobotErrorCode =
     | 'time-stands' // the time of the robot in the page stands still, so it cannot say whether edits would be lost
     | 'page-mixed' // likewise, perhaps on a page that this page has half sent; its number is in `words`
     | 'save-failed' // the board cannot save pages
+    | 'save-pending' // the board has half saved this page, and saves no other until it is restarted; its number is in `words`
     | 'pages-refused' // the board saves pages, but not all of them; the numbers of those are in `words`
     | 'page-not-saved' // after a save the robot still has other pages; their numbers are in `words`
     | 'no-backup' // the robot's pages could not be stored here, so nothing was written

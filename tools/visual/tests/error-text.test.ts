@@ -21,8 +21,16 @@ test("the board's words end with a full stop", async () => {
 test('a number that a sentence ends with has a full stop: what follows may begin with a number, too', () => {
     expect(errorText(new RobotError('page-changed', '56'))).toMatch(/ Motion: 56\.$/);
     const { errors } = EN.robot;
-    for (const code of ['page-changed', 'page-mixed', 'page-not-saved', 'pages-refused', 'damaged-here', 'servo-failed'] as const)
-        expect(errorText(new RobotError(code, '5, 56')), code).toBe(`${errors[code]} 5, 56.`);
+    const codes = [
+        'page-changed',
+        'page-mixed',
+        'page-not-saved',
+        'save-pending',
+        'pages-refused',
+        'damaged-here',
+        'servo-failed',
+    ] as const;
+    for (const code of codes) expect(errorText(new RobotError(code, '5, 56')), code).toBe(`${errors[code]} 5, 56.`);
 });
 
 test('the image to flash is that of the board; where the board is not known, both are named', () => {

@@ -578,6 +578,52 @@ test('a page that the robot refuses to save does not bar the others, and it is s
     expect(await bench.until(transfer.write([7]), 60_000)).toMatchObject({ error: { code: 'save-failed' } }); // perhaps it can save none
 });
 
+/** From now on these bits of a byte of flash stay erased. Returns the repair. */
+function wearOut(bench: RobotBench, address: number, bits: number): () => void {
+    const { board } = bench;
+    const runTo = board.runTo.bind(board);
+    board.runTo = cycles => {
+        while (board.nowCycles < cycles) {
+            const isOn = runTo(Math.min(board.nowCycles + 1000, cycles)); // Edit reads a page back at once
+            const [byte = 0] = board.readFlash(address, 1);
+            if ((byte & bits) !== bits) board.writeFlash(address, Uint8Array.of(byte | bits));
+            if (!isOn) return false;
+        }
+        return true;
+    };
+    return () => (board.runTo = runTo);
+}
+
+test.each([
+    [40, 'it is worn out', 81],
+    [500, 'it is worn out', 82],
+    [500, 'it is repaired', 83],
+])('byte %i of a page is worn: it is named, the robot is to be restarted, and all others are written then; %s', async (at, how, seed) => {
+    const { bench, connection } = await ready('edit', seed);
+    const pages = twenty(bench, 4); // 1, 7, 13, 19
+    const { transfer } = transferOn(bench, connection, pages);
+    const numbers = pages.map(({ page }) => page);
+    const states = (): PageAccount[] => numbers.map(page => transfer.state.get().account.get(page) ?? 'waiting');
+    const repair = wearOut(bench, MOTIONS_ADDRESS + 512 * 7 + at, ~(pages[1]?.after[at] ?? 0) & 0xff);
+    const pending = { error: { code: 'save-pending', words: '7' } };
+    expect(await bench.until(transfer.write(numbers), 60_000)).toMatchObject(pending);
+    expect(states()).toEqual(['verified', 'lost', 'waiting', 'waiting']);
+    expect(transferText(transfer.state.get())).toMatch(
+        /restarted.*@reset.*try again.* Motion: 7\. 1 of 4 motions are done\. "Read the robot again" shows/,
+    );
+    expect(await bench.until(hasUnsavedEdits(connection.requests, format))).toBe(false);
+    expect(await bench.until(transfer.tryAgain(), 60_000)).toMatchObject(pending); // it has not been restarted
+    expect(states()).toEqual(['verified', 'lost', 'waiting', 'waiting']);
+    if (how === 'it is repaired') repair();
+    await bench.until(connection.write(new TextEncoder().encode('@reset\r')));
+    await bench.run(3000);
+    await untilReady(bench, connection);
+    const end = await bench.until(transfer.tryAgain(), 60_000);
+    expect(end).toMatchObject(how === 'it is repaired' ? { isDone: true } : pending);
+    for (const { page, after } of pages) if (page !== 7 || end.isDone) expect(flashPage(bench, page), `page ${page}`).toEqual(after);
+    expect(states()).toEqual(['verified', end.isDone ? 'verified' : 'lost', 'verified', 'verified']);
+});
+
 test('a page that the robot has not kept: the others are verified, and it is said which one it is', async () => {
     const { bench, connection } = await ready('edit', 67);
     const pages = twenty(bench, 3);

@@ -233,6 +233,8 @@ const DE: Texts = {
                 'Die Bewegung im Speicher von Edit hat Änderungen, die nicht gespeichert sind; vielleicht gehört eine halbe Bewegung aus einer abgebrochenen Übertragung dazu. Speichere sie nicht ungesehen. Um sie zu verwerfen, gib PAGE 1 im Terminal ein und antworte y; versuche es dann noch einmal. Bewegung:',
             'save-failed':
                 'Der Roboter konnte eine Bewegung nicht speichern: Kein Bootloader auf ihm kann schreiben, oder sein Flash-Speicher ist verschlissen. Unser Bootloader kann schreiben; er kommt einmal mit einem USB-Programmer auf die Platine. Deine Bewegungen sind hier sicher.',
+            'save-pending':
+                'Der Roboter konnte diese Bewegung nicht speichern und speichert keine andere, bis er neu gestartet wird; vielleicht ist sein Flash-Speicher dort verschlissen. Schalte ihn aus und ein, oder gib @reset im Terminal ein; versuche es dann noch einmal: Die anderen kommen zuerst. Deine Bewegungen sind hier sicher. Bewegung:',
             'pages-refused':
                 'Der Roboter konnte diese Bewegungen nicht speichern; vielleicht ist sein Flash-Speicher dort verschlissen. Alle anderen wurden auch versucht. Deine Bewegungen sind hier sicher. Nicht geschrieben:',
             'page-not-saved':

@@ -73,6 +73,8 @@ const errors: Record<Exclude<RobotErrorCode, 'needs-edit'>, string> = {
         "The motion in Edit's memory has edits that are not saved, and half of a motion from a transfer that broke off may be among them. Do not save them unseen. To drop them, type PAGE 1 in the terminal and answer y; then try again. Motion:",
     'save-failed':
         'The robot could not save a motion: no boot loader on it can write, or its flash is worn out. Our boot loader can write; it goes onto the board once, with a USB programmer. Your motions are safe here.',
+    'save-pending':
+        'The robot could not save this motion, and saves no other until it is restarted; its flash may be worn out there. Switch it off and on, or type @reset in the terminal; then try again: the others come first. Your motions are safe here. Motion:',
     'pages-refused':
         'The robot could not save these motions; its flash may be worn out there. All others were tried, too. Your motions are safe here. Not written:',
     'page-not-saved':

@@ -226,6 +226,8 @@ const ES: Texts = {
                 'El movimiento en la memoria de Edit tiene cambios sin guardar, y entre ellos puede estar la mitad de un movimiento de una transferencia interrumpida. No los guardes sin mirarlos. Para descartarlos, escribe PAGE 1 en el terminal y responde y; después inténtalo de nuevo. Movimiento:',
             'save-failed':
                 'El robot no pudo guardar un movimiento: no tiene un cargador de arranque que escriba, o su memoria flash está gastada. El nuestro sí escribe; se graba una vez en la placa con un programador USB. Tus movimientos están a salvo aquí.',
+            'save-pending':
+                'El robot no pudo guardar este movimiento y no guarda ningún otro hasta que se reinicie; puede que su memoria flash esté gastada ahí. Apágalo y enciéndelo, o escribe @reset en el terminal; luego inténtalo de nuevo: los demás van primero. Tus movimientos están a salvo aquí. Movimiento:',
             'pages-refused':
                 'El robot no pudo guardar estos movimientos; puede que su memoria flash esté gastada ahí. También se intentaron todos los demás. Tus movimientos están a salvo aquí. No escritos:',
             'page-not-saved':
