@@ -10,7 +10,7 @@ import type { Edits } from '../model/edit.ts';
 import * as states from '../model/editor-state.ts';
 import type { EditorState, Selection } from '../model/editor-state.ts';
 import type { History } from '../model/history.ts';
-import { AS_STORED, JOINTS, POSITION_MIDDLE } from '../model/motion.ts';
+import { AS_STORED, JOINTS, POSITION_MIDDLE, STANDING_PAGE } from '../model/motion.ts';
 import type { Curve, Motion, Shape } from '../model/motion.ts';
 import { freePage } from '../model/page-edits.ts';
 import type { PageFormat } from '../model/page-format.ts';
@@ -156,10 +156,20 @@ export class DocumentEditor implements Editor {
         return this.player.topSpeed(volts);
     }
 
-    firstPose(page: number, shape: Shape = AS_STORED): Uint16Array {
+    firstPose(
+        page: number,
+        shape: Shape = AS_STORED,
+        from: ArrayLike<number> = new Uint16Array(JOINTS).fill(POSITION_MIDDLE),
+    ): Uint16Array {
         this.load();
         this.player.setShape(shape);
-        return this.player.firstPose(page, new Uint16Array(JOINTS).fill(POSITION_MIDDLE));
+        return this.player.firstPose(page, from);
+    }
+
+    get standingPose(): number[] {
+        const ready = this.library[STANDING_PAGE];
+        const positions = ready ? readPage(this.format, ready).steps[0]?.positions : [];
+        return Array.from({ length: JOINTS }, (_, id) => positions?.[id] ?? POSITION_MIDDLE);
     }
 
     poseAfter(page: number, step: number): number[] {

@@ -2,6 +2,7 @@
 // The robot in the page: its worker, its memory in the browser, and the hand that holds it up until its legs bear it.
 
 import type { Body } from '../model/body.ts';
+import { STANDING_PAGE } from '../model/motion.ts';
 import { Connection } from '../robot/connection.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
 import type { Where } from '../robot/protocol.ts';
@@ -20,8 +21,6 @@ import type { MemoryEvents } from './robot-memory.ts';
 import { TickClock } from './tick-clock.ts';
 import { Turns } from './turns.ts';
 
-/** The page of the motion library that takes the robot to its standing pose. */
-const READY_PAGE = 1;
 const STAND_LIMIT_MS = 8000;
 const ASK_MS = 50;
 const WHERE_MS = 3000;
@@ -202,11 +201,11 @@ export class SimulatedSource {
         this.interrupted = null;
         try {
             const before = await askWhere(requests, { timeoutMs: WHERE_MS });
-            const isToGoOn = before.state !== 'idle' && before.state !== 'paused' && before.page !== READY_PAGE;
+            const isToGoOn = before.state !== 'idle' && before.state !== 'paused' && before.page !== STANDING_PAGE;
             if (isToGoOn && stops === this.stops) this.interrupted = before;
             if (before.state !== 'idle') await command(requests, 'break');
             await this.untilIdle(connection);
-            await play(requests, READY_PAGE);
+            await play(requests, STANDING_PAGE);
             await this.untilIdle(connection);
         } finally {
             this.post({ kind: 'hold', held: false });

@@ -113,9 +113,10 @@ export class MotionTrials implements Trials {
     private async tryPage(client: TrialClient, page: number, signal: AbortSignal): Promise<void> {
         const { document, law } = this.editor.state.get();
         const reached = new Map(this.editor.format.reach(document, page).map(one => [one, pageOf(document, one)]));
-        const curve = wholeCurve(ticks => this.editor.curve(page, { ticks }), LOOP_TICKS);
+        const pose = this.editor.firstPose(page, AS_STORED, this.editor.standingPose);
+        const curve = wholeCurve(ticks => this.editor.curve(page, { ticks, from: pose }), LOOP_TICKS);
         if (!curve) return;
-        const request = this.request(page, AS_STORED, Math.min(curve.ticks, MOST_TICKS));
+        const request = { ...this.request(page, AS_STORED, Math.min(curve.ticks, MOST_TICKS)), pose };
         const { poses, steps } = posesOf(curve, page);
         const touches = deepestTouches(steps, await client.touching(poses));
         const record = await this.play(client, request, signal);

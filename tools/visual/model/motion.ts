@@ -13,6 +13,8 @@ export const CURVE_TICKS_MOST = facts.MOTION_API_CURVE_TICKS;
 export const POSITION_MAX = facts.PAGE_POS_MAX;
 /** Servo position in the middle of its range. */
 export const POSITION_MIDDLE = facts.PAGE_POS_MIDDLE;
+/** The page of the motion library that takes the robot to its standing pose. */
+export const STANDING_PAGE = 1;
 /** Battery voltage to assume if it is unknown: a CM-5's eight cells. */
 export const NOMINAL_VOLTS = 9.6;
 

@@ -13,7 +13,7 @@ export interface Touch {
     readonly depthM: number;
 }
 
-/** A motion to try. The robot starts standing in the motion's first pose. */
+/** A motion to try. The robot starts standing in the motion's first pose; joints that this does not use are where it stands otherwise. */
 export interface TrialRequest {
     /** 65,536 bytes, as in flash. */
     readonly image: Uint8Array;

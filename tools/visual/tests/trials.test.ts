@@ -4,10 +4,13 @@ import { expect, test, vi } from 'vitest';
 import { DocumentEditor } from '../app/editor.ts';
 import { MotionTrials } from '../app/trials.ts';
 import { NO_HISTORY } from '../model/history.ts';
-import { AS_STORED } from '../model/motion.ts';
+import { pageOf } from '../model/document.ts';
+import { AS_STORED, STANDING_PAGE } from '../model/motion.ts';
+import { readPage } from '../model/page.ts';
 import type { TrialRecord, TrialRequest } from '../model/trial.ts';
 import type { TrialClient } from '../sim/trial-client.ts';
 import { BODY as body, libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
+import { played, trialBench } from './trial-bench.ts';
 
 const { format } = await makeFormat();
 const player = await makeMotion();
@@ -17,7 +20,7 @@ const STOOD: TrialRecord = { stood: true, ticks: 128, positions: new Float32Arra
 
 async function bench(made: () => Promise<Partial<TrialClient>>) {
     const events = { changed: () => undefined, refused: () => undefined, opened: () => trials.forget() };
-    const editor: DocumentEditor = new DocumentEditor(body, { format, player, document: library }, events);
+    const editor: DocumentEditor = new DocumentEditor(body, { format, player, document: library, library: library.pages }, events);
     const trials: MotionTrials = new MotionTrials(editor, made as () => Promise<TrialClient>);
     return { editor, trials };
 }
@@ -68,6 +71,30 @@ test('a motion is tried to its end, one that loops for 6 s and at least once; wh
     await trials.run(pages);
     expect(seconds).toEqual([6, 28, 28, 60]); // 7 steps of 4 s at nominal speed 32
     expect(pages.map(page => trials.isJudged(page))).toEqual([true, true, true, false]);
+});
+
+test('joints that the first step does not use begin where the robot of the page stands: with bent knees; so does what it is judged by', async () => {
+    const { stand } = await trialBench();
+    const poses: number[][] = [];
+    const play = (request: TrialRequest) => {
+        poses.push(Array.from(request.pose));
+        return Promise.resolve(played(stand, request));
+    };
+    const { editor, trials } = await bench(() => Promise.resolve({ play, touching: () => Promise.resolve([]) }));
+    const [LOOK, MINE, ANKLE] = [61, 64, 15];
+    const change = (edit: Parameters<typeof editor.dispatch>[0]): boolean => editor.dispatch(edit);
+    const document = () => editor.state.get().document;
+    change(editor.edits.copyPage(document(), LOOK, MINE));
+    change(editor.edits.setHeader(document(), MINE, { next: 0, exit: 0, repetitions: 1 }));
+    await trials.run([MINE]);
+    change(editor.edits.setJoints(document(), MINE, [3], new Map([[ANKLE, 501]]))); // 155 from where it stands: it falls to its back
+    change(editor.edits.setTime(document(), MINE, [3], 40));
+    change(editor.edits.clearPages(document(), [STANDING_PAGE])); // of the document, not of the robot that stands
+    const before = trials.state.get().trials.get(MINE)?.verdict.kind;
+    await trials.run([MINE]);
+    expect([before, trials.state.get().trials.get(MINE)?.verdict.kind]).toEqual(['stands', 'falls']);
+    const ready = readPage(format, pageOf(library, STANDING_PAGE)).steps[0]?.positions ?? [];
+    expect(poses.map(pose => pose[ANKLE])).toEqual([ready[ANKLE], ready[ANKLE]]);
 });
 
 test('another document knows nothing; who stops keeps what is known', async () => {

@@ -56,9 +56,11 @@ export interface Editor {
     select(change: Partial<Selection>): void;
     /** The firmware player's output for a page of the document; null: the page is damaged or has no action. */
     curve(page: number, options?: CurveOptions): Curve | null;
-    /** Pose in which a play of the page begins (31 servo units). Joints that its first step does not use are at 512. shape: default as
-     *  stored. */
-    firstPose(page: number, shape?: Shape): Uint16Array;
+    /** Pose in which a play of the page begins (31 servo units). Joints that its first step does not use are as in `from`; default: at 512.
+     *  shape: default as stored. */
+    firstPose(page: number, shape?: Shape, from?: ArrayLike<number>): Uint16Array;
+    /** Pose in which the robot in the page stands (31 servo units). */
+    readonly standingPose: readonly number[];
     /** Pose after a step (31 servo units). Joints that the step does not use stay as earlier steps left them. */
     poseAfter(page: number, step: number): number[];
     /** Highest speed that servos may be commanded at this voltage (servo units per tick). */
