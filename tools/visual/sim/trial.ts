@@ -6,15 +6,22 @@ import { jointAngle } from '../model/body.ts';
 import type { Body } from '../model/body.ts';
 import { LINK_CODE_STOP, TRIAL_API_IMAGE_BYTES as IMAGE_BYTES } from '../model/facts.ts';
 import { JOINTS, LAW_OF, TICKS_PER_SECOND } from '../model/motion.ts';
+import { length, rotate, subtract } from '../model/space.ts';
+import type { Place, Vector } from '../model/space.ts';
 import type { TrialMoment, TrialRecord, TrialRequest } from '../model/trial.ts';
 import { SHAFT_FIELDS } from './board.ts';
 import type { ShaftBody } from './board.ts';
 import type { PhysicalBody } from './physical-body.ts';
 import { wasiImports } from './wasi.ts';
 
-/** Ticks to stand in the first pose before the play, and to watch the robot after it. */
+/** Ticks to stand in the first pose before the play. */
 const SETTLE_TICKS = 32;
-const AFTER_TICKS = 96;
+/** After the play the robot is watched until its trunk tilts and sinks by less than this within 0.75 s, or for 6 s: who tips slowly has
+ *  not fallen yet. */
+const STILL_TICKS = 96;
+const STILL_RAD = 0.001;
+const STILL_M = 0.0005;
+const MOST_AFTER_TICKS = 6 * TICKS_PER_SECOND;
 /** Ticks that a motion may take to stop. */
 const STOP_TICKS = 12 * TICKS_PER_SECOND;
 /** Cosine of 60 degrees, as in the trials of tools/body. */
@@ -92,7 +99,10 @@ export class TrialStand {
             this.tick(play, done <= request.ticks);
             if (done % TURN_TICKS === 0) yield Math.min(done, request.ticks);
         }
-        for (let i = 0; stood && request.toTheEnd && i < AFTER_TICKS; i++) this.tick(play, false);
+        for (let after = 0, isStill = !stood || !request.toTheEnd; !isStill && after < MOST_AFTER_TICKS; after += STILL_TICKS) {
+            isStill = this.isStill(play);
+            yield request.ticks;
+        }
         const { ticks, positions, pages, fell } = play;
         return {
             stood,
@@ -145,6 +155,15 @@ export class TrialStand {
         if (isNoted) this.notePositions(play);
         if (this.physical.upright < FALLEN) play.fell ??= play.now;
         play.passed++;
+    }
+
+    /** Watches the robot for STILL_TICKS. */
+    private isStill(play: Play): boolean {
+        const up = (trunk: Place): Vector => rotate(trunk.quat, [0, 0, 1]);
+        const before = this.physical.trunk;
+        for (let i = 0; i < STILL_TICKS; i++) this.tick(play, false);
+        const { trunk } = this.physical;
+        return length(subtract(up(trunk), up(before))) < STILL_RAD && Math.abs(trunk.pos[2] - before.pos[2]) < STILL_M;
     }
 
     private notePositions(play: Play): void {

@@ -4,11 +4,11 @@
 import { expect, test } from 'vitest';
 import { emptyDocument, imageOf, withChanges } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
-import { AS_STORED, JOINTS } from '../model/motion.ts';
+import { AS_STORED, JOINTS, STANDING_PAGE } from '../model/motion.ts';
 import type { Step } from '../model/page.ts';
 import { deepestTouches, posesOf, verdictOf } from '../model/trial.ts';
 import type { TrialRequest } from '../model/trial.ts';
-import { makeFormat, makeMotion, must } from './motion-bench.ts';
+import { libraryDocument, makeFormat, makeMotion, must } from './motion-bench.ts';
 import { played, trialBench } from './trial-bench.ts';
 
 const { body, stand, posed } = await trialBench();
@@ -51,6 +51,29 @@ test('who stands still stands; who leans far over the toes falls there, and stay
     expect(at?.tick).toBeLessThan(360);
     // It is stopped at 150, and falls before it ends.
     expect(verdictOf(played(stand, request(falling, { ticks: 150 }))).at).toEqual(at);
+});
+
+test.each([
+    ['the left ankle by 13 degrees', [[16, -45]]],
+    [
+        'both ankles by 10',
+        [
+            [15, 33],
+            [16, -33],
+        ],
+    ],
+] as const)('who tips slowly over the toes is upright for a second after the play, and falls all the same: %s', async (_, changes) => {
+    const library = await libraryDocument();
+    for (const [page, bytes] of library.pages.entries()) motion.setPage(page, bytes);
+    const ready = motion.firstPose(STANDING_PAGE, new Uint16Array(JOINTS).fill(512));
+    const lean = ready.slice();
+    for (const [servo, units] of changes) lean[servo] = (ready[servo] ?? 0) + units;
+    const copied = withChanges(library, must(edits.copyPage(library, STANDING_PAGE, 64)).changes);
+    const longer = withChanges(copied, must(edits.duplicateSteps(copied, 64, [0])).changes);
+    const posed = withChanges(longer, must(edits.setJoints(longer, 64, [1], new Map(changes.map(([id]) => [id, lean[id] ?? 0])))).changes);
+    const document = withChanges(posed, must(edits.setTime(posed, 64, [1], 64)).changes);
+    const ask = { image: imageOf(document), page: 64, pose: ready };
+    expect(verdictOf(played(stand, request(document, ask)))).toMatchObject({ kind: 'falls', at: { page: 64, step: 1 } });
 });
 
 test('a servo lags behind a steady ramp by slope x speed / top speed (servo_motion.h), and more when it is shaped to go faster', () => {
