@@ -214,6 +214,11 @@ test('from the chart of links to the first motion; trying motions, stopping it, 
     await keys.to(/^motion \d+ /);
     await keys.press('ArrowDown');
     await person.page.getByRole('heading', { name: /^Links of motion \d+ \(/ }).waitFor(); // a page with a name
+    await person.page.setViewportSize({ width: 1024, height: 576 }); // at 125 %
+    await keys.open('Curves');
+    await keys.to(/^18 /);
+    await keys.to('Name of the motion', 'Shift+Tab');
+    await person.page.setViewportSize(WIDE);
     await keys.open('Checks');
     await keys.enter('Try all motions');
     await keys.at('Stop trying');

@@ -34,11 +34,13 @@ export class Keyboard {
             // The marked element is what a person sees; the terminal's own field has no width before the terminal's first letter.
             const isSeen = marks.some(one => {
                 const style = getComputedStyle(one);
-                const { width, height } = one.getBoundingClientRect();
+                const { x, y, width, height } = one.getBoundingClientRect();
+                const hit = document.elementFromPoint(x + width / 2, y + height / 2);
+                const isCovered = hit !== null && !one.contains(hit) && !hit.contains(one) && hit !== label && !label?.contains(hit);
                 const isMarked =
                     (style.outlineStyle !== 'none' && Number.parseFloat(style.outlineWidth) >= 1) ||
                     (one.tagName === 'rect' && Number.parseFloat(style.strokeWidth) >= 4);
-                return isMarked && width > 0 && height > 0;
+                return isMarked && width > 0 && height > 0 && !isCovered;
             });
             return { name: name.trim(), isSeen };
         });
