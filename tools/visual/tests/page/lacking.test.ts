@@ -131,6 +131,15 @@ test('no picture: the sentence that says so can be read, on a phone too, and nob
         await poses.getByRole('spinbutton').first().click({ trial: true }); // the joints' numbers stay, and nothing covers them
         expect(await sentence.evaluate(coveredPlaces)).toEqual([]);
     }
+    await tools.send('Emulation.setTouchEmulationEnabled', { enabled: false });
+    for (const [width, height] of [
+        [640, 360],
+        [512, 288],
+        [427, 240],
+    ] as const) {
+        await page.setViewportSize({ width, height }); // a desktop at 200, 250 and 300 %
+        for (const field of await poses.getByRole('spinbutton').all()) await field.click({ trial: true });
+    }
     await person.leave();
 });
 
