@@ -379,6 +379,13 @@ def test_diff_of_trims_names_the_joints(m512, trimmed, tmp_path):
     assert found.exit_code == 3 and found.stdout.splitlines() == ["page 0, ID 1: trim 0 -> -5", "page 0, ID 2: trim 0 -> 3 (+3)"]
 
 
+def test_pages_delete_passes_over_what_is_empty(m512, lib):
+    """m512 advises a delete behind a write that broke off, and does not know how far that came."""
+    result = m512("pages", lib, "delete", "50", "left", "60..70", "--in-place")
+    assert result.exit_code == 0 and bytes(image(lib)[7]) == EMPTY, result.stderr
+    assert "page 50 holds nothing" in result.stderr and "60..70: none of these pages holds anything" in result.stderr
+
+
 def test_pages_delete_of_page_0_is_no_loss_of_links(m512, lib):
     """A link of 0 means no link."""
     assert m512("pages", lib, "delete", "0", "--in-place").stderr == ""
@@ -523,13 +530,33 @@ page 2 back
 """
 
 
+def test_pages_time_ends_at_a_page_without_steps(m512, tmp_path):
+    """A play passes over a page with repeat 0 (PAGE_FORMAT.md, byte 15), and not over one without steps (byte 20)."""
+    path = tmp_path / "gap.m512"
+    path.write_text("motion512 1\npage 1\n next 2\n step 0.5s | 1:1\npage 2 none\n next 3\npage 3\n step 0.5s | 1:9\n")
+    out = json.loads(m512("pages", path, "time", "1", "--json").stdout)
+    assert [part["page"] for part in out["pages"]] == [1] and out["end"] == "ends at page 2, which is empty"
+    path.write_text(path.read_text().replace("none\n", "none\n repeat 0\n step 1s | 1:5\n"))
+    out = json.loads(m512("pages", path, "time", "1", "--json").stdout)
+    assert [part["page"] for part in out["pages"]] == [1, 3] and out["end"] == "ends"
+
+
+def test_pages_time_begins_in_the_first_pose(m512, tmp_path):
+    """The approach leads there before the play. In speed base a step takes 40 M 32 / (3 s p) ticks (PAGE_FORMAT.md)."""
+    path = tmp_path / "speed.m512"
+    path.write_text("motion512 1\npage 1\n base speed\n repeat 2\n step 32 | 1:300\n step 32 | 1:700\n")
+    once = 40 * 400 * 32 / (3 * 32 * 32) / 128
+    out = json.loads(m512("pages", path, "time", "1", "--json").stdout)
+    assert out["seconds"] == pytest.approx(3 * once, abs=0.02)  # there, back and there again
+
+
 def test_pages_time_counts_the_degrees_of_12_bit_positions(m512, tmp_path):
-    """FORMAT.md: 4096 units are 360 degrees, and speed 256 is 720 degrees/s. So half a turn at 128, 360 degrees/s, takes half a second;
-    the page begins where it ends, so it has two. Half a turn in 20 ticks is 1152 degrees/s, and in 100 ticks 230, for which 9.6 V are enough (59 rpm at 12 V)."""
+    """FORMAT.md: 4096 units are 360 degrees, and speed 256 is 720 degrees/s. So half a turn at 128, 360 degrees/s, takes half a second.
+    Half a turn in 20 ticks is 1152 degrees/s, and in 100 ticks 230, for which 9.6 V are enough (59 rpm at 12 V)."""
     path = tmp_path / "twelve.m512"
     path.write_text(TWELVE)
     out = json.loads(m512("pages", path, "time", "slow", "--json").stdout)
-    assert out["pages"][0]["seconds"] == pytest.approx(1.0, abs=0.02)
+    assert out["pages"][0]["seconds"] == pytest.approx(0.5, abs=0.02)
     assert [(part["page"], part["step"]) for part in out["too_fast"]] == [(1, 2), (2, 2)]
     assert out["too_fast"][1]["degrees_s"] == pytest.approx(1152, rel=0.01)
     path.write_text(TWELVE.replace("step 20", "step 100").replace("speed", "time"))

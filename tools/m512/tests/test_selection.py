@@ -142,7 +142,7 @@ def selection_image(path):
     [
         ("pages", "LIB", "show", "50"),
         ("pages", "LIB", "extract", "50", "-o", "NEW"),
-        ("pages", "LIB", "delete", "3", "99", "-o", "NEW"),
+        ("pages", "LIB", "delete", "99", "-o", "NEW"),
         ("pages", "OTHER", "merge", "LIB", "50:3", "-o", "NEW"),
         ("convert", "LIB", "NEW", "--only", "50"),
         ("put", "LIB", "50", "-p", "none"),

@@ -237,10 +237,19 @@ def copy(source: Source, page: str, target: Any, replace: bool, **where: Any) ->
 @click.argument("page", nargs=-1, required=True)
 @changes
 def delete(source: Source, page: Sequence[str], **where: Any) -> None:
-    """Make pages empty; says which pages still link to them."""
+    """Make pages empty; says which pages still link to them, and which hold nothing."""
     from m512.pages import operations
 
-    source.store(operations.delete(source.image, page_numbers(page, source.image)), **where)
+    numbers: list[int] = []
+    empty: list[str] = []
+    for word in page:
+        try:
+            numbers += page_numbers([word], source.image)
+        except EmptyPageError as error:  # as it is to be: a write that broke off has not come that far
+            empty.append(str(error))
+    if not numbers:
+        raise EmptyPageError("; ".join(empty))
+    source.store(empty + operations.delete(source.image, numbers), **where)
 
 
 @pages.command(epilog="Example: m512 pages lib.bin renumber walk_loop 30 --in-place")

@@ -45,7 +45,7 @@ def too_fast(image: Image, number: int, volts: float = BATTERY_V, seconds: float
     supply. The play begins in the pose of the page's first step, because the robot approaches it slowly."""
     limit, degrees_s = no_load_units_per_tick(volts, image.bits), float(degrees_per_unit(image.bits)) * TICKS_PER_SECOND
     found: dict[tuple[int, int], TooFast] = {}
-    start = _first_pose(image, number)
+    start = first_pose(image, number)
     ticks = play(image, number, start, int(seconds * TICKS_PER_SECOND))
     for place, step in groupby(ticks, lambda tick: (tick.page, tick.step)):
         goals = [start] + [tick.goals for tick in step if tick.goals is not None]
@@ -63,7 +63,8 @@ def looked(total: float, end: str) -> float:
     return min(total if end.startswith("ends") else 2 * total, LOOKED_SECONDS)
 
 
-def _first_pose(image: Image, number: int) -> list[int]:
+def first_pose(image: Image, number: int) -> list[int]:
+    """The pose in which a play of the page begins. Joints that its first step does not use are in the middle."""
     page = image[number]
     centre = (image.kind.pos_max + 1) // 2
     return [page.word(0, joint) if page.steps and is_used(page.word(0, joint)) else centre for joint in range(JOINTS)]

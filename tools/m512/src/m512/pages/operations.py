@@ -12,6 +12,7 @@ from m512.files.selection import means_pages, page_number
 from m512.files.text.words import code_text
 from m512.files.wording import field_text, named_pages_text, pages_text
 from m512.motion.player import page_seconds
+from m512.motion.speed import first_pose
 
 NOMINAL_SPEED = 32
 
@@ -280,7 +281,7 @@ def _scaled(value: int, factor: float, least: int, what: str) -> int:
 def chain(image: Image, number: int) -> tuple[list[tuple[int, int, float]], str]:
     """[(page, repetitions, seconds)] along the next links, and how the chain ends."""
     out: list[tuple[int, int, float]] = []
-    pose: list[int] | None = None
+    pose = first_pose(image, number)  # the approach leads there
     seen: dict[int, None] = {}
     while True:
         if number in seen:
@@ -288,10 +289,12 @@ def chain(image: Image, number: int) -> tuple[list[tuple[int, int, float]], str]
         if image[number].fault(image.kind):
             return out, f"ends at page {number}, which is damaged"
         page = image[number]
+        if page.steps == 0:
+            return out, f"ends at page {number}, which is empty"
         seen[number] = None
         if page.is_playable:
             once = page_seconds(page, pose, image.bits)
-            pose = end_pose(page, pose or [(image.kind.pos_max + 1) // 2] * JOINTS)
+            pose = end_pose(page, pose)
             again = page_seconds(page, pose, image.bits)
             out.append((number, page.repeat, once + (page.repeat - 1) * again))
         if not max(1, image.first) <= page.next < image.end:  # page 0 is the trim: no link leads there
