@@ -47,8 +47,15 @@ def test_a_folder_in_use_is_called_so(make):
 
 
 def test_motions_of_a_folder_that_has_its_own_are_not_read_and_it_says_so(make, tmp_path):
+    image = Image.empty()
+    image[1] = page("one", [(30, {})])
+    (tmp_path / "motions.bin").write_bytes(image.to_bytes())
     robot = make().run()
     robot.expect("] ")  # its files are made after "serial port" and before the prompt
+    robot.stop()
+    assert "missing.bin: cannot be read" in refusal("--robot", tmp_path / "robot", "--motions", tmp_path / "missing.bin", port=robot.port)
+    robot.run("--motions", tmp_path / "motions.bin").expect("] ")  # it has none yet
+    assert from_bytes((tmp_path / "robot" / "pages.bin").read_bytes())[1].name == b"one"
     robot.stop()
     robot.run("--motions", tmp_path / "missing.bin")
     assert robot.told(r"robot has its own motions: .*missing\.bin is not read")

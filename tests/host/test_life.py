@@ -402,6 +402,17 @@ def test_the_terminal_is_as_before_after_ctrl_c(terminal):
     assert termios.tcgetattr(terminal.slave) == terminal.before
 
 
+def test_a_program_that_was_stopped_takes_its_terminal_again(make, files):
+    terminal = Terminal(make(motions=files), owned=True)
+    terminal.expect("] ")
+    raw = termios.tcgetattr(terminal.slave)
+    terminal.process.send_signal(signal.SIGSTOP)
+    termios.tcsetattr(terminal.slave, termios.TCSANOW, terminal.before)  # the shell's own way
+    terminal.process.send_signal(signal.SIGCONT)
+    until(lambda: termios.tcgetattr(terminal.slave) == raw, "keys still wait for Enter")
+    terminal.close()
+
+
 def test_the_terminal_is_as_before_after_a_crash(terminal):
     terminal.expect("] ")
     terminal.process.send_signal(signal.SIGSEGV)

@@ -136,6 +136,30 @@ static void read_motions(uint8_t *bytes, uint32_t count)
     }
 }
 
+static bool are_erased(const uint8_t *bytes, uint32_t count)
+{
+    while (count > 0 && bytes[count - 1] == 0xFF) {
+        count--;
+    }
+    return count == 0;
+}
+
+/* `--motions` for a robot whose folder was there. `bytes` are its pages. */
+static void offer_motions(uint8_t *bytes, uint32_t count)
+{
+    char sentence[2 * PATH_BYTES];
+    if (are_erased(bytes, count)) {
+        read_motions(bytes, count);
+        if (!write_all(files[MACHINE_PAGES], bytes, count, 0) || !is_synced(fsync, files[MACHINE_PAGES])) {
+            pc_fail(EXIT_FILE, "%s: cannot be written: %s", path_of(names[MACHINE_PAGES]), strerror(errno));
+        }
+        return;
+    }
+    snprintf(sentence, sizeof sentence, "%s has its own motions: %s is not read. m512 changes them", folder,
+             pc_options.motions);
+    machine_tell(sentence);
+}
+
 /* ---- machine.h ---- */
 
 bool machine_recall(machine_memory_t memory, uint8_t *bytes, uint32_t count)
@@ -161,10 +185,7 @@ bool machine_recall(machine_memory_t memory, uint8_t *bytes, uint32_t count)
     }
     files[memory] = file;
     if (memory == MACHINE_PAGES && pc_options.motions != NULL) {
-        char sentence[2 * PATH_BYTES];
-        snprintf(sentence, sizeof sentence, "%s has its own motions: %s is not read. m512 changes them", folder,
-                 pc_options.motions);
-        machine_tell(sentence);
+        offer_motions(bytes, count);
     }
     return true;
 }

@@ -118,6 +118,15 @@ static void on_alarm(int number)
     }
 }
 
+/* The shell has used the terminal meanwhile. */
+static void on_continue(int number)
+{
+    (void)number;
+    if (tcgetpgrp(STDIN_FILENO) == getpgrp()) {
+        terminal_take();
+    }
+}
+
 static void on_crash(int number)
 {
     terminal_restore();
@@ -142,6 +151,7 @@ static void handle_signals(void)
     for (size_t i = 0; i < sizeof crashes / sizeof crashes[0]; i++) {
         handle(crashes[i], on_crash);
     }
+    handle(SIGCONT, on_continue);
     handle(SIGPIPE, SIG_IGN);
     handle(SIGALRM, on_alarm);
     const struct itimerval beat = {.it_interval = {.tv_sec = WATCH_SECONDS}, .it_value = {.tv_sec = WATCH_SECONDS}};

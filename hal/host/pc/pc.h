@@ -39,7 +39,8 @@ bool port_drain(void);
 /* terminal.c: the console */
 void terminal_open(void);
 int terminal_poll(struct pollfd *entries);     /* fills in at most TERMINAL_FDS entries */
-void terminal_restore(void);                   /* may be called from a signal handler */
+void terminal_take(void);                      /* keys come at once, without echo; for a signal handler, too */
+void terminal_restore(void);                   /* for a signal handler, too */
 void terminal_drain(void);
 bool terminal_has_ended(void);                 /* no input will come: the pipe is at its end */
 #define TERMINAL_FDS 2

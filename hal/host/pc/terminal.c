@@ -44,16 +44,22 @@ static char pty_path[64];      /* what it leads to */
 
 /* ---- opening ---- */
 
+void terminal_take(void)
+{
+    struct termios raw = console.before;
+    if (console.is_terminal) {
+        cfmakeraw(&raw);
+        tcsetattr(STDIN_FILENO, TCSANOW, &raw);
+    }
+}
+
 static void open_terminal(void)
 {
-    struct termios raw;
     console.in = STDIN_FILENO;
     console.out = STDOUT_FILENO;
     console.is_terminal = isatty(STDIN_FILENO) && tcgetattr(STDIN_FILENO, &console.before) == 0;
     if (console.is_terminal) {
-        raw = console.before;
-        cfmakeraw(&raw);
-        tcsetattr(STDIN_FILENO, TCSANOW, &raw);
+        terminal_take();
         machine_tell(pc_options.has_edits ? "Ctrl-C twice ends, Ctrl-T and an arrow or s is a button of the panel"
                                           : "Ctrl-C ends, Ctrl-T and an arrow or s is a button of the panel");
     }
