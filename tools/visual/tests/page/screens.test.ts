@@ -163,6 +163,25 @@ async function checkLow(person: Visitor): Promise<void> {
     }
 }
 
+/** Forced colours take grounds away. What differs by its ground alone differs all the same. */
+async function checkForcedColours(person: Visitor): Promise<void> {
+    const { page } = person;
+    await page.emulateMedia({ forcedColors: 'active' });
+    for (const [area, ...kinds] of [
+        ['Steps', '.sources button', 'step-row .pick', 'time-line .way'],
+        ['Curves', '.joint-chips button', 'curves-pane .legend li'],
+        ['Motions', 'page-card:not(.empty)'],
+    ] as const) {
+        await person.open(area);
+        for (const kind of kinds) {
+            const grounds = await page
+                .locator(kind)
+                .evaluateAll(all => all.map(one => [null, '::before'].map(part => getComputedStyle(one, part).backgroundColor).join()));
+            expect.soft(new Set(grounds).size, `forced colours: ${kind}`).toBeGreaterThan(1);
+        }
+    }
+}
+
 test('one row of head, no word cut, at most five sizes of type and one blue button in every area, letters of 12 px or more in the terminal, which fills the screen', async () => {
     const person = await suite.come({ screen: DESKTOP, hasPython: true });
     const { page } = person;
@@ -292,7 +311,7 @@ test('the card of a motion that was sent leaves the robot in sight, on small scr
     await person.leave();
 });
 
-test('nothing over the picture covers the hand that is dragged, wherever it goes; no ghost stands before it', async () => {
+test('nothing over the picture covers the hand that is dragged, wherever it goes; no ghost stands before it; forced colours leave what is chosen to be seen', async () => {
     const person = await suite.come({ hasPicture: true, screen: DESKTOP });
     const { page } = person;
     await person.untilStanding();
@@ -325,5 +344,6 @@ test('nothing over the picture covers the hand that is dragged, wherever it goes
     await page.locator('.joint-label').getByText(`5 right elbow: ${elbow}`, { exact: true }).waitFor(); // not the value before the drag
     await page.mouse.up();
     await person.button('Walk').waitFor(); // everything is back
+    await checkForcedColours(person);
     await person.leave();
 });
