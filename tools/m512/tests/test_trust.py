@@ -968,6 +968,22 @@ def test_a_signal_in_a_callback_of_python_is_not_lost(files, number, held_back):
     assert not (files / "new.bin").exists()
 
 
+def test_an_error_of_a_board_that_python_drops_is_no_signal(tmp_path):
+    """It has a number as well: an answer of 15 is not SIGTERM, and one of 11 not a crash."""
+    code = """if True:
+        import time
+        from m512 import signals
+        from m512.errors import BoardError
+        class Dropped:
+            def __del__(self):
+                raise BoardError("no", 15)
+        signals.end_with_exceptions()
+        Dropped()
+        time.sleep(0.2)"""
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0 and "BoardError" in done.stderr, done.stderr
+
+
 # The package
 
 

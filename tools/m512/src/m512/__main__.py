@@ -10,6 +10,8 @@ def main() -> None:
     middle of an import, or of Python's own end, would be shown and could be lost."""
     if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
+    from m512.signals import ENDING
+
     try:
         from m512.streams import fill_closed
 
@@ -21,9 +23,8 @@ def main() -> None:
         print("m512: stopped", file=sys.stderr)
         sys.exit(130)
     finally:
-        for name in ("SIGINT", "SIGTERM", "SIGHUP"):
-            number = getattr(signal, name, None)
-            if number is not None and signal.getsignal(number) is not signal.SIG_IGN:
+        for number in ENDING:
+            if signal.getsignal(number) is not signal.SIG_IGN:
                 signal.signal(number, signal.SIG_DFL)
 
 

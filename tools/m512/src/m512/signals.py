@@ -21,7 +21,7 @@ AGAIN_S = 0.01
 class SignalExit(SystemExit):
     """SIGTERM or SIGHUP: ends with 128 + its number, as in shells."""
 
-    def __init__(self, number: int, _: Any = None) -> None:
+    def __init__(self, number: int) -> None:
         super().__init__(128 + number)
         self.number = number
 
@@ -31,8 +31,11 @@ def _end(number: int, _: Any) -> None:
 
 
 def _raise_again(dropped: Any) -> None:
-    number = signal.SIGINT if dropped.exc_type is KeyboardInterrupt else getattr(dropped.exc_value, "number", None)
-    if number is None:
+    if isinstance(dropped.exc_value, SignalExit):
+        number = dropped.exc_value.number
+    elif issubclass(dropped.exc_type, KeyboardInterrupt):
+        number = signal.SIGINT
+    else:
         sys.__unraisablehook__(dropped)
         return
     again = threading.Timer(AGAIN_S, signal.raise_signal, (number,))  # here it would be dropped once more
