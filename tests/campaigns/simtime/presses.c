@@ -74,8 +74,9 @@ static void holds(hand_t *hand, unsigned buttons)
     const bool is_stop = is_stop_of(buttons);
     const unsigned code = is_stop ? CODE_STOP : buttons == BUTTON_PAUSE ? NO_CODE : down;
     const unsigned held = surely_held();
-    const unsigned still = hand == &presses.remote ? down | held : down;
-    hand->spent &= still & (hand == &presses.remote ? hand->down | held : down);   /* released since the last packet */
+    const unsigned recent = hand == &presses.remote ? held : 0;   /* down, although this packet is without them */
+    const unsigned still = down | recent;
+    hand->spent &= still & (hand->down | recent);   /* not if it was released since the last packet */
     if (code != 0 && code < CODE_STOP && code != hand->code && (down & ~hand->spent) != 0 && (held & STOP) == 0) {
         calls_pressed(code);
         hand->press_tick = session.tick;
@@ -158,7 +159,7 @@ void presses_boot(void)
     const unsigned down = presses.panel.down;
     const bool has_start = presses.has_start;
     memset(&presses, 0, sizeof presses);
-    presses.remote.spent = BUTTONS;
+    presses.remote.spent = presses.remote.down = BUTTONS;
     for (unsigned i = 0; i < HELD; i++) {
         presses.held_tick[i] = NEVER_TICK;
     }
