@@ -116,7 +116,7 @@ export class MotionTrials implements Trials {
         const pose = this.editor.firstPose(page, AS_STORED, this.editor.standingPose);
         const curve = wholeCurve(ticks => this.editor.curve(page, { ticks, from: pose }), LOOP_TICKS);
         if (!curve) return;
-        const request = { ...this.request(page, AS_STORED, Math.min(curve.ticks, MOST_TICKS)), pose };
+        const request = this.request(page, AS_STORED, Math.min(curve.ticks, MOST_TICKS), pose);
         const { poses, steps } = posesOf(curve, page);
         const touches = deepestTouches(steps, await client.touching(poses));
         const record = await this.play(client, request, signal);
@@ -132,14 +132,14 @@ export class MotionTrials implements Trials {
         return mine;
     }
 
-    private request(page: number, shape: Shape, ticks: number): TrialRequest {
+    private request(page: number, shape: Shape, ticks: number, pose = this.editor.firstPose(page, shape)): TrialRequest {
         const { document, law } = this.editor.state.get();
         return {
             image: imageOf(document),
             page,
             law,
             shape,
-            pose: this.editor.firstPose(page, shape),
+            pose,
             ticks,
             toTheEnd: true,
             volts: NOMINAL_VOLTS,
