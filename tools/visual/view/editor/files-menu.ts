@@ -162,7 +162,7 @@ export class FilesMenu extends SessionElement {
             'button',
             {
                 onclick: () => {
-                    this.dialog.close();
+                    this.close();
                     this.session.files.dismiss();
                 },
             },

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from m512.files.image import Image
-from m512.files.page import JOINTS, Page
+from m512.files.page import JOINTS, Page, is_used
 from m512.motion.law_exact import Exact
 from m512.motion.walk import Step, Walk, pause_ticks, step_ticks
 
@@ -37,6 +37,13 @@ def play(image: Image, page: int, pose: Sequence[int] | None = None, limit: int 
         if law.ended:
             return
         yield Tick(number, law.here.page, law.here.number, goals)
+
+
+def first_pose(image: Image, number: int) -> list[int]:
+    """The pose in which a play of the page begins. Joints that its first step does not use are in the middle."""
+    page = image[number]
+    centre = (image.kind.pos_max + 1) // 2
+    return [page.word(0, joint) if page.steps and is_used(page.word(0, joint)) else centre for joint in range(JOINTS)]
 
 
 def page_seconds(page: Page, start: Sequence[int] | None = None, bits: int = 10) -> float:

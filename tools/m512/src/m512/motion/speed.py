@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from m512.files.image import Image
-from m512.files.page import JOINTS, is_used
-from m512.motion.player import play
+from m512.files.page import JOINTS
+from m512.motion.player import first_pose, play
 from m512.motion.walk import degrees_per_unit
 
 NO_LOAD_RPM, SHEET_V = 59.0, 12.0
@@ -61,10 +61,3 @@ def too_fast(image: Image, number: int, volts: float = BATTERY_V, seconds: float
 def looked(total: float, end: str) -> float:
     """How many seconds of a play too_fast() looks at: all of it, once more if it goes on for ever, but not more than LOOKED_SECONDS."""
     return min(total if end.startswith("ends") else 2 * total, LOOKED_SECONDS)
-
-
-def first_pose(image: Image, number: int) -> list[int]:
-    """The pose in which a play of the page begins. Joints that its first step does not use are in the middle."""
-    page = image[number]
-    centre = (image.kind.pos_max + 1) // 2
-    return [page.word(0, joint) if page.steps and is_used(page.word(0, joint)) else centre for joint in range(JOINTS)]

@@ -11,8 +11,7 @@ from m512.files.page import JOINTS, SCHEDULE_TIME, STEPS, Page, is_used
 from m512.files.selection import means_pages, page_number
 from m512.files.text.words import code_text
 from m512.files.wording import field_text, named_pages_text, pages_text
-from m512.motion.player import page_seconds
-from m512.motion.speed import first_pose
+from m512.motion.player import first_pose, page_seconds
 
 NOMINAL_SPEED = 32
 
