@@ -158,7 +158,8 @@ uint32_t servo_link_read_pose(servo_link_t *link, uint32_t ids);
 uint32_t servo_link_torque_on(servo_link_t *link, uint32_t ids);
 
 /* Switches torque off: first of all servos at once by SYNC WRITE, then of each by a WRITE, which servos confirm. Returns
- * those that did; the others also count as off until a poll reads otherwise. */
+ * those that did; the others also count as off until a poll reads otherwise. If none is left on, the SYNC WRITE names
+ * every ID: a servo that did not answer the last search may hold its pose. */
 uint32_t servo_link_torque_off(servo_link_t *link, uint32_t ids);
 
 /* Those of the servos that are silent count as on, so that one that comes back limp is reported as faulty. */

@@ -147,12 +147,11 @@ static bool is_led_dark(servo_link_t *link, uint8_t id)
 static void sync_write(uint32_t ids, uint8_t at, uint8_t value)
 {
     dxl_writer_t writer;
-    (void)bus_wait(NULL);
     dxl_begin(&writer, bus_packet(), DXL_BROADCAST, DXL_SYNC_WRITE);
     dxl_put(&writer, at);
     dxl_put(&writer, 1);
-    for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
-        if (servo_link_has(&ids, id)) {
+    for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++, ids >>= 1) {
+        if ((ids & 1u) != 0) {
             dxl_put(&writer, id);
             dxl_put(&writer, value);
         }
@@ -253,7 +252,8 @@ static bool torque_off(servo_link_t *link, uint8_t id)
 uint32_t servo_link_torque_off(servo_link_t *link, uint32_t ids)
 {
     servo_link_quiet(link);
-    sync_write(ids & link->present, DXL_AT_TORQUE_ENABLE, 0);
+    const bool none_left_on = (link->torque & ~ids) == 0; /* none that the last search has missed, either */
+    sync_write(none_left_on ? UINT32_MAX : ids, DXL_AT_TORQUE_ENABLE, 0);
     return for_present(link, ids, torque_off);
 }
 

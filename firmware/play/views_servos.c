@@ -38,13 +38,15 @@ void views_print_servos_found(void)
 
 static bool is_in_trouble(const servo_link_t *servos, uint8_t id)
 {
-    return servo_link_has(&servos->silent, id) || servos->errors[id] != 0;
+    return servo_link_has(&servos->silent, id) || servos->errors[id] != 0 || servo_link_has(&the_play.performer.faulty, id);
 }
 
 static void print_trouble(const servo_link_t *servos, uint8_t id)
 {
     if (servo_link_has(&servos->silent, id)) {
         TEXT(" does not answer");
+    } else if (servos->errors[id] == 0) {
+        text_P(servo_link_has(&servos->torque, id) ? TEXT_P(" does not obey") : TEXT_P(" has no torque"));
     } else {
         TEXT(" reports ");
         report_servo_errors(servos->errors[id]);

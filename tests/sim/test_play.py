@@ -398,9 +398,11 @@ def test_aux_goes_out_when_the_servo_is_well_and_on_again(fault):
     board.servos[5].clear()
     board.run(ms=2000)
     assert "aux" in board.leds  # its torque is off
+    assert "Servo 5 has no torque" in ask(board, "faults")
     ask(board, "on")
     board.run(ms=1000)
     assert board.servos[5].torque and "aux" not in board.leds
+    assert "No servo has a fault" in ask(board, "faults")
 
 
 def test_aux_goes_out_when_heat_is_no_longer_watched():
@@ -410,6 +412,7 @@ def test_aux_goes_out_when_heat_is_no_longer_watched():
     assert "aux" in board.leds
     ask(board, "settings hot 0")
     board.expect("No servo is hot any more", ms=1000)
+    board.run(ms=10)
     assert "aux" not in board.leds
 
 
@@ -464,6 +467,19 @@ def test_search_answers_when_it_is_done_and_misses_nothing_typed():
     board.servos.add(7)
     board.send("servos find\rversion\r", wait=True)
     assert "4 servos: 1-3 7" in board.expect("Motion512 Play", ms=2000)
+
+
+@pytest.mark.parametrize("line", ["off", "@torque off"])
+def test_off_lets_go_of_a_servo_that_the_last_search_missed(line):
+    board = robot()
+    ask(board, "on")
+    board.servos[5].fault("silent")
+    assert "17 servos" in ask(board, "servos find")
+    board.servos[5].clear()
+    ask(board, "off 4")
+    assert board.servos[5].torque and not board.servos[4].torque  # it may carry the robot
+    ask(board, line)
+    assert not any(board.servos[id].torque for id in JOINTS)
 
 
 def test_one_servo_is_one_servo():
