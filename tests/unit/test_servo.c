@@ -49,6 +49,19 @@ static void test_servo_moves_at_the_moving_speed(void)
     TEST_ASSERT_EQUAL_UINT8(1, servo->table[SERVO_MOVING]);
 }
 
+/* At rest nothing lowers what an earlier, higher limit allowed. */
+static void test_servo_keeps_a_lower_moving_speed_from_the_first_moment(void)
+{
+    put(SERVO_SPEED, 200, 2);
+    put(SERVO_GOAL, 700, 2);
+    wire_wait(&wire, 3000 * MS);
+    TEST_ASSERT_UINT16_WITHIN(1, 700, present());
+    put(SERVO_SPEED, 10, 2); /* 22.7 units/s */
+    put(SERVO_GOAL, 500, 2);
+    wire_wait(&wire, 100 * MS);
+    TEST_ASSERT_UINT16_WITHIN(2, 697, present());
+}
+
 static void test_servo_speed_0_is_as_fast_as_the_supply_allows(void)
 {
     put(SERVO_GOAL, 1000, 2);

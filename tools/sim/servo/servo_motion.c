@@ -91,6 +91,8 @@ static double governed(servo_t *servo, double duty)
         servo->governor = unloaded;
     } else {
         const double too_slow = (limit - copysign(servo->velocity, duty * servo->velocity)) / top;
+        /* Not more than now: at rest nothing has lowered it from an earlier, higher limit. */
+        servo->governor = fmin(servo->governor, fmax(unloaded, fabs(servo->output)));
         servo->governor += too_slow * GOVERNOR_PER_S * SERVO_STEP_S;
         servo->governor = fmin(fmax(servo->governor, 0), fmax(unloaded, fabs(duty)));
     }
