@@ -131,6 +131,20 @@ def test_ranges_of_a_board_and_of_a_file(m512, started, lib):
     assert selection_image(lib.with_name("less.bin")).used() == []
 
 
+def test_a_range_of_a_board_from_0_has_its_trim(m512, started, lib):
+    """@list tells no page without steps and name, as a trim is."""
+    play = started("play-cm5.hex", text=TEXT.replace("page 3 wave", "page 0\n  offset 1:5 3:-7\npage 3 wave"))
+    got = lib.with_name("got.bin")
+    for words, trims, used in (
+        (["0..5"], {1: 5, 3: -7}, [0, 3, 4, 5]),
+        (["1..5"], {}, [3, 4, 5]),
+        (["0", "all"], {1: 5, 3: -7}, [0, 3, 4, 5, 7, 20, 21]),
+    ):
+        assert m512("get", *words, "--force", "-o", got, "-p", play.path).exit_code == 0
+        image = selection_image(got)
+        assert {joint: trim for joint, trim in enumerate(image[0].trims()) if trim} == trims and image.used() == used
+
+
 def selection_image(path):
     from m512.files import formats
 

@@ -75,6 +75,7 @@ class Client:
         self.said = b""  # the last that was printed for a person since a motion began
         self.version: dict[str, str] = {}
         self._listed: dict[int, tuple[int | None, str]] | None = None  # the answer of listed()
+        self._has_trim: bool | None = None  # in a page 0 without steps and name
         self._damaged: dict[int, str] = {}  # names of damaged pages, as far as they have been read
         self.slack = 0.0
         for _ in range(TRIES):
@@ -197,8 +198,11 @@ class Client:
         return word in self._names().values()
 
     def used(self) -> list[int]:
-        """Pages that hold something, including damaged ones."""
-        return sorted(self.listed())
+        """Pages that hold something, including damaged ones, and page 0 if it holds a trim, which the board's list does not tell."""
+        listed = self.listed()
+        if self._has_trim is None:
+            self._has_trim = 0 not in listed and any(self.page(0).trims())
+        return sorted({*listed, 0} if self._has_trim else listed)
 
     def _names(self) -> dict[int, str]:
         return {number: name for number, (steps, name) in self.listed().items() if steps is not None and name}
@@ -258,7 +262,7 @@ class Client:
     def save_page(self, number: int, page: Page) -> None:
         """Saves a page in the board's flash, by way of the board's page in RAM. After Ctrl-C or a signal it saves that page before it ends: a
         part of it would stay in RAM, as edits that nobody made."""
-        self._listed, self._damaged = None, {}
+        self._listed, self._has_trim, self._damaged = None, None, {}
         try:
             self._save_page(number, page)
         except (KeyboardInterrupt, SystemExit):

@@ -297,7 +297,8 @@ Examples:
 @replacing
 @changes
 def merge(source: Source, other: Path, page: Sequence[str], replace: bool, **where: Any) -> None:
-    """Take pages from OTHER: `3` or `3..9` to their own numbers, `3:20` or `wave:20` to number 20, `all` that are not empty.
+    """Take pages from OTHER: `3` or `3..9` to their own numbers, `3:20` or `wave:20` to number 20, `all` that are not empty,
+    without page 0, the trim.
 
     Links among the pages taken follow them.
     """

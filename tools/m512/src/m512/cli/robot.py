@@ -349,7 +349,8 @@ Examples:
 def get(pages: Sequence[str], output: Any, force: bool, **options: Any) -> None:
     """Read PAGES (numbers, names, ranges as 20..25, or `all`) from a running board into a file.
 
-    An Intel HEX file holds these pages only; in other files the other pages are empty.
+    `all` leaves out page 0, the robot's trim; `0 all` has it as well, and `m512 backup` keeps everything. An Intel HEX file holds these
+    pages only; in other files the other pages are empty.
     """
     from m512.files import formats
     from m512.files.image import Image, is_erased
@@ -390,7 +391,8 @@ Examples:
 def put(source: Path, pages: Sequence[str], yes: bool, **options: Any) -> None:
     """Save PAGES of a motion file to the board, one by one, while Edit runs there: 3, wave, 20..25, `all`, or wave:40 to number 40.
 
-    It asks before it replaces a page that has another name or none, or is damaged. For many pages at once, or with Play, `m512 flash` is the way.
+    `all` leaves out page 0, the robot's trim. It asks before it replaces a page that has another name or none, or is damaged. For many
+    pages at once, or with Play, `m512 flash` is the way.
     """
     from m512.board.motions import save_pages
     from m512.files import conversion, formats
