@@ -87,9 +87,12 @@ export class AppShell extends SessionElement {
             onArea: () => this.foldSheet(false),
             onSend: () => void this.files.send(),
         });
-        this.startTour = () => tour.start();
         const first = this.give(new FirstMinute(), { onTeach: () => tour.teach() });
         const sent = this.give(new SentCard(), { onSent: () => first.close(false), onTeach: () => tour.teach() });
+        this.startTour = () => {
+            sent.leave(); // it would lie under the tour's card
+            tour.start();
+        };
         this.tabs.onChoose = (tab, isClick) => (isClick ? this.choose(tab) : this.session.show(tab));
         this.areas.append(this.sheet, this.tabs, this.give(this.editBar), ...this.panels.values());
         this.replaceChildren(

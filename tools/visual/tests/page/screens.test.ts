@@ -3,6 +3,7 @@
 // head of one row, a picture that stays, readable letters, no clipped word, few sizes, one blue button.
 import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
+import DE from '../../view/texts/de.ts';
 import { LANGUAGES } from '../../view/texts/languages.ts';
 import { misnamed } from './accessible.ts';
 import type { Screen, Visitor } from './page-bench.ts';
@@ -298,12 +299,51 @@ test('on a tablet and a phone: the robot stands as high over the bar of motions 
     await person.leave();
 });
 
+/** The part of an address that sends the bow. */
+async function bowLink(): Promise<string> {
+    const page = await suite.browser.newPage();
+    await page.goto(`${suite.address}motions.html`);
+    const address = await page.getByRole('link', { name: /^Bow/ }).getAttribute('href');
+    await page.close();
+    return new URL(address ?? '', suite.address).hash;
+}
+
+/** In the browser: the buttons below the picture that something else lies on. */
+function coveredActions(): (string | null)[] {
+    const buttons = [...document.querySelectorAll<HTMLElement>('action-bar > *')].filter(button =>
+        button.checkVisibility({ visibilityProperty: true }),
+    );
+    return buttons
+        .filter(button => {
+            const { left, top, width, height } = button.getBoundingClientRect();
+            return [0.1, 0.5, 0.9].some(part => !button.contains(document.elementFromPoint(left + width / 2, top + height * part)));
+        })
+        .map(button => button.textContent);
+}
+
+test('the cards over the picture leave Stop and the other buttons free, in a language with long words and beside narrow areas', async () => {
+    const person = await suite.come({ screen: DESKTOP, isNew: true }, `${suite.address}?lang=de${await bowLink()}`);
+    const { page } = person;
+    const widths = [1920, 1440, 1366, 1280, 1200, 1100, 1024, 920];
+    const isFree = async (card: string): Promise<void> => {
+        for (const width of widths) {
+            await page.setViewportSize({ width, height: 800 });
+            await page.locator(card).waitFor();
+            expect(await page.evaluate(coveredActions), `${card} at ${width}`).toEqual([]);
+            const [stage, areas] = [await box(page, '.stage'), await box(page, '.areas')];
+            const cardBox = await box(page, card);
+            expect([stage.x + stage.width, cardBox.x + cardBox.width < areas.x], `${card} at ${width}`).toEqual([areas.x, true]);
+        }
+    };
+    await isFree('sent-card');
+    await page.getByRole('button', { name: DE.tour.tour, exact: true }).click();
+    await page.locator('sent-card').waitFor({ state: 'hidden' });
+    await isFree('tour-card');
+    await person.leave();
+});
+
 test('the card of a motion that was sent leaves the robot in sight, on small screens too', async () => {
-    const bow = await suite.browser.newPage();
-    await bow.goto(`${suite.address}motions.html`);
-    const hash = new URL((await bow.getByRole('link', { name: /^Bow/ }).getAttribute('href')) ?? '', suite.address).hash;
-    await bow.close();
-    const person = await suite.come({ hasPicture: true, screen: PHONE, isNew: true }, `${suite.address}${hash}`);
+    const person = await suite.come({ hasPicture: true, screen: PHONE, isNew: true }, `${suite.address}${await bowLink()}`);
     await person.page.getByRole('region', { name: 'A motion for you' }).waitFor();
     await person.untilDoing(/^Playing motion 2 \(bow\)/);
     await person.untilStanding();

@@ -20,7 +20,7 @@ export class SentCard extends SessionElement {
         this.setAttribute('aria-label', TEXTS.sent.region);
         this.disposals.push(
             this.session.files.state.watch(({ sent }) => sent && this.take(sent)),
-            this.session.documents.state.watch(({ openId }) => !this.hidden && openId !== this.openId && this.leave()),
+            this.session.documents.state.watch(({ openId }) => openId !== this.openId && this.leave()),
         );
     }
 
@@ -35,8 +35,8 @@ export class SentCard extends SessionElement {
         else this.session.preview.start(page); // another robot moves only when it is told to
     }
 
-    private leave(): void {
-        handOver(this, pictureCanvas(), () => (this.hidden = true));
+    leave(): void {
+        if (!this.hidden) handOver(this, pictureCanvas(), () => (this.hidden = true));
     }
 
     private show(name: string, page: number): void {
