@@ -143,6 +143,8 @@ def test_a_range_of_a_board_from_0_has_its_trim(m512, started, lib):
         assert m512("get", *words, "--force", "-o", got, "-p", play.path).exit_code == 0
         image = selection_image(got)
         assert {joint: trim for joint, trim in enumerate(image[0].trims()) if trim} == trims and image.used() == used
+    said = m512("get", "all", "--force", "-o", got, "-p", play.path).stderr
+    assert "note: page 0, the robot's trim, is left behind" in said and selection_image(got).used() == [3, 4, 5, 7, 20, 21]
 
 
 def selection_image(path):

@@ -207,6 +207,7 @@ def test_hex_with_some_motion_pages_changes_only_those(tmp_path):
     page = bytes(read_text(TEXT)[3])
     found = plan(hex_file(tmp_path / "x.hex", (0xE000 + 3 * 512, page), (0xE000 + 9 * 512, page)))
     assert sorted(found.pages) == [0xE6, 0xE7, 0xF2, 0xF3]
+    assert found.remarks == []  # nothing of page 0, which the file does not have
     with pytest.raises(FileError, match="whole 512-byte motion pages"):
         plan(hex_file(tmp_path / "half.hex", (0xE000 + 3 * 512, page[:256])))
 

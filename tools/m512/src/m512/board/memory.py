@@ -169,7 +169,7 @@ def _placed_motions(path: Path, segments: Segments, out: Plan, with_trim: bool, 
     judged = scale12.judged(image, None)
     whole = [
         (address + at, data[at : at + PAGE_BYTES])
-        for address, data in _motions(path, judged, out, with_trim, damaged)
+        for address, data in _motions(path, judged, out, with_trim or 0 not in given, damaged)
         for at in range(0, len(data), PAGE_BYTES)
     ]
     return [(address, data) for address, data in whole if (address - MOTIONS[0]) // PAGE_BYTES in given]

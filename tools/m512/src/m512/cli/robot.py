@@ -359,6 +359,8 @@ def get(pages: Sequence[str], output: Any, force: bool, **options: Any) -> None:
     formats.must_be_writable(output, force)  # before a robot is contacted
     with robot(options) as client:
         numbers = page_numbers(pages, client)
+        if "all" in pages and 0 in client.used() and 0 not in numbers:
+            ui.say("note: page 0, the robot's trim, is left behind: `0 all` reads it as well")
         image = Image.empty(client.pages)
         with ui.phase("Reading") as progress:
             for done, number in enumerate(numbers):
