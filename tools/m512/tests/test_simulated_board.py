@@ -349,6 +349,15 @@ def test_doctor_tells_of_motion_that_play_missed(missed, told):
     assert any(what == "ticks" for what, *_ in findings) == told
 
 
+@pytest.mark.parametrize("edits, where", [(False, "type `faults` in `m512 term`"), (True, "Edit's screen")])
+def test_doctor_leads_to_the_reason_of_a_fault(edits, where):
+    """Edit has no word `faults`."""
+    findings = []
+    client = SimpleNamespace(version={}, can_save=edits, where=lambda: {"faulty": "00000010"})
+    doctor._robot(client, lambda *parts: findings.append(parts))
+    assert [(what, text) for what, _, text, _ in findings] == [("faults", "servos with a fault: 4")] and where in findings[0][3]
+
+
 def start(m512, robot):
     assert m512("run", "-p", robot.path).exit_code == 0
     robot.pass_time(2.0)

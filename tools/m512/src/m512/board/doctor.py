@@ -166,7 +166,8 @@ def _robot(client: Client, add: Add) -> None:
     faulty = int(state.get("faulty", "0"), 16)
     if faulty:
         ids = " ".join(str(joint) for joint in range(31) if faulty >> joint & 1)
-        add("faults", BAD, f"servos with a fault: {ids}", "type `faults` in `m512 term` for the reason; let hot ones cool down")
+        reason = "Edit's screen in `m512 term` says the reason" if client.can_save else "type `faults` in `m512 term` for the reason"
+        add("faults", BAD, f"servos with a fault: {ids}", f"{reason}; let hot ones cool down, then `m512 torque on`")
 
 
 def _servos(client: Client, add: Add) -> None:
