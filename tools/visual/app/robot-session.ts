@@ -47,6 +47,8 @@ import { StatusMessages } from './status-messages.ts';
 
 /** A robot that already has the motion plays it within this time, so no preview is needed. */
 const SHOWN_MS = 160;
+/** Empties a terminal. */
+const NEW_SCREEN = new TextEncoder().encode('\x1bc');
 /** Eleven seconds of a line of 57,600 baud. What is longer was not meant for the terminal, and nothing else would be heard meanwhile. */
 const MOST_TYPED = 65_536;
 /** Typed bytes that a robot acts upon: the ends of a line, and Ctrl-C and the space bar, which break a play in Edit. What a terminal answers
@@ -491,6 +493,9 @@ export class RobotSession implements Session {
         this.dropWaiting();
         this.driving.leave();
         this.transfer.leave();
+        this.messages.leaveRobot();
+        this.texts.tell(NEW_SCREEN);
+        this.status.look();
     }
 
     private get isSimulated(): boolean {

@@ -15,7 +15,8 @@ export type Cause = 'edit' | 'robot' | 'storage';
 
 export class StatusMessages {
     private readonly state: Store<SessionState>;
-    private readonly boardMessages = new BoardMessages();
+    private boardMessages = new BoardMessages();
+    private heard: Notice | null = null;
     private kept: Notice | null = null;
     private trouble: { readonly message: Notice; readonly cause: Cause; readonly untilMs: number } | null = null;
 
@@ -72,8 +73,16 @@ export class StatusMessages {
     hear(bytes: Uint8Array): void {
         const message = this.boardMessages.take(bytes);
         const isKept = this.kept !== null && this.state.get().message === this.kept;
-        if (message && (message.isTrouble || (!isKept && performance.now() > (this.trouble?.untilMs ?? 0))))
-            this.say({ text: message.text, tone: message.isTrouble ? 'bad' : 'calm' });
+        if (message && (message.isTrouble || (!isKept && performance.now() > (this.trouble?.untilMs ?? 0)))) {
+            this.heard = { text: message.text, tone: message.isTrouble ? 'bad' : 'calm' };
+            this.say(this.heard);
+        }
+    }
+
+    /** Another robot is used: what the one before has said is not said by it. */
+    leaveRobot(): void {
+        this.boardMessages = new BoardMessages();
+        if (this.heard) this.takeAway(this.heard);
     }
 
     /** Removes the message unless another one has replaced it. */

@@ -30,6 +30,10 @@ function wordsOf(text: string): string[] {
     return text.split(' ').filter(word => word !== '');
 }
 
+function linesOf(text: string): string[] {
+    return text.split('\n').map(line => line.trim().replaceAll(/\s+/g, ' '));
+}
+
 /** IDs of the values in the lines below: "1 2 5..7". null: the line is not one of these. */
 function rowFrom(line: string): number[] | null {
     const [, ids] = ROW.exec(line) ?? [];
@@ -60,12 +64,21 @@ function stepFrom(line: string, row: readonly number[]): Step | null {
     return { positions, time: Number(time), pause: Number(pause) };
 }
 
+/** The first step that stepsFromText cannot read, as a line. null: there is none. */
+export function unreadStep(text: string): string | null {
+    let row: readonly number[] = [];
+    for (const line of linesOf(text)) {
+        row = rowFrom(line) ?? row;
+        if (line.startsWith('step ') && !stepFrom(line, row)) return line;
+    }
+    return null;
+}
+
 /** null: not a text of steps. Blank lines and indents are ignored. */
 export function stepsFromText(text: string): Step[] | null {
     const steps: Step[] = [];
     let row: readonly number[] = [];
-    for (const raw of text.split('\n')) {
-        const line = raw.trim().replaceAll(/\s+/g, ' ');
+    for (const line of linesOf(text)) {
         const ids = rowFrom(line);
         const step = stepFrom(line, row);
         if (ids) row = ids;

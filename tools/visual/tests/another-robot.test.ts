@@ -107,6 +107,17 @@ test('a motion that waited for the robot in the page to stand up does not play o
     expect(yours.sent).not.toContain('@play');
 });
 
+test('the terminal of another robot begins empty', async () => {
+    const { session, connect } = await page('play');
+    let text = '';
+    session.onText(bytes => (text += new TextDecoder().decode(bytes)));
+    await connect();
+    expect(text.startsWith('\x1bc')).toBe(true);
+    text = '';
+    session.useSimulated();
+    expect(text).toBe('\x1bc');
+});
+
 test('My servos become the robot in use while the page asks whether its robot is to forget everything: neither forgets', async () => {
     const { session } = await page('play');
     const forget = vi.spyOn(SimulatedSource.prototype, 'forget').mockResolvedValue();

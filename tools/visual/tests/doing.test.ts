@@ -24,6 +24,13 @@ test('Edit says where its screen is, before its first answer and after it, until
     expect(doingText(state('play'), where('idle'))).toBe('The robot stands and waits.');
 });
 
+test('a motion in the picture has the name of the document, not that of the robot, even if it has none', () => {
+    const shown = (shownName: string): string => doingText({ ...state('play'), shownPage: 2, shownName }, where('idle'));
+    expect(shown('hello')).toBe('In the picture only: motion 2 (hello). The robot stands and waits.');
+    expect(shown('')).toBe('In the picture only: motion 2. The robot stands and waits.');
+    expect(doingText({ ...state('play'), shownPage: 2, shownName: 'hello' }, where('playing'))).toContain('Playing motion 2 (bow)');
+});
+
 test('speed and size that are not as stored are said while something plays', () => {
     const said = (rate: number, amplitude: number, now: PlayState = 'playing'): string =>
         doingText(state('play'), { ...where(now), shape: { rate, amplitude, blend: 30 } });

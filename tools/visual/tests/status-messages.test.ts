@@ -47,6 +47,20 @@ test('a robot that was busy: until what it played has ended, and six seconds at 
     expect(message()).toBeNull();
 });
 
+test('what a robot has said leaves with it, even half a line; a message of the page stays', () => {
+    const { messages, message } = session();
+    vi.advanceTimersByTime(1000);
+    messages.hear(new TextEncoder().encode('Ended after page 1 (ready)\r\nServo 5 does'));
+    expect(message()).toBe('Ended after page 1 (ready)');
+    messages.leaveRobot();
+    expect(message()).toBeNull();
+    messages.hear(new TextEncoder().encode(' not answer\r\n'));
+    expect(message()).toBe('not answer');
+    messages.say({ text: 'Copied.', tone: 'good' });
+    messages.leaveRobot();
+    expect(message()).toBe('Copied.');
+});
+
 test('a pulled cable: until the robot answers again', () => {
     const { robot, messages, message } = session();
     robot.set({ connection: 'waiting' });

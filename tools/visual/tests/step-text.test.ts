@@ -8,7 +8,7 @@ import { expect, onTestFinished, test } from 'vitest';
 import { JOINTS } from '../model/motion.ts';
 import { readPage } from '../model/page.ts';
 import type { Step } from '../model/page.ts';
-import { stepsFromText, stepsToText } from '../model/step-text.ts';
+import { stepsFromText, stepsToText, unreadStep } from '../model/step-text.ts';
 import { makeFormat } from './motion-bench.ts';
 import { randomNumbers } from './robot-bench.ts';
 
@@ -45,6 +45,18 @@ test.each(['', 'hello', 'step 300 | 1:600', 'step 40 | 1:1024', 'step 40 | 31:5'
         expect(stepsFromText(text)).toBeNull();
     },
 );
+
+test.each([
+    ['step 0.5s | 1:600', 'step 0.5s | 1:600'],
+    ['step 64 | 1:600\n  step 300  | 1:500\nstep 301 | 1:500', 'step 300 | 1:500'],
+    ['step 64 | 600 424', 'step 64 | 600 424'],
+    ['# ID | 1 2\nstep 64 | 600 424\nstep 64 | same 1:+20', 'step 64 | same 1:+20'],
+    ['# ID | 1 2\nstep 64 | 600 424\nhello', null],
+    ['hello', null],
+])('of %j the person is told which step cannot be read', (text, line) => {
+    expect(stepsFromText(text)).toBeNull();
+    expect(unreadStep(text)).toBe(line);
+});
 
 test('the steps of every motion of the library, copied out of the text that m512 makes of it', async () => {
     const folder = mkdtempSync(join(tmpdir(), 'm512-steps-'));

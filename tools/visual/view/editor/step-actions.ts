@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Actions on the chosen steps: buttons, their keys, and the clipboard.
 
-import { stepsFromText, stepsToText } from '../../model/step-text.ts';
+import { stepsFromText, stepsToText, unreadStep } from '../../model/step-text.ts';
 import { easyStep, robotPositions } from './editing.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
 import { copyText } from '../clipboard.ts';
@@ -10,6 +10,9 @@ import { define, make, setDisabled } from '../element.ts';
 import { TEXTS } from '../texts/texts.ts';
 import { watchRobot } from '../watch-robot.ts';
 import { SessionElement } from '../session-element.ts';
+
+/** Letters of a line that a message quotes. */
+const LINE_SHOWN = 60;
 
 interface Action {
     /** Key of its texts. */
@@ -172,7 +175,10 @@ export class StepActions extends SessionElement {
 
     private take(text: string): void {
         const steps = stepsFromText(text);
-        if (!steps) return this.session.say({ text: TEXTS.steps.noSteps, tone: 'bad' });
+        if (!steps) {
+            const unread = unreadStep(text)?.slice(0, LINE_SHOWN);
+            return this.session.say({ text: unread ? TEXTS.steps.unreadStep(unread) : TEXTS.steps.noSteps, tone: 'bad' });
+        }
         const { editor } = this.session;
         const { page, document, steps: chosen } = editor.state.get();
         const at = editor.page(page).steps.length === 0 ? 0 : Math.max(...chosen) + 1;

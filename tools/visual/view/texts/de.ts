@@ -649,6 +649,8 @@ const DE: Texts = {
         noClipboard: 'Der Browser gibt hier die Zwischenablage nicht her. Klicke auf einen Schritt und drücke Strg+C oder Strg+V.',
         noSteps:
             'In der Zwischenablage sind keine Schritte. Kopiere welche aus einer Bewegung, oder aus einer .m512-Datei Zeilen, die mit „step“ beginnen, und die Zeile „# ID“ darüber.',
+        unreadStep: line =>
+            `Diese Zeile lässt sich nicht einfügen: „${line}“. Ein eingefügter Schritt hat Zeiten in Einheiten, 0 bis 255 (step 64 pause 8), und Stellungen von 0 bis 1023, jede mit ihrer ID (1:600) oder unter der Zeile „# ID“. Alle anderen Formen liest „Öffnen …“ aus einer .m512-Datei.`,
         times: 'Wie oft',
         timesHint: 'Wie oft die Schritte hintereinander abgespielt werden',
         takes: seconds => `Die Bewegung dauert ${seconds} Sekunden`,

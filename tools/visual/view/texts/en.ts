@@ -737,6 +737,8 @@ export const EN = {
         noClipboard: 'The browser keeps the clipboard to itself here. Click a step and press Ctrl+C or Ctrl+V.',
         noSteps:
             'There are no steps in the clipboard. Copy some from a motion, or from a .m512 file lines that begin with "step" and the line "# ID" above them.',
+        unreadStep: (line: string) =>
+            `This line cannot be pasted: "${line}". A pasted step has its times in units, 0 to 255 (step 64 pause 8), and positions 0 to 1023 with an ID each (1:600) or the line "# ID" above. "Open …" reads all other forms from a .m512 file.`,
         times: 'Times',
         timesHint: 'How often the steps are played, one time after another',
         takes: (seconds: string) => `The motion takes ${seconds} seconds`,

@@ -635,6 +635,8 @@ const ES: Texts = {
         noClipboard: 'Aquí el navegador no da acceso al portapapeles. Haz clic en un paso y pulsa Ctrl+C o Ctrl+V.',
         noSteps:
             'No hay pasos en el portapapeles. Copia algunos de un movimiento, o de un archivo .m512 líneas que empiecen por «step» y la línea «# ID» que está encima.',
+        unreadStep: line =>
+            `Esta línea no se puede pegar: «${line}». Un paso pegado tiene sus tiempos en unidades, de 0 a 255 (step 64 pause 8), y posiciones de 0 a 1023, cada una con su ID (1:600) o bajo la línea «# ID». «Abrir …» lee todas las demás formas de un archivo .m512.`,
         times: 'Veces',
         timesHint: 'Cuántas veces se reproducen los pasos, una tras otra',
         takes: seconds => `El movimiento dura ${seconds} segundos`,

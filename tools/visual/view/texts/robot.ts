@@ -41,14 +41,13 @@ export function limbTitle(link: string): string {
 }
 
 function motionTitle(state: SessionState, page: number): string {
-    const name = page === state.shownPage && state.shownName ? state.shownName : state.pages.find(entry => entry.page === page)?.name;
-    return TEXTS.motion.title(page, name ?? '');
+    return TEXTS.motion.title(page, state.pages.find(entry => entry.page === page)?.name ?? '');
 }
 
 /** What the robot does, in one sentence. */
 export function doingText(state: SessionState, where: Where | null): string {
     if (state.stopped !== null) return state.stopped;
-    const shown = state.shownPage === null ? '' : TEXTS.status.shownOnly(motionTitle(state, state.shownPage));
+    const shown = state.shownPage === null ? '' : TEXTS.status.shownOnly(TEXTS.motion.title(state.shownPage, state.shownName ?? ''));
     return [shown, robotText(state, where)].filter(Boolean).join(' ');
 }
 
