@@ -15,7 +15,8 @@ static struct {
     int asked;                     /* by the newest line, until it is answered */
     int named;                     /* the next play begins with it; UNKNOWN: no page was named */
     uint32_t named_tick;
-    uint32_t called_tick[PAGES];   /* the last time that a code called the page */
+    uint32_t called_tick[PAGES];   /* when a code called the page first since the last play */
+    uint32_t again_tick[PAGES];    /* the last time: the first may have been refused */
     bool is_open;                  /* a line may have called any page */
     bool is_begun, is_quiet;
     uint32_t over_tick;            /* the last report that a play is over */
@@ -79,20 +80,25 @@ static unsigned page_of_code(unsigned code)
 }
 
 /* Returns whether a page was called after the last play was over and before this one was reported. */
-static bool is_called(unsigned page)
+static bool is_called_at(uint32_t tick)
 {
-    const uint32_t tick = calls.called_tick[page];
     return tick != NEVER_TICK && tick + LINE_BEHIND >= calls.over_tick &&
            (calls.going_tick == NEVER_TICK || tick <= calls.going_tick);
 }
 
-/* Handles a code: a press at the remote or the panel, or typed. The first call counts. */
+static bool is_called(unsigned page)
+{
+    return is_called_at(calls.called_tick[page]) || is_called_at(calls.again_tick[page]);
+}
+
+/* Handles a code: a press at the remote or the panel, or typed. */
 void calls_pressed(unsigned code)
 {
     const unsigned page = page_of_code(code);
-    if (!is_called(page)) {
+    if (!is_called_at(calls.called_tick[page])) {
         calls.called_tick[page] = session.tick;
     }
+    calls.again_tick[page] = session.tick;
 }
 
 /* A line may wait for its answer: the program searches for servos, or asks a port that has answered late (hal/host). */
@@ -151,7 +157,7 @@ static void play_begins(unsigned page)
     }
     reached(is_named ? "play of the page that was named" : "play of the page with the code");
     calls.named = UNKNOWN;
-    calls.called_tick[page] = NEVER_TICK;
+    calls.called_tick[page] = calls.again_tick[page] = NEVER_TICK;
     calls.is_begun = true;
 }
 

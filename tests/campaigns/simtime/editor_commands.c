@@ -507,6 +507,12 @@ static void run_redo(void)
     editor.can_redo = false;
 }
 
+/* A trim puts this position of a joint out of its servo's reach. */
+static bool is_beyond(unsigned id, int pos)
+{
+    return pos >= 0 && pos < 1024 && limited(pos + trim_of(id)) != pos + trim_of(id);
+}
+
 /* ON and OFF. Without IDs: all present servos. */
 static void run_torque(void)
 {
@@ -529,8 +535,9 @@ static void run_torque(void)
         } else if (is_meant) {
             editor.now.cell[0][id] = is_on ? UNKNOWN : OFF;
             editor.torque[id] = is_on;
-        } else if (editor.is_pose_copied || session.trouble_tick > session.boot_tick) {
-            editor.now.cell[0][id] = UNKNOWN;   /* the pose is read again; the last goals may be lost */
+        } else if (editor.is_pose_copied || session.trouble_tick > session.boot_tick ||
+                   is_beyond(id, editor.now.cell[0][id])) {
+            editor.now.cell[0][id] = UNKNOWN;   /* the pose is read again; the last goals may be lost or limited */
         }
     }
 }

@@ -89,9 +89,9 @@ void editor_play_tick(void)
     }
     if (play.said != NULL && (!is_on() || !is_plain())) {
         play.said = NULL;   /* the play was over before the key, or something has happened */
-    } else if (play.said != NULL && is_shown(play.said)) {
+    } else if (play.said != NULL && (is_shown(play.said) || screen_has_said(play.said))) {
         reached("key in a play of Edit");
-        play.said = NULL;   /* the end of the play may erase it */
+        play.said = NULL;   /* the end of the play, or its next step, may erase it */
     } else if (play.said != NULL && session.tick - play.key_tick > SAID) {
         session_fail("a key in a play of Edit does what its pages say", "%s is not said", play.said);
     }

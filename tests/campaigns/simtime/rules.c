@@ -652,6 +652,7 @@ void rules_tick(void)
     }
     editor_tick();
     editor_play_tick();
+    screen_tick();
     if (rules.ended_tick != NEVER_TICK && session.tick - rules.ended_tick > LAST_FRAME) {
         rules.ended_tick = NEVER_TICK;
         pose_must_be_there(rules.ended_page);

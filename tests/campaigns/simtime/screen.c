@@ -9,12 +9,15 @@
 
 #define ROWS 36u
 #define ARGUMENTS 4u
+#define SAID_BYTES 4096u          /* a tick draws two screens at most */
 
 static struct {
     char text[ROWS][SCREEN_COLUMNS + 1];
     unsigned row, column;
     int argument[ARGUMENTS];
     unsigned arguments;
+    char said[SAID_BYTES];         /* what this tick has printed, on whatever row, also if it is erased again */
+    unsigned said_bytes;
     bool is_table;                 /* the table was not hidden since the screen was cleared */
     enum { PLAIN, ESCAPE, SEQUENCE } state;
 } screen;
@@ -74,6 +77,8 @@ static void show_plain(uint8_t byte)
         memmove(screen.text[0], screen.text[1], sizeof screen.text - sizeof screen.text[0]);
         clear_from(ROWS - 1, 0);
     } else if (byte >= ' ') {
+        screen.said[screen.said_bytes] = (char)byte;
+        screen.said_bytes = within(screen.said_bytes + 1, SAID_BYTES - 1);
         screen.text[screen.row][screen.column] = (char)byte;
         screen.column = within(screen.column + 1, SCREEN_COLUMNS);
     }
@@ -209,6 +214,17 @@ void screen_put_away(void)
 const char *screen_row(unsigned row)
 {
     return row < ROWS ? screen.text[row] : "";
+}
+
+bool screen_has_said(const char *text)
+{
+    return strstr(screen.said, text) != NULL;
+}
+
+void screen_tick(void)
+{
+    memset(screen.said, 0, sizeof screen.said);
+    screen.said_bytes = 0;
 }
 
 void screen_boot(void)

@@ -250,6 +250,8 @@ void screen_byte(uint8_t byte);
 /* false: the table is not shown. */
 bool screen_read(table_t *table);
 const char *screen_row(unsigned row);
+bool screen_has_said(const char *text);   /* in this tick */
+void screen_tick(void);            /* a tick is over */
 void screen_put_away(void);        /* a line of a program has been typed */
 
 /* table.c */

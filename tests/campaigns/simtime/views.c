@@ -212,7 +212,9 @@ void views_typed(const char *line)
 void views_printed(const char *line)
 {
     unsigned page;
-    if (strncmp(line, "@now ", 5) == 0) {
+    if (strncmp(line, "Going to", 8) == 0) {
+        views.now_tick = NEVER_TICK;   /* law.c begins anew and has no goals of before */
+    } else if (strncmp(line, "@now ", 5) == 0) {
         look_at_now(line);
     } else if (strcmp(line, " OK") == 0) {
         views.is_list = views.is_servos = false;
