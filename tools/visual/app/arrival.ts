@@ -106,7 +106,7 @@ export class Arrival {
             return messages.fail(error);
         }
         if (state.get().source === 'servos') return this.tellServos().catch(messages.fail);
-        messages.say({ text: TEXTS.robot.isBackedUp, tone: 'calm' });
+        messages.tell({ text: TEXTS.robot.isBackedUp, tone: 'calm' });
     }
 
     private isUntold(error: unknown): boolean {
@@ -117,8 +117,8 @@ export class Arrival {
     private async tellServos(): Promise<void> {
         const { messages, sources } = this.parts;
         const ids = (await askPose(sources.connection.requests)).map(({ id }) => id);
-        if (ids.length === 0) return messages.say({ text: TEXTS.robot.noServos, tone: 'bad' });
+        if (ids.length === 0) return messages.tell({ text: TEXTS.robot.noServos, tone: 'bad' });
         const missing = Array.from({ length: Math.max(...ids) }, (_, i) => i + 1).filter(id => !ids.includes(id));
-        messages.say({ text: TEXTS.robot.servosFound(ids.length, ranges(missing)), tone: missing.length > 0 ? 'bad' : 'good' });
+        messages.tell({ text: TEXTS.robot.servosFound(ids.length, ranges(missing)), tone: missing.length > 0 ? 'bad' : 'good' });
     }
 }

@@ -5,6 +5,7 @@ import { RobotError } from '../robot/robot-error.ts';
 import type { SessionState, Notice } from '../view/session/session.ts';
 import type { Store } from '../view/store.ts';
 import { errorText } from '../view/texts/robot.ts';
+import { TEXTS } from '../view/texts/texts.ts';
 import { BoardMessages } from './board-messages.ts';
 
 /** Time to read a trouble before the board's next line may replace it. */
@@ -16,7 +17,8 @@ export type Cause = 'edit' | 'robot' | 'storage';
 export class StatusMessages {
     private readonly state: Store<SessionState>;
     private boardMessages = new BoardMessages();
-    private heard: Notice | null = null;
+    /** Of the robot in use. */
+    private told: Notice | null = null;
     private kept: Notice | null = null;
     private trouble: { readonly message: Notice; readonly cause: Cause; readonly untilMs: number } | null = null;
 
@@ -56,6 +58,8 @@ export class StatusMessages {
         const { connection, stopped, source, isPowered } = this.state.get();
         if (error.code === 'no-answer' && source === 'simulated' && !isPowered) return;
         if (error.code === 'not-connected' && (connection === 'ready' || stopped)) return;
+        if (error.code === 'no-answer' && source === 'servos' && connection !== 'ready')
+            return this.complain(TEXTS.robot.stillSearches, 'robot');
         if (error.code === 'new-version') this.state.set({ hasNewVersion: true });
         this.complain(errorText(error), 'robot');
     };
@@ -74,15 +78,20 @@ export class StatusMessages {
         const message = this.boardMessages.take(bytes);
         const isKept = this.kept !== null && this.state.get().message === this.kept;
         if (message && (message.isTrouble || (!isKept && performance.now() > (this.trouble?.untilMs ?? 0)))) {
-            this.heard = { text: message.text, tone: message.isTrouble ? 'bad' : 'calm' };
-            this.say(this.heard);
+            this.tell({ text: message.text, tone: message.isTrouble ? 'bad' : 'calm' });
         }
     }
 
-    /** Another robot is used: what the one before has said is not said by it. */
+    /** Says what is so of the robot in use, and of no other one. */
+    tell(message: Notice): void {
+        this.told = message;
+        this.say(message);
+    }
+
+    /** Another robot is used: what was told of the one before is not so of it. */
     leaveRobot(): void {
         this.boardMessages = new BoardMessages();
-        if (this.heard) this.takeAway(this.heard);
+        if (this.told) this.takeAway(this.told);
     }
 
     /** Removes the message unless another one has replaced it. */

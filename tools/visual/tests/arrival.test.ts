@@ -41,9 +41,9 @@ test.each([
 });
 
 test('a robot whose backup could not be stored is not said to be backed up', async () => {
-    const [fail, say] = [vi.fn(), vi.fn()];
+    const [fail, tell] = [vi.fn(), vi.fn()];
     const arrival = arrivalWith({
-        messages: { fail, say },
+        messages: { fail, tell },
         sources: YOURS,
         transfer: {
             read: () => Promise.resolve({ isDone: true }),
@@ -53,7 +53,7 @@ test('a robot whose backup could not be stored is not said to be backed up', asy
     arrival.connectionChanged('ready');
     await vi.waitFor(() => expect(fail).toHaveBeenCalledTimes(1));
     await new Promise(resolve => setTimeout(resolve));
-    expect(say).not.toHaveBeenCalled();
+    expect(tell).not.toHaveBeenCalled();
 });
 
 test.each([
@@ -62,16 +62,16 @@ test.each([
     ['1:512:0 4:512:0 8:512:0 ', /No answer from 2, 3, 5-7: /],
     ['', /^No servo answers\. Is their power on\?/],
 ] as const)('My servos with the pose "%s": those that are missing are named', async (pose, text) => {
-    const say = vi.fn();
+    const tell = vi.fn();
     const ask = (request: string) => Promise.resolve(request === '@pose' ? pose : '');
     const arrival = arrivalWith({
         state: new Store({ source: 'servos' } as SessionState),
-        messages: { fail: vi.fn(), say },
+        messages: { fail: vi.fn(), tell },
         sources: { ...YOURS, connection: { ...YOURS.connection, requests: { ask } } },
         transfer: { read: () => Promise.resolve({ isDone: true }), keep: () => Promise.resolve() },
     });
     arrival.connectionChanged('ready');
-    await vi.waitFor(() => expect(say).toHaveBeenCalledWith({ text: expect.stringMatching(text), tone: 'bad' }));
+    await vi.waitFor(() => expect(tell).toHaveBeenCalledWith({ text: expect.stringMatching(text), tone: 'bad' }));
 });
 
 const WALKS = [{ page: 20, steps: 6, name: 'walk', fault: '' }];
@@ -111,7 +111,7 @@ async function answersAgain(crcs: string, phase: string, continues: boolean, dam
     const answers = [damaged];
     const ask = (text: string) => Promise.resolve(text.startsWith('@crcs') ? (answers.shift() ?? crcs) : '');
     const arrival = arrivalWith({
-        messages: { fail: vi.fn(), say: nothing },
+        messages: { fail: vi.fn(), tell: nothing },
         sources: { ...YOURS, connection: { ...YOURS.connection, requests: { ask } } },
         editor: { state: known, format: { crc: ([first = 0]: Uint8Array) => first }, setRobot: (robot: []) => known.set({ robot }) },
         transfer: {
@@ -153,14 +153,14 @@ test.each([
     ['port-lost', 0], // the connection says it
     ['transfer-busy', 0], // the person is writing it
 ] as const)('your robot could not be read, %s: told %i times, because it has no backup', async (code, times) => {
-    const [fail, say, keep] = [vi.fn(), vi.fn(), vi.fn()];
+    const [fail, tell, keep] = [vi.fn(), vi.fn(), vi.fn()];
     const arrival = arrivalWith({
-        messages: { fail, say },
+        messages: { fail, tell },
         sources: YOURS,
         transfer: { read: () => Promise.resolve({ isDone: false, error: new RobotError(code) }), keep },
     });
     arrival.connectionChanged('ready');
     await new Promise(resolve => setTimeout(resolve, 10));
     expect(fail).toHaveBeenCalledTimes(times);
-    expect([say, keep].map(one => one.mock.calls)).toEqual([[], []]);
+    expect([tell, keep].map(one => one.mock.calls)).toEqual([[], []]);
 });

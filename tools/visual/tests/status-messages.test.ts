@@ -56,9 +56,22 @@ test('what a robot has said leaves with it, even half a line; a message of the p
     expect(message()).toBeNull();
     messages.hear(new TextEncoder().encode(' not answer\r\n'));
     expect(message()).toBe('not answer');
+    messages.tell({ text: '18 servos answer.', tone: 'good' });
+    messages.leaveRobot();
+    expect(message()).toBeNull();
     messages.say({ text: 'Copied.', tone: 'good' });
     messages.leaveRobot();
     expect(message()).toBe('Copied.');
+});
+
+test('what was asked while servos are looked for is not blamed on a robot that is off', () => {
+    const { robot, messages, message } = session();
+    robot.set({ source: 'servos', connection: 'asking' });
+    messages.fail(new RobotError('no-answer'));
+    expect(message()).toContain('still being looked for');
+    robot.set({ connection: 'ready' });
+    messages.fail(new RobotError('no-answer'));
+    expect(message()).toContain('did not answer');
 });
 
 test('a pulled cable: until the robot answers again', () => {

@@ -42,6 +42,7 @@ export class AppShell extends SessionElement {
     private readonly editing = new Store<Editing>(EDITING_START);
     private readonly shape = new Store<Shape>(AS_STORED);
     private readonly tabs = new AreaTabs();
+    private readonly first = new FirstMinute();
     private readonly files = new FilesMenu();
     private readonly panels = new Map<Tab, HTMLElement>();
     private readonly simulated = make('button', { onclick: () => this.session.useSimulated() }, TEXTS.menu.robotInPage);
@@ -69,7 +70,7 @@ export class AppShell extends SessionElement {
         const { editing, shape } = this;
         const robot = this.give(new RobotView(), { editing, cover: actions });
         const poses = this.give(new PoseBar(), { editing, margin: () => robot.margin, touches: () => robot.touches });
-        this.addPanel('remote', this.give(new RemotePad(), { shape }));
+        this.addPanel('remote', this.give(new RemotePad(), { shape, onPad: () => this.first.close() }));
         this.addPanel('steps', this.give(new StepsPane(), { editing }));
         const pages = this.give(new PagesPane());
         const compare = this.give(new CompareDialog());
@@ -87,7 +88,7 @@ export class AppShell extends SessionElement {
             onArea: () => this.foldSheet(false),
             onSend: () => void this.files.send(),
         });
-        const first = this.give(new FirstMinute(), { onTeach: () => tour.teach() });
+        const first = this.give(this.first, { onTeach: () => tour.teach() });
         const sent = this.give(new SentCard(), { onSent: () => first.close(false), onTeach: () => tour.teach() });
         this.startTour = () => {
             sent.leave(); // it would lie under the tour's card

@@ -43,6 +43,7 @@ export class FirstMinute extends SessionElement {
 
     /** hasBegun: false shows the card again at the next visit. */
     close(hasBegun = true): void {
+        if (this.hidden) return;
         handOver(this, pictureCanvas(), () => (this.hidden = true));
         if (hasBegun) remember('begun');
         this.disconnectedCallback(); // ends the listening

@@ -33,6 +33,8 @@ const BUTTONS: readonly (readonly [RemoteButton, string])[] = [
 
 export class RemotePad extends SessionElement {
     shape!: Store<Shape>; // set before it is connected
+    /** A game pad is used. */
+    onPad: () => void = () => undefined;
     private readonly pad = new GamePad();
     private readonly held = { screen: new Set<RemoteButton>(), keys: new Set<RemoteButton>(), pad: new Set<RemoteButton>() };
     private readonly buttons = new Map<RemoteButton, HTMLButtonElement>();
@@ -101,6 +103,7 @@ export class RemotePad extends SessionElement {
     /** null: it is disconnected; all its buttons are released. */
     private readPad(pad: Gamepad | null): void {
         const { buttons, stick } = this.pad.read(pad, document.hasFocus() && !isInDialog() ? this.session.state.get().tab : null);
+        if (stick || buttons.length > 0) this.onPad();
         this.session.drive(stick);
         this.held.pad = new Set(buttons);
         this.tell();

@@ -34,6 +34,21 @@ test('"Push it" pushes the robot over as soon as the hand has let go of it', asy
     await person.leave();
 });
 
+test('a game pad that drives puts the buttons away, so that Stop is there', async () => {
+    const person = await suite.come({ isNew: true });
+    await first(person).waitFor();
+    await person.page.evaluate(() => {
+        const pad = { index: 0, axes: [0, 0], buttons: Array.from({ length: 16 }, (_, i) => ({ pressed: i === 12 })) };
+        navigator.getGamepads = () => [pad as unknown as Gamepad];
+        window.dispatchEvent(new Event('gamepadconnected'));
+    });
+    await first(person).waitFor({ state: 'hidden' });
+    await person.untilDoing(/^Playing motion 2[12] \(walk/);
+    await person.button('Stop').click();
+    await person.untilStanding();
+    await person.leave();
+});
+
 test('"Teach it to wave" opens Steps and the Tour where the teaching begins; any click elsewhere puts the buttons away', async () => {
     const person = await suite.come({ isNew: true });
     await person.button('Teach it to wave').click();

@@ -267,6 +267,7 @@ const DE: Texts = {
         adapterOut: 'Der Servo-Adapter steckt nicht, deshalb wird nichts abgespielt. Stecke ihn wieder ein.',
         adapterBack:
             'Der Servo-Adapter ist wieder da. Die Servos bewegen sich wieder, sobald ihre Kraft eingeschaltet ist: Gib on im Terminal ein.',
+        stillSearches: 'Deine Servos werden noch gesucht, darum ist nichts geschehen. Versuche es noch einmal, wenn sie gefunden sind.',
         noServos:
             'Kein Servo antwortet. Ist ihr Strom an? Steckt das Buskabel? Sprechen sie mit 1.000.000 Bit pro Sekunde? Prüfe das, dann gib @reset im Terminal ein.',
         servosFound: (count, missing) =>

@@ -457,6 +457,7 @@ export const EN = {
         noPush: 'Physics could not be loaded, so the robot cannot be pushed. Load the page again to try once more.',
         adapterOut: 'The servo adapter is unplugged, so nothing plays. Plug it in again.',
         adapterBack: 'The servo adapter is back. The servos move again once their torque is switched on: type on in the terminal.',
+        stillSearches: 'Your servos are still being looked for, so nothing was done. Try again when they are found.',
         noServos:
             'No servo answers. Is their power on? Is the bus cable plugged in? Do they talk at 1,000,000 bits a second? Check this, then type @reset in the terminal.',
         servosFound: (count: number, missing: readonly string[]) =>

@@ -259,6 +259,7 @@ const ES: Texts = {
         adapterOut: 'El adaptador de servos está desconectado, así que no se reproduce nada. Vuelve a conectarlo.',
         adapterBack:
             'El adaptador de servos está conectado otra vez. Los servos se moverán de nuevo cuando se active su par: escribe on en el terminal.',
+        stillSearches: 'Todavía se buscan tus servos, así que no se ha hecho nada. Inténtalo otra vez cuando se hayan encontrado.',
         noServos:
             'No responde ningún servo. ¿Tienen corriente? ¿Está conectado el cable del bus? ¿Se comunican a 1.000.000 de bits por segundo? Compruébalo y escribe @reset en el terminal.',
         servosFound: (count, missing) =>
