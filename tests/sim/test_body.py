@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The shipped image on the simulated board with its servos in a physical body: lock step, and the resulting motion."""
 
+import csv
 import os
 import pathlib
 import re
@@ -107,6 +108,19 @@ def test_command_tells_falls_way_and_heading(tmp_path):
     toes_up = "servo 15 load 1\nservo 16 load -1\nwait 2s\nquit\n"  # shanks forward, so it falls on its face
     run = cm5sim(*how, script=begin + toes_up, tmp_path=tmp_path)
     assert "s: fell" in run.stderr and re.search(r"1 falls; \d+ mm forward, .*; lies", run.stderr), run.stderr
+
+
+def test_command_with_head_servos_turns_the_head_and_names_servos_without_a_joint(tmp_path):
+    (tmp_path / "motions.bin").write_bytes(IMAGE)
+    script = 'expect "] " within 3s\nsend "play look\r"\nexpect "Playing page" within 5s\nwait 8s\ntorque 19 == 1\nquit\n'
+    trace = tmp_path / "trace.csv"
+    how = ["--motions", str(tmp_path / "motions.bin"), "--body", "humanoid", "--servos", "1-20,25", "--trace", str(trace)]
+    run = cm5sim("play-cm5.hex", *how, script=script, tmp_path=tmp_path)
+    assert run.returncode == 0, run.stderr + run.stdout
+    assert "which stay where they are: 25\n" in run.stderr and "overload" not in run.stdout
+    with trace.open() as rows:
+        positions = [int(row["present19"]) for row in csv.DictReader(rows)]
+    assert max(positions) - min(positions) > 50
 
 
 def test_command_says_what_is_wrong_with_a_body(monkeypatch):

@@ -87,7 +87,7 @@ def run_board(options: Options, stop: Stop, script: Script | None) -> int:
     if options.body:
         from .in_body import Watch
 
-        watch = Watch(options.body, options.view)
+        watch = Watch(options.body, options.view, [servo.id for servo in options.servos])
     session = Session(options, script, watch)
     opened = False
     try:

@@ -8,7 +8,7 @@ import ctypes
 import sys
 import time
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import Any
 
 from . import library
@@ -19,14 +19,15 @@ if library.ROBOT.exists():
 
 LOOK_EVERY = 8  # steps of 1/1024 s
 FRAME_S = 1 / 60
+HEAD = frozenset({19, 20})  # servos that a body has only if they are plugged in
 STEP = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int)
 
 
 class Watch:
     """Steps the body, watches it and shows it."""
 
-    def __init__(self, name: str, view: bool) -> None:
-        """OSError, with a text for the user: no such body, no MuJoCo, or no display."""
+    def __init__(self, name: str, view: bool, ids: Collection[int] = ()) -> None:
+        """ids: of the servos that are plugged in. OSError, with a text for the user: no such body, no MuJoCo, or no display."""
         try:
             from body.description import BodyError, load
             from body.hand import Hand
@@ -34,11 +35,12 @@ class Watch:
         except ModuleNotFoundError as missing:
             raise OSError(f"--body: {missing}; run: tools/dev/setup demo test physics, or pip install mujoco") from None
         try:
-            self._physics = Physics(load(name))
+            self._physics = Physics(load(name, head=not HEAD.isdisjoint(ids)))
             self._hand = Hand(self._physics)
             self._view = _open_view(self._physics) if view else None
         except (BodyError, ValueError, RuntimeError) as error:
             raise OSError(f"body: {error}") from None
+        self._outside = sorted(set(ids) - self._physics.robot.joints.keys())
         self._count, self._shown = 0, 0.0
 
     def attach(self, board: Board, say: Callable[[str], None]) -> None:
@@ -49,6 +51,8 @@ class Watch:
         self._step = STEP(self._one_step)  # keeps the callback alive while the board runs
         seam = library.ServoBody(inner.context, inner.look, ctypes.cast(self._step, ctypes.c_void_p))
         lib.board_body(board._pointer, seam)
+        if self._outside:
+            self._say(f"servos without a joint in this body, which stay where they are: {' '.join(map(str, self._outside))}")
 
     def _say(self, text: str) -> None:
         self._print(f"body: {text}")
