@@ -16,6 +16,7 @@ import pexpect
 import pytest
 import serial
 
+from cm5sim.flow import DEAF_CYCLES, Flow
 from tests.sim.sim_command import CM5SIM, ROBOT, Running, run
 
 # --- interfaces ---
@@ -26,6 +27,32 @@ def test_pipe_is_answered_and_the_run_ends_by_itself():
     assert done.returncode == 0
     assert done.stdout == b"ready\r\nhoservo 3: 00\r\n"
     assert done.stderr == b""
+
+
+@pytest.mark.parametrize("pace", ["--fast", "--realtime"])
+def test_a_long_pipe_waits_for_the_robots_room(pace):
+    """The robot takes 128 bytes at once, and sends XOFF."""
+    done = run("play-cm5.hex", pace, stdin=b"".join(b"rate %d\r" % rate for rate in range(51, 91)) + b"status\r")
+    said = done.stdout.translate(None, b"\x11\x13")
+    assert done.returncode == 0 and said.count(b" OK\r\n") == 41 and b"lost" not in said
+    assert b"rate 90" in said and b"Torque on" in said.partition(b"status")[2]
+
+
+def test_a_program_that_obeys_no_rule_of_the_flow_still_gets_what_is_typed():
+    taken: list[bytes] = []
+    flow = Flow(taken.append)
+    flow.type(bytes(range(32, 132)))
+    for _ in range(10):
+        flow.feed(0, 1, 0)
+    assert len(b"".join(taken)) == 64  # as much as there is room for before it says something
+    flow.feed(0, DEAF_CYCLES + 1, 0)
+    assert len(b"".join(taken)) == 80
+    flow.hear(b"\x13", DEAF_CYCLES + 2)
+    flow.feed(0, DEAF_CYCLES + 3, 0)
+    assert len(b"".join(taken)) == 80
+    flow.feed(0, 2 * DEAF_CYCLES + 3, 0)
+    flow.feed(0, 2 * DEAF_CYCLES + 4, 1)  # the chip has started again
+    assert b"".join(taken) == bytes(range(32, 132)) and not flow
 
 
 def test_image_name_is_found_in_the_build_folder():

@@ -20,7 +20,7 @@ typedef struct {
 /* Both calls get one shaft for each servo, in the order of servo_bus_add(). */
 typedef struct servo_body {
     void *context;
-    /* Returns the present angle and speed. */
+    /* Returns the present angle and speed. Angle NAN: the body has no joint for this servo, which turns its own rotor. */
     void (*look)(void *context, servo_shaft_t *shafts, int count);
     /* Simulates 1/1024 s under these torques and returns angle and speed after it. */
     void (*step)(void *context, servo_shaft_t *shafts, int count);

@@ -2,6 +2,7 @@
  * servo_bus.c - time on the bus: bytes pass, servos receive and reply, the body is stepped. */
 #include "servo_bus.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "servo_motion.h"
@@ -160,15 +161,17 @@ static void pass_byte(servo_bus_t *bus, servo_talk_t *talk)
 static void take_shafts(servo_bus_t *bus)
 {
     for (int i = 0; i < bus->count; i++) {
-        servo_motion_turned(bus->servos[i], bus->shafts[i].angle_rad, bus->shafts[i].speed_rad_s);
-        servo_advance(bus->servos[i], bus->body_cycles);
+        if (bus->servos[i]->in_body) {
+            servo_motion_turned(bus->servos[i], bus->shafts[i].angle_rad, bus->shafts[i].speed_rad_s);
+            servo_advance(bus->servos[i], bus->body_cycles);
+        }
     }
 }
 
 static void step_body(servo_bus_t *bus)
 {
     for (int i = 0; i < bus->count; i++) {
-        bus->shafts[i].torque_nm = servo_motion_torque(bus->servos[i]);
+        bus->shafts[i].torque_nm = bus->servos[i]->in_body ? servo_motion_torque(bus->servos[i]) : 0;
     }
     bus->body.step(bus->body.context, bus->shafts, bus->count);
     bus->body_cycles += SERVO_STEP_CYCLES;
@@ -179,15 +182,17 @@ void servo_bus_look_at_body(servo_bus_t *bus)
 {
     for (int i = 0; i < bus->count; i++) {
         servo_t *servo = bus->servos[i];
-        servo->in_body = bus->body.step != NULL;
         bus->shafts[i].angle_rad = (servo->position - 512) / SERVO_UNITS_PER_RADIAN;
         bus->shafts[i].speed_rad_s = servo->velocity / SERVO_UNITS_PER_RADIAN;
         servo->step_cycles = bus->body_cycles;
     }
     if (bus->body.look) {
         bus->body.look(bus->body.context, bus->shafts, bus->count);
-        take_shafts(bus);
     }
+    for (int i = 0; i < bus->count; i++) {
+        bus->servos[i]->in_body = bus->body.step != NULL && !isnan(bus->shafts[i].angle_rad);
+    }
+    take_shafts(bus);
 }
 
 void servo_bus_body(servo_bus_t *bus, uint64_t now_cycles, const servo_body_t *body)

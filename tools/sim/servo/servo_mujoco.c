@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "servo_mujoco.h"
 
+#include <math.h>
 #include <stddef.h>
 
 static servo_mujoco_joint_t *joint_of(const servo_mujoco_t *body, const servo_shaft_t *shaft)
@@ -21,6 +22,8 @@ static void look(void *context, servo_shaft_t *shafts, int count)
         if (joint) {
             shafts[i].angle_rad = joint->direction * (*joint->angle - joint->offset_rad);
             shafts[i].speed_rad_s = joint->direction * *joint->speed;
+        } else {
+            shafts[i].angle_rad = NAN;
         }
     }
 }

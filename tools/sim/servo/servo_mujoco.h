@@ -22,7 +22,7 @@ typedef struct {
     int32_t count;
 } servo_mujoco_t;
 
-/* Returns the interface to the body. A servo without a joint stays where it is. A joint without a servo is limp. */
+/* Returns the interface to the body. A servo without a joint turns its own rotor. A joint without a servo is limp. */
 servo_body_t servo_mujoco_body(servo_mujoco_t *body);
 
 #endif

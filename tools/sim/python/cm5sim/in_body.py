@@ -40,7 +40,6 @@ class Watch:
             self._view = _open_view(self._physics) if view else None
         except (BodyError, ValueError, RuntimeError) as error:
             raise OSError(f"body: {error}") from None
-        self._outside = sorted(set(ids) - self._physics.robot.joints.keys())
         self._count, self._shown = 0, 0.0
 
     def attach(self, board: Board, say: Callable[[str], None]) -> None:
@@ -51,8 +50,6 @@ class Watch:
         self._step = STEP(self._one_step)  # keeps the callback alive while the board runs
         seam = library.ServoBody(inner.context, inner.look, ctypes.cast(self._step, ctypes.c_void_p))
         lib.board_body(board._pointer, seam)
-        if self._outside:
-            self._say(f"servos without a joint in this body, which stay where they are: {' '.join(map(str, self._outside))}")
 
     def _say(self, text: str) -> None:
         self._print(f"body: {text}")

@@ -13,6 +13,7 @@ from . import terminal
 from .board import CYCLES_PER_TICK, Board, Violation
 from .console import LINE_BPS, Console
 from .files import keep, load_memories, memories, plug_in_servos
+from .flow import Flow
 from .library import CYCLES_PER_MS
 from .options import EXIT_EXPECTATION, EXIT_FILE, EXIT_GOOD, EXIT_VIOLATION, NEVER, Options
 from .servo import Servo
@@ -61,6 +62,7 @@ class Session:
         self._rc_keys: dict[int, int] = {}  # held keys of the remote by bit: cycle of release
         self._rc_word = self._rc_next = 0  # last word sent; cycle of the next repetition while held
         self._explained = False
+        self._flow = Flow(self.send)
         self._trace: Trace | None = None
         self._closing = ExitStack()
         self._line_end = "\n"  # of messages
@@ -217,10 +219,14 @@ class Session:
 
     def _typed(self, data: bytes) -> None:
         if not self.terminal.raw and not self.keys.rc:
-            self.send(data)
+            self._flow.type(data)
         else:
             for byte in data:
                 self._take_key(byte)
+        self._feed()
+
+    def _feed(self) -> None:
+        self._flow.feed(self.board.waiting, self.board.now_cycles, self.board.resets)
 
     def _take_key(self, byte: int) -> None:
         shown = self.terminal.shows
@@ -245,7 +251,7 @@ class Session:
         if kind in ("byte", "rc", "button") and not powered:
             self.note(POWER_IS_OFF)
         elif kind == "byte":
-            self.send(bytes([value]))
+            self._flow.type(bytes([value]))
         elif kind == "rc":
             self.rc_hold(value, HELD_CYCLES)
         elif kind == "button" and self._lacks(value):
@@ -328,9 +334,11 @@ class Session:
         fresh = self.board.take()
         if fresh:
             self._traffic = now
+            self._flow.hear(fresh, now)
             self.console.put(fresh)
             if self.script:
                 self.heard += fresh
+        self._feed()
         if self.terminal.shows == "note" and now >= self.terminal.until:
             self.terminal.hide()
         if self.console.cleared and now - self._traffic > SILENT_CYCLES and self.terminal.draws and not self.terminal.shows:
@@ -365,7 +373,7 @@ class Session:
     def _is_answered(self) -> bool:
         """True when the robot has had time to reply to the last input."""
         silent = self.board.now_cycles - self._traffic > LINGER_CYCLES
-        return self._is_alone() and self.options.time == NEVER and silent and self.board.waiting == 0
+        return self._is_alone() and self.options.time == NEVER and silent and self.board.waiting == 0 and not self._flow
 
     def _stop(self) -> None:
         """Ends the run after a signal or --time. A script that has not reached its end has failed."""
