@@ -200,3 +200,22 @@ def test_bodies_of_others_are_told_what_they_lack(tmp_path):
     (tmp_path / "d.xml").write_text("<mujoco><worldbody><body name='b'><joint user='300 1 512' range='0 1'/></body></worldbody></mujoco>")
     with pytest.raises(BodyError, match="servo ID 0..253"):
         load(tmp_path / "d.xml")
+
+
+@pytest.mark.parametrize(
+    "was, now, said",
+    [
+        ('geom name="right_sole"', 'geom name="right_shoe"', "no geom is called right_sole"),
+        ('<motor name="servo_13" joint="right_knee"/>', "", "joint right_knee has servo 13 and no motor"),
+        ('user="13 1 512"', 'user="13"', 'joint right_knee has user="13"; it must be a servo ID 0..253'),
+        ('user="13 1 512"', 'user="x 1 512"', 'joint right_knee has user="x 1 512"'),
+        ('user="13 1 512"', 'user="12 -1 512"', "joints .* and .* both have servo 12"),
+        ('range="-140 0" user="13', 'user="13', 'joint right_knee needs range="LOW HIGH"'),
+    ],
+)
+def test_one_mistake_in_a_body_of_ones_own_is_named(tmp_path, was, now, said):
+    text = HUMANOID.path.read_text()
+    assert was in text
+    (tmp_path / "mine.xml").write_text(text.replace(was, now, 1))
+    with pytest.raises(BodyError, match=f"mine.xml: {said}"):
+        load(tmp_path / "mine.xml")

@@ -75,9 +75,14 @@ class Description:
         self.parent = {}  # body -> body that carries it; None: the trunk
         self.bodies = {}  # name -> element
         self._collect(root.find("worldbody"), None)
-        self.joints = {joint.servo: joint for joint in self._joints()}
+        self.joints = {}
+        for joint in self._joints():
+            if joint.servo in self.joints:
+                raise BodyError(f"{path}: joints {self.joints[joint.servo].name} and {joint.name} both have servo {joint.servo}")
+            self.joints[joint.servo] = joint
         if not self.joints:
             raise BodyError(f'{path}: no joint has user="ID direction zero"; without it no servo moves anything')
+        self._check_parts()
 
     def _collect(self, element, parent):
         for child in element.findall("body"):
@@ -85,18 +90,35 @@ class Description:
             self.parent[child.get("name")] = parent
             self._collect(child, child.get("name"))
 
+    def _check_parts(self):
+        """What physics.py and trial.py need by name."""
+        geoms = {geom.get("name") for geom in self.root.iter("geom")}
+        for name in ("floor", "right_sole", "left_sole", "right_hand", "left_hand"):
+            if name not in geoms:
+                raise BodyError(f"{self.path}: no geom is called {name}; humanoid.xml shows what it is for")
+        driven = {motor.get("joint") for motor in self.root.iter("motor")}
+        for joint in self.joints.values():
+            if joint.name not in driven:
+                raise BodyError(f'{self.path}: joint {joint.name} has servo {joint.servo} and no motor; add <motor joint="{joint.name}"/>')
+
     def _joints(self):
         for name, body in self.bodies.items():
             for joint in body.findall("joint"):
                 if joint.get("user") is None:
                     continue
-                servo, direction, zero = numbers(joint.get("user"))
-                if not 0 <= servo <= 253 or abs(direction) != 1:
+                try:
+                    servo, direction, zero = numbers(joint.get("user"))
+                except ValueError:
+                    servo = direction = zero = -1
+                if not 0 <= servo <= 253 or servo != int(servo) or abs(direction) != 1:
                     raise BodyError(
                         f'{self.path}: joint {joint.get("name")} has user="{joint.get("user")}"; '
                         "it must be a servo ID 0..253, a direction 1 or -1, and a servo position"
                     )
-                low, high = (radians(angle) for angle in numbers(joint.get("range")))
+                try:
+                    low, high = (radians(angle) for angle in numbers(joint.get("range", "")))
+                except ValueError:
+                    raise BodyError(f'{self.path}: joint {joint.get("name")} needs range="LOW HIGH", in degrees') from None
                 yield Joint(int(servo), joint.get("name"), name, int(direction), zero, low, high)
 
     @property
