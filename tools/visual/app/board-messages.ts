@@ -4,10 +4,10 @@
 // steps from 0.
 
 const LINE_MAX = 200;
-const TELLS_TROUBLE = /damaged|does not answer|no servo|overload|hot|voltage|is low|fault|lost|cannot|bad|not /i;
+const TELLS_TROUBLE = /damaged|does not answer|no servo|overload|hot|voltage|is low|fault|lost|cannot|bad|not | late: | is gone/i;
 
-/** Play prints this after a servo fault. The line alone does not name the servo. */
-const ENDED_BY_SERVO = /^Ended for the fault of a servo/;
+/** Play prints these after a trouble. The line alone does not tell which. */
+const ENDED = /^(Ended for the fault of a servo|Broken off)/;
 
 const TELLS_STEP = /^(Page|Playing page) \d+( \(.*\))? step \d+ repetition \d+$/;
 
@@ -50,9 +50,9 @@ export class BoardMessages {
     }
 
     private messageOf(text: string): BoardMessage {
-        const isTrouble = TELLS_TROUBLE.test(text);
-        const whole = ENDED_BY_SERVO.test(text) && this.trouble !== '' ? `${this.trouble}. ${text}` : text;
-        this.trouble = isTrouble && !ENDED_BY_SERVO.test(text) ? text : '';
+        const whole = ENDED.test(text) && this.trouble !== '' ? `${this.trouble}. ${text}` : text;
+        const isTrouble = TELLS_TROUBLE.test(whole);
+        this.trouble = isTrouble && !ENDED.test(text) ? text : '';
         return { text: whole, isTrouble };
     }
 }

@@ -23,6 +23,8 @@ export interface PlayParts {
     readonly transfer: RobotTransfer;
     /** Throws RobotError not-connected if there is none. */
     connection(): Connection;
+    /** Waits while servos are being looked for. Rejects if another robot is used meanwhile. */
+    untilFound(): Promise<void>;
     /** Before a motion: gets the robot in the page to its feet. */
     prepare(): Promise<void>;
 }
@@ -51,6 +53,7 @@ export class RobotPlays {
         const { document } = this.parts.editor.state.get(); // another one may be opened while this play waits
         const isLast = this.next();
         const done = this.turns.run(async () => {
+            await this.parts.untilFound();
             if (!isLast()) return false;
             await this.bringPages(page, document);
             return this.begin(page, isLast);
@@ -88,6 +91,7 @@ export class RobotPlays {
     }
 
     private async begin(page: number, isLast: () => boolean): Promise<boolean> {
+        await this.parts.untilFound();
         await this.parts.prepare();
         const { requests, version } = this.parts.connection();
         if (version?.image === 'edit') await this.parts.transfer.dropHalfSent(requests, page);

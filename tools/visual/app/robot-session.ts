@@ -47,6 +47,10 @@ import { StatusMessages } from './status-messages.ts';
 
 /** A robot that already has the motion plays it within this time, so no preview is needed. */
 const SHOWN_MS = 160;
+/** States of a connection before its first answer. */
+const SEARCHES: ReadonlySet<SessionState['connection']> = new Set(['opening', 'asking', 'silent']);
+/** The longest search: all IDs over a slow adapter. A play that comes later than that would surprise. */
+const SEARCH_MS = 30_000;
 /** Empties a terminal. */
 const NEW_SCREEN = new TextEncoder().encode('\x1bc');
 /** Eleven seconds of a line of 57,600 baud. What is longer was not meant for the terminal, and nothing else would be heard meanwhile. */
@@ -182,6 +186,7 @@ export class RobotSession implements Session {
             editor: this.editor,
             transfer: this.transfer,
             connection: () => this.connection,
+            untilFound: () => this.untilFound(),
             prepare: async () => (this.isSimulated ? simulated.prepare() : undefined),
         });
         this.images = new RobotImages({
@@ -496,6 +501,25 @@ export class RobotSession implements Session {
         this.messages.leaveRobot();
         this.texts.tell(NEW_SCREEN);
         this.status.look();
+    }
+
+    /** A search for servos takes seconds. A robot that is silent or gone is not waited for. */
+    private untilFound(): Promise<void> {
+        const isSearching = ({ source, connection, stopped }: SessionState): boolean =>
+            source === 'servos' && stopped === null && SEARCHES.has(connection);
+        if (!isSearching(this.state.get())) return Promise.resolve();
+        return new Promise((resolve, reject) => {
+            let unwatch = (): void => undefined;
+            const end = (action: () => void): void => {
+                clearTimeout(timer);
+                queueMicrotask(() => unwatch());
+                action();
+            };
+            const timer = setTimeout(() => end(() => reject(new RobotError('no-answer'))), SEARCH_MS);
+            unwatch = this.state.watch(state => {
+                if (!isSearching(state)) end(() => (state.source === 'servos' ? resolve() : reject(new RobotError('cancelled'))));
+            });
+        });
     }
 
     private get isSimulated(): boolean {

@@ -81,7 +81,14 @@ async function halfSent(seed: number, isErased = false) {
 
 function playsOf(connection: Connection, transfer: RobotTransfer): RobotPlays {
     const [state, editor] = [new Store({} as SessionState), {} as DocumentEditor]; // not asked by play()
-    return new RobotPlays({ state, editor, transfer, connection: () => connection, prepare: () => Promise.resolve() });
+    return new RobotPlays({
+        state,
+        editor,
+        transfer,
+        connection: () => connection,
+        untilFound: () => Promise.resolve(),
+        prepare: () => Promise.resolve(),
+    });
 }
 
 function flashPage(bench: RobotBench, page: number): Uint8Array {

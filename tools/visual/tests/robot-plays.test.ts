@@ -47,14 +47,14 @@ async function yours(image: 'play' | 'edit', document: MotionDocument, seed: num
         backUp: () => Promise.resolve(),
     });
     const state = new Store({ source: 'yours' } as SessionState);
-    const plays = new RobotPlays({ state, editor, transfer, connection: () => connection, prepare });
+    const plays = new RobotPlays({ state, editor, transfer, connection: () => connection, untilFound: () => Promise.resolve(), prepare });
     return { bench, plays, transfer, played: () => sent.flatMap(bytes => bytes.match(/@play \d+/g) ?? []) };
 }
 
 /** The robot in the page with the motion library. The test decides when a write ends. */
 async function inPage(document: MotionDocument) {
     const played: string[] = [];
-    const written = { begun: 0, end: (): void => undefined };
+    const written = { begun: 0, end: (): void => undefined, found: Promise.resolve() };
     let { pages } = library;
     let isWriting = false;
     const ask = async (text: string): Promise<string> => {
@@ -81,10 +81,35 @@ async function inPage(document: MotionDocument) {
         editor,
         transfer: { write } as unknown as RobotTransfer,
         connection: () => ({ requests: { ask } }) as unknown as Connection,
+        untilFound: () => written.found,
         prepare: () => Promise.resolve(),
     });
     return { plays, played, written, editor, robot: () => pages };
 }
+
+test('a play while servos are being looked for is played when they are found; one that is stopped meanwhile is not', async () => {
+    const { plays, played, written } = await inPage(library);
+    let find = (): void => undefined;
+    const searches = (): void => {
+        written.found = new Promise(resolve => (find = resolve));
+    };
+    for (const ask of [() => plays.play(WAVE), () => plays.playEdited(WAVE)]) {
+        searches();
+        const play = ask();
+        await new Promise(resolve => setTimeout(resolve, 20));
+        expect(played).toEqual([]);
+        find();
+        expect(await play).toBe(true);
+        expect(played.splice(0)).toEqual([`@play ${WAVE}`]);
+        searches();
+        const dropped = ask();
+        plays.drop(new RobotError('cancelled'));
+        await expect(dropped).rejects.toThrow(RobotError);
+        find();
+        await new Promise(resolve => setTimeout(resolve, 20));
+        expect(played).toEqual([]);
+    }
+});
 
 function changed(page: number): MotionDocument {
     const bytes = library.pages[page] ?? format.empty;

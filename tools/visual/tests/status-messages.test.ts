@@ -113,6 +113,20 @@ test('a step that plays is told beside, counted from 1: what the board says of i
     expect(message()).toBe('Page 22 is damaged');
 });
 
+test('why a motion was broken off stays beside its end, and is a trouble', () => {
+    const { robot, messages, message } = session();
+    const hear = (line: string): void => messages.hear(new TextEncoder().encode(`${line}\r\n`));
+    vi.advanceTimersByTime(1);
+    hear('Broken off in page 21 (walk_r)'); // by the person
+    expect(robot.get().message).toMatchObject({ text: 'Broken off in page 21 (walk_r)', tone: 'calm' });
+    for (const why of ['The computer came 0.1 s late: breaking off', 'The servo adapter is gone: plug it in, then on']) {
+        hear(why);
+        hear('Broken off in page 21 (walk_r)');
+        expect(robot.get().message).toMatchObject({ text: `${why}. Broken off in page 21 (walk_r)`, tone: 'bad' });
+    }
+    expect(message()).toContain('adapter');
+});
+
 test('what is kept: the board takes it away by a trouble alone, the page by whatever it says next', () => {
     const { messages, message } = session();
     const hear = (line: string): void => messages.hear(new TextEncoder().encode(`${line}\r\n`));

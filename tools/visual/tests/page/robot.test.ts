@@ -104,6 +104,24 @@ async function rightArm(visitor: Visitor): Promise<number> {
     return (await visitor.positions([1, 3, 5])).reduce((sum, position) => sum + Math.abs(position - 512), 0);
 }
 
+test('a lamp that blinks moves nothing in the area of the robot', async () => {
+    const person = await suite.come({ screen: { width: 1000, height: 700 } });
+    await person.untilStanding();
+    await person.open('Robot');
+    const places = await person.page.evaluate(async () => {
+        const lamps = document.querySelector<HTMLElement>('robot-pane .leds');
+        const seen = { lamps: new Set<string>(), heights: new Set<number>() };
+        for (const endMs = performance.now() + 4000; lamps && performance.now() < endMs; await new Promise(requestAnimationFrame)) {
+            seen.lamps.add(lamps.dataset.bits ?? '');
+            seen.heights.add(lamps.offsetHeight);
+        }
+        return [seen.lamps.size, seen.heights.size];
+    });
+    expect(places[0]).toBeGreaterThan(1); // they do blink
+    expect(places[1]).toBe(1);
+    await person.leave();
+});
+
 test('a hand pulls a stiff arm and lets it go back', async () => {
     const person = await suite.come({ hasPicture: true, hasPhysics: true });
     await person.untilStanding();

@@ -175,6 +175,7 @@ async function checkForcedColours(person: Visitor): Promise<void> {
     ] as const) {
         await person.open(area);
         for (const kind of kinds) {
+            await page.locator(kind).first().waitFor();
             const grounds = await page
                 .locator(kind)
                 .evaluateAll(all => all.map(one => [null, '::before'].map(part => getComputedStyle(one, part).backgroundColor).join()));
