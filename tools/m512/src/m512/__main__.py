@@ -10,7 +10,7 @@ def main() -> None:
     middle of an import, or of Python's own end, would be shown and could be lost."""
     if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
-    from m512.signals import ENDING
+    from m512.signals import ENDING, settle
 
     try:
         from m512.streams import fill_closed
@@ -18,7 +18,10 @@ def main() -> None:
         fill_closed()
         from m512.cli import main as command_line
 
-        command_line()
+        try:
+            command_line()
+        finally:
+            settle()
     except KeyboardInterrupt:
         print("m512: stopped", file=sys.stderr)
         sys.exit(130)

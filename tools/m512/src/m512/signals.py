@@ -17,6 +17,8 @@ from typing import Any
 ENDING = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
 AGAIN_S = 0.01
 
+_dropped: list[threading.Timer] = []  # each raises its signal again
+
 
 class SignalExit(SystemExit):
     """SIGTERM or SIGHUP: ends with 128 + its number, as in shells."""
@@ -40,7 +42,14 @@ def _raise_again(dropped: Any) -> None:
         return
     again = threading.Timer(AGAIN_S, signal.raise_signal, (number,))  # here it would be dropped once more
     again.daemon = True
+    _dropped.append(again)
     again.start()
+
+
+def settle() -> None:
+    """Call this before something is written, and at the end. A signal that Python has dropped ends the program here."""
+    for again in _dropped:
+        again.join()
 
 
 def end_with_exceptions() -> None:

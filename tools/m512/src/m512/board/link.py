@@ -12,6 +12,7 @@ from urllib.parse import urlsplit
 
 from m512.board.ports import IN_USE
 from m512.errors import M512Error, NoAnswerError, PortError
+from m512.signals import settle
 
 if TYPE_CHECKING:
     from m512.board.bus import Program
@@ -100,6 +101,7 @@ class Link:
 
     def write(self, data: bytes, wait: bool = True) -> None:
         """Sends bytes. With `wait` it returns after all of them have left this computer."""
+        settle()
         try:
             self.port.write(data)
             if wait:

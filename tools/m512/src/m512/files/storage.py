@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from m512.errors import FileError, RefusedError
+from m512.signals import settle
 from m512.streams import end_results
 
 MOST_BYTES = 4 << 20  # larger than any motion file, firmware or backup; stops /dev/zero. Readers take time in proportion to the size
@@ -262,6 +263,7 @@ def _put(path: Path, called: Path, data: bytes, replace: bool) -> list[str]:
         lost = _keep_owner(name, old, called) if old else []
         os.chmod(name, old.st_mode & 0o7777 if old else 0o666 & ~_umask())
         keep_backup(called)
+        settle()
         (os.replace if replace else _name_new)(name, path)
     except BaseException:
         with suppress(FileNotFoundError):  # a signal during the replacement: the file has its new name already
