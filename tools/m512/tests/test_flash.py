@@ -11,6 +11,7 @@ import re
 from types import SimpleNamespace
 
 import pytest
+from block_peer import PROMPTED as PROMPTED_OURS
 from block_peer import SLOW, BlockPeer, BlockPtyPeer
 from conftest import REPO
 from factory_peer import APP as RUNS
@@ -516,6 +517,66 @@ def with_noise(peer):
 
 def that_spoils_the_fast_rate(peer):
     peer.garble = lambda _, index, byte: byte if peer.pc_rate == SLOW else byte ^ 0x40
+
+
+class SpoilsPages:
+    """Damages every `each`th byte at the fast rate: short frames come through, pages do not."""
+
+    def __init__(self, peer, begins=0, each=150):
+        self.peer, self.passed, self.begins, self.each = peer, 0, begins, each
+        peer.garble = self
+
+    def __call__(self, _, index, byte):
+        if self.peer.pc_rate == SLOW:
+            return byte
+        self.passed += 1
+        return byte if self.passed < self.begins or self.passed % self.each else byte ^ 0x40
+
+
+@pytest.mark.parametrize("lost", [False, True])
+@pytest.mark.parametrize("begins", [0, 3000, 14000])
+def test_a_fast_rate_that_spoils_pages_is_given_up(m512, tmp_path, begins, lost):
+    """The first exchange comes through. Pages that have come through before are not sent again."""
+    text = "motion512 1\n" + "".join(f"page {page} p{page}\n  step 50 | 1..18:{300 + page}\n" for page in range(1, 41))
+    (tmp_path / "lib.m512").write_text(text)
+    with BlockPeer(old_flash()) as peer:
+        spoils = SpoilsPages(peer, begins)
+        if lost:
+            peer.garble = lambda *args: byte if (byte := spoils(*args)) == args[-1] else None
+        result = m512("flash", tmp_path / "lib.m512", "-p", peer.path, "--fast")
+        assert result.exit_code == 0 and result.stderr.count("the fast rate does not work here; going on at 57,600") == 1, result.stderr
+        assert peer.flash[0xE200:0x1E000] == read_text(text).to_bytes()[512:] and len(peer.writes) == len(set(peer.writes))
+        assert spoils.passed > begins and peer.rate == peer.pc_rate == SLOW
+
+
+@pytest.mark.parametrize("word", ["flash", "run"])
+def test_a_fast_rate_that_falls_silent_is_given_up_at_any_request(m512, app_hex, word):
+    with BlockPeer(old_flash()) as peer:
+        at, total = 0, 1
+        while at < total:
+            peer.flash[:], passed = old_flash(), []
+
+            def silent(_, index, byte, passed=passed, at=at):
+                if peer.pc_rate == SLOW:
+                    return byte
+                passed.append(index)
+                return byte if len(passed) <= at or at == 0 else None
+
+            peer.garble, peer.state = silent, PROMPTED_OURS
+            result = m512(word, app_hex, "-p", peer.path, "--fast")
+            assert result.exit_code == 0, (at, result.stderr)
+            assert peer.flash[:5000] == make_app() and peer.rate == peer.pc_rate == SLOW, at
+            total = max(total, len(passed))
+            at += 397
+
+
+def test_a_remark_does_not_continue_the_line_of_a_progress_bar(monkeypatch, capsys):
+    monkeypatch.setattr(ui, "is_terminal", lambda _: True)
+    with ui.phase("Writing") as progress:
+        progress(1, 2)
+        ui.say("note: one")
+    ui.say("note: two")
+    assert "\n\nnote: one\n" in (said := capsys.readouterr().err) and "\n\nnote: two" not in said  # a bar that is not drawn ends its line
 
 
 def that_repeats_the_answer_to_a_write(peer):

@@ -16,6 +16,7 @@ from m512.streams import drop, is_terminal, reader_has_gone
 
 Progress = Callable[[int, int], None]
 PhaseMaker = Callable[[str], AbstractContextManager[Progress]]
+_has_bar = False  # a progress bar stands at the start of the terminal's line
 _unread = False  # the reader of remarks has gone, and they are dropped since
 
 
@@ -35,7 +36,7 @@ def say(text: str) -> None:
     """Prints a remark to stderr; stdout is for results. The work continues when stderr cannot be written (`2>&1 | head`, a full disk)."""
     global _unread
     try:
-        click.echo(plain(text), err=True)
+        click.echo("\n" * _has_bar + plain(text), err=True)
     except OSError as error:
         _unread = isinstance(error, BrokenPipeError)
         drop(sys.stderr)
@@ -49,9 +50,14 @@ def is_unread() -> bool:
 @contextmanager
 def phase(title: str) -> Iterator[Progress]:
     """`with phase("Writing") as progress: ... progress(done, total)`. A bar on a terminal, else a line every 10 s."""
+    global _has_bar
     if is_terminal(sys.stderr):
-        with click.progressbar(length=1000, label=f"{title:12}", file=sys.stderr) as bar:
-            yield lambda done, total: bar.update(1000 * done // max(total, 1) - bar.pos)
+        try:
+            with click.progressbar(length=1000, label=f"{title:12}", file=sys.stderr) as bar:
+                _has_bar = True
+                yield lambda done, total: bar.update(1000 * done // max(total, 1) - bar.pos)
+        finally:
+            _has_bar = False
         return
     last = [time.monotonic()]
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from collections import deque
 
+from m512 import ui
 from m512.board.link import BAUD, Link
 from m512.board.memory import FLASH_PAGE
 from m512.crc16 import crc16
@@ -33,6 +34,7 @@ WINDOW = 2  # outstanding writes
 TRIES = 4
 ANSWER_SECONDS = 1.5
 FAST_RATE, FAST_UBRR = 117647, 16
+NOT_FAST = "note: the fast rate does not work here; going on at 57,600"
 SUMS_MAX = 64
 EEPROM_PAGE, EE_WRITE_MAX = 0x8100, 32  # EEPROM is read as flash pages from this number on
 BACK_SECONDS = 4.2  # the loader ends a session, and its rate, after 4 s without a byte
@@ -106,8 +108,9 @@ class BlockLoader:
         return out
 
     def _ask(self, command: int, body: bytes, tries: int = TRIES, seconds: float = ANSWER_SECONDS, may_go: bool = False) -> bytes:
-        """Sends a request and returns the data of its answer. Repeats it when nothing or a damaged frame arrives. NoAnswerError,
-        BoardError. may_go: the loader may have gone when nothing arrives; then there is no data."""
+        """Sends a request and returns the data of its answer. Repeats it when nothing or a damaged frame arrives, and once more at the
+        usual rate if the fast one spoils it. NoAnswerError, BoardError. may_go: the loader may have gone when nothing arrives; then there
+        is no data."""
         status = None
         for attempt in range(tries):
             self.retries += attempt > 0
@@ -125,6 +128,8 @@ class BlockLoader:
                 return answer[3]
             if status != BAD_FRAME:
                 raise BoardError(f"the loader says: {STATUS.get(status, status)}", status)
+        if self._gives_up_fast():
+            return self._ask(command, body, tries, seconds, may_go)
         if status is None:
             raise NoAnswerError(SILENT + self.link.remedy)
         raise BoardError(f"the loader says: {STATUS[BAD_FRAME]}, {tries} times. Is the cable good?", status)
@@ -132,7 +137,7 @@ class BlockLoader:
     # Rate
 
     def go_faster(self) -> bool:
-        """Tries 117,647 baud; returns to the usual rate if that fails. Returns whether it worked."""
+        """Tries 117,647 baud; returns to the usual rate if that fails, now or later, and then says so. Returns whether it works now."""
         self._ask(RATE, FAST_UBRR.to_bytes(2, "little"))
         self.link.sleep(0.02)
         try:
@@ -145,7 +150,16 @@ class BlockLoader:
             self.link.sleep(BACK_SECONDS)
             self.link.drain()
             self._ask(HELLO, b"")
+            ui.say(NOT_FAST)
             return False
+
+    def _gives_up_fast(self) -> bool:
+        """Takes both ends from a fast rate that spoils too much back to the usual one, in a new session. False: it is the usual one
+        already, or the loader does not answer at it either."""
+        if self.rate == BAUD or self._has_gone():
+            return False
+        ui.say(NOT_FAST)
+        return True
 
     # Flash and EEPROM
 
@@ -202,9 +216,12 @@ class BlockLoader:
                 done += self._collect(under_way)
                 for page in sorted(under_way.values()):
                     failures[page] = failures.get(page, 0) + 1
-                    if failures[page] > TRIES:
-                        if answer is None:
-                            raise NoAnswerError(SILENT + self.link.remedy)
+                if max(failures.values(), default=0) > TRIES:
+                    if self._gives_up_fast():
+                        failures.clear()
+                    elif answer is None:
+                        raise NoAnswerError(SILENT + self.link.remedy)
+                    else:
                         raise BoardError("the line damages too much: no page comes through. Is the cable good?")
                 self.retries += 1
                 waiting.extendleft(sorted(under_way.values(), reverse=True))
@@ -256,6 +273,7 @@ class BlockLoader:
         """Whether the loader answers no more. An application may listen by now, so the question is that of the beginning."""
         if self._slow_down():
             self.link.sleep(BACK_SECONDS)
+            self.link.drain()  # what the loader has sent at the other rate
         self.number = FIRST_NUMBER
         try:
             self._ask(HELLO, b"", tries=1)

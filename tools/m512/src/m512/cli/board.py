@@ -164,8 +164,8 @@ def _flash(
     with link:
         with loaders.as_found(loader):
             todo = _agreed(loader, plan, yes)  # before the fast rate, which the loader ends during a question
-            if fast and isinstance(loader, BlockLoader) and not loader.go_faster():
-                ui.say("note: the fast rate does not work here; going on at 57,600")
+            if fast and isinstance(loader, BlockLoader):
+                loader.go_faster()
         report = download.download(loader, plan, ui.phase, todo)
         ui.say(str(report))
         if start:
