@@ -9,7 +9,7 @@ import tty
 import pytest
 
 from m512.board import driving
-from m512.errors import BoardError, NoAnswerError
+from m512.errors import BoardError, CancelledError, NoAnswerError
 
 
 class Line:
@@ -24,18 +24,19 @@ class Line:
 
 
 class Board:
-    def __init__(self, link, fails_at=None, refuses="", ends_at=None):
-        self.asked, self.link, self.fails_at, self.refuses, self.ends_at = [], link, fails_at, refuses, ends_at
+    def __init__(self, link, fails_from=None, refuses="", ends_at=None):
+        self.asked, self.link, self.fails_from, self.refuses, self.ends_at = [], link, fails_from, refuses, ends_at
 
-    def ask(self, request, *_, **__):
+    def ask(self, request, seconds=3.0, tries=3):
         self.asked.append((round(self.link.now(), 3), request))
-        if self.fails_at is not None and len(self.asked) == self.fails_at:
+        if self.fails_from is not None and len(self.asked) >= self.fails_from:
+            self.link.sleep(seconds * tries)
             raise NoAnswerError("no answer")
         if self.refuses and request.startswith(self.refuses):
             raise BoardError("Nothing is playing", 14)
         return ""
 
-    def where(self):
+    def where(self, *_):
         return {"state": "idle" if self.ends_at is not None and self.link.now() >= self.ends_at else "playing"}
 
 
@@ -96,10 +97,45 @@ def test_drive_ends_when_the_play_has_ended():
 
 def test_drive_that_fails_stops_the_robot():
     link = Line()
-    board = Board(link, fails_at=3)
+    board = Board(link, fails_from=3)
     with pytest.raises(NoAnswerError):
         driving.drive(board, Script([]), link, lambda stick: None)
-    assert board.asked[-1][1] == "stop"
+    assert board.asked[-1][1] == "stop" and link.now() < 5
+
+
+@pytest.mark.parametrize("press_s", [0.05, 0.1, 0.9, 1.6, 2.3])
+def test_ctrl_c_ends_the_drive_of_a_board_that_has_lost_its_power(press_s):
+    link = Line()
+    board = Board(link, fails_from=3)
+    with pytest.raises(CancelledError, match="stopped by Ctrl-C, but no answer"):
+        driving.drive(board, Script([(press_s, "\x03")]), link, lambda stick: None)
+    assert board.asked[-1][1] == "break" and link.now() - press_s < 2
+
+
+def test_a_line_without_an_answer_does_not_end_the_drive():
+    link = Line()
+    board = Interrupted(link, drive=[NoAnswerError("no answer to @drive")] * 3)
+    driving.drive(board, Script([(1.0, " ")]), link, lambda stick: None)
+    assert [request for _, request in board.asked][-1] == "stop" and len(board.asked) > 20
+
+
+@pytest.mark.parametrize("at, last", [(4, "stop"), (5, "break")])
+def test_a_second_ctrl_c_ends_the_drive_of_a_silent_board_at_once(at, last):
+    """at: the request during which it comes. That is a line before the first Ctrl-C is looked at, or the stop of the first."""
+
+    class Interrupts(Board):
+        def ask(self, request, seconds=3.0, tries=3):
+            if len(self.asked) + 1 == at:
+                self.asked.append((self.link.now(), request))
+                raise KeyboardInterrupt
+            return super().ask(request, seconds, tries)
+
+    link = Line()
+    board = Interrupts(link, fails_from=3)
+    with pytest.raises(KeyboardInterrupt):
+        driving.drive(board, Script([(1.0, "\x03")]), link, lambda stick: None)
+    assert board.asked[at - 1][1].startswith("drive" if at == 4 else "break")
+    assert [request for _, request in board.asked[at:]] == [last] and link.now() - board.asked[at - 1][0] < 1
 
 
 class Interrupted(Board):
@@ -109,8 +145,8 @@ class Interrupted(Board):
         super().__init__(link)
         self.ended = {word: list(errors) for word, errors in ended.items()}
 
-    def ask(self, request, *_, **__):
-        super().ask(request)
+    def ask(self, request, *limits, **more):
+        super().ask(request, *limits, **more)
         if self.ended.get(request.split()[0]):
             raise self.ended[request.split()[0]].pop(0)
         return ""
@@ -146,7 +182,7 @@ def test_a_second_ctrl_c_while_the_stop_of_a_drive_is_answered_stops_at_once():
 
 def test_a_drive_without_an_answer_tells_the_first_reason():
     link = Line()
-    board = Interrupted(link, drive=[NoAnswerError("no answer to @drive")], stop=[NoAnswerError("no answer to @stop")])
+    board = Interrupted(link, drive=[NoAnswerError("no answer to @drive")] * 4, stop=[NoAnswerError("no answer to @stop")])
     with pytest.raises(NoAnswerError, match="no answer to @drive"):
         driving.drive(board, Script([]), link, lambda stick: None)
 
@@ -183,6 +219,21 @@ def test_a_key_that_is_no_utf8_does_not_end_the_keyboard(keyboard, byte):
     from m512.cli.shape import _keys
 
     assert driven_by(_keys, keyboard, b"w" + byte + b"x")[-1] == "break"
+
+
+def test_a_second_ctrl_c_interrupts_whatever_is_awaited(keyboard, monkeypatch):
+    import _thread
+
+    from m512.cli.shape import _keys
+
+    came, deadline = [], time.monotonic() + 20
+    monkeypatch.setattr(_thread, "interrupt_main", lambda: came.append("interrupt"))
+    with _keys() as keys:
+        monkeypatch.setattr(keys, "press", came.append)
+        os.write(keyboard, b"w\x03\x03\x03!")
+        while "!" not in came and time.monotonic() < deadline:
+            time.sleep(0.002)
+    assert came == ["w", "\x03", "interrupt", "\x03", "interrupt", "\x03", "!"]
 
 
 def test_a_drive_whose_keyboard_ends_is_stopped(keyboard, monkeypatch, capsys):

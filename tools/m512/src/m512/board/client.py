@@ -371,10 +371,10 @@ class Client:
     def torque(self, on: bool, joints: list[int]) -> None:
         self.ask(" ".join(["torque", "on" if on else "off"] + [str(j) for j in joints]))
 
-    def where(self) -> dict[str, str]:
+    def where(self, seconds: float = ANSWER_SECONDS, tries: int = TRIES) -> dict[str, str]:
         """The state of the robot. Answers have no checksum, so the request is repeated when a field is missing or malformed."""
         for _ in range(TRIES):
-            found = self._fields(self.ask("where"))
+            found = self._fields(self.ask("where", seconds, tries))
             if found.get("state", "").isalpha() and all(re.fullmatch(form, found.get(word, absent)) for word, (form, absent) in WHERE.items()):
                 return found
         raise NoAnswerError(DAMAGED.format("what the robot does"))

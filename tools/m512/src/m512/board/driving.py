@@ -15,9 +15,12 @@ from typing import Callable
 
 from m512.board.client import Client
 from m512.board.link import Link
-from m512.errors import BoardError, NoAnswerError, PortError
+from m512.errors import BoardError, CancelledError, NoAnswerError, PortError
 
 PERIOD = 0.05  # seconds between two lines
+# A board answers within 0.7 s (firmware/common/PROTOCOL.md). A line without an answer is not repeated: the next one says more. The keys are
+# looked at before each.
+ANSWER_SECONDS, UNANSWERED_MOST, HALT_TRIES = 0.7, 4, 2
 ASK_EVERY = 20  # lines between two checks that the play still runs
 RATES, AMPLITUDES, BLENDS = (10, 400), (0, 150), (-100, 100)
 # What a terminal sends for an arrow, End, F4 and so on. The last letter of some is a letter that drives.
@@ -87,7 +90,7 @@ def drive(
 ) -> Stick:
     """Begins the play, then sends lines until the keys set `done` or the play ends; calls `told(stick)` after each line. layer: the
     second page, 0: none. An exception stops the play softly, unless the board refuses to begin it."""
-    stick, laid, lines, begun = Stick(), False, 0, False
+    stick, laid, lines, unanswered, begun = Stick(), False, 0, 0, False
     try:
         begin()
         begun, before = True, link.now()
@@ -95,40 +98,55 @@ def drive(
             now, lines = link.now(), lines + 1
             keys.update(stick, now - before)
             before = now
-            client.ask(stick.line())
-            if layer and stick.layer != laid:
-                laid, stick.said = stick.layer, _laid(client, layer if stick.layer else "off")
-            if lines % ASK_EVERY == 0 and client.where()["state"] == "idle":
+            if stick.done and unanswered:
+                break
+            try:
+                client.ask(stick.line(), ANSWER_SECONDS, tries=1)
+                has_ended = lines % ASK_EVERY == 0 and client.where(ANSWER_SECONDS, 1)["state"] == "idle"
+                unanswered = 0
+            except NoAnswerError:
+                unanswered += 1
+                if unanswered == UNANSWERED_MOST:
+                    keys.update(stick, link.now() - before)
+                    if not stick.cancelled:
+                        raise
+                continue
+            if has_ended:
                 stick.said = "the play has ended"
                 told(stick)
                 return stick
+            if layer and stick.layer != laid:
+                laid, stick.said = stick.layer, _laid(client, layer if stick.layer else "off")
             told(stick)
             link.sleep(max(PERIOD - (link.now() - now), 0))
-    except (NoAnswerError, PortError):
-        with suppress(NoAnswerError, PortError):  # the first one is told
-            _halt(client, "stop")
-        raise
     except BaseException as error:
         if begun or not isinstance(error, BoardError):
-            _halt(client, "stop")
+            with suppress(NoAnswerError, PortError):  # what came first is told
+                _halt(client, "stop", 1 if unanswered else HALT_TRIES)
         raise
-    _halt(client, stick.done)
+    try:
+        _halt(client, stick.done, 1 if unanswered else HALT_TRIES)
+    except NoAnswerError as error:
+        if stick.cancelled:
+            raise CancelledError(f"stopped by Ctrl-C, but {error}") from None
+        raise
     return stick
 
 
-def _halt(client: Client, word: str) -> None:
-    """Stops the play; Ctrl-C while the answer is awaited stops at once."""
+def _halt(client: Client, word: str, tries: int) -> None:
+    """Stops the play; Ctrl-C while the answer is awaited stops at once, and awaits none."""
     try:
-        client.ask(word)
+        client.ask(word, ANSWER_SECONDS, tries)
     except KeyboardInterrupt:
-        client.ask("break")
+        with suppress(NoAnswerError, PortError):
+            client.ask("break", 0, tries=1)
         raise
 
 
 def _laid(client: Client, page: int | str) -> str:
     """Starts or ends the layer. An error of the board is returned as text and does not stop the drive."""
     try:
-        client.ask(f"layer {page}")
+        client.ask(f"layer {page}", ANSWER_SECONDS, UNANSWERED_MOST)
     except BoardError as error:
         return str(error)
     return ""

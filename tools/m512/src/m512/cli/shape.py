@@ -84,6 +84,7 @@ def _tell(stick: Stick) -> None:
 @contextmanager
 def _keys() -> Iterator[Keys]:
     """Keys as they are pressed, without Enter."""
+    import _thread
     import io
     import sys
     import threading
@@ -101,12 +102,13 @@ def _keys() -> Iterator[Keys]:
     console.setup()
 
     def read() -> None:
-        why = ""
+        why, is_cancelled = "", False
         try:
             for key in iter(console.getkey, ""):
+                if key == "\x03" and is_cancelled:  # the first one may await an answer of the board
+                    _thread.interrupt_main()
+                is_cancelled |= key == "\x03"
                 keys.press(key)
-                if key == "\x03":
-                    return
         except Exception as error:  # whatever it is, no key can stop the robot any more
             why = f" ({error})"
         keys.press(" ")
