@@ -503,7 +503,7 @@ export class RobotSession implements Session {
         this.status.look();
     }
 
-    /** A search for servos takes seconds. A robot that is silent or gone is not waited for. */
+    /** A search for servos takes seconds. A program that has ended, or whose adapter is gone, is not waited for. */
     private untilFound(): Promise<void> {
         const isSearching = ({ source, connection, stopped }: SessionState): boolean =>
             source === 'servos' && stopped === null && SEARCHES.has(connection);
