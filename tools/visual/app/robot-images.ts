@@ -10,6 +10,7 @@ import { TEXTS } from '../view/texts/texts.ts';
 import type { Store } from '../view/store.ts';
 import { imageError } from './image-error.ts';
 import type { SimulatedSource } from './simulated-source.ts';
+import { until } from './until.ts';
 
 const READY_MS = 180_000;
 /** A person who types is not held up by what Edit is asked after each key. */
@@ -165,20 +166,11 @@ export class RobotImages {
 
     /** used: the robot that is waited for. Rejects if another one is chosen. */
     private untilReady(used: SessionState['source']): Promise<void> {
-        return new Promise((resolve, reject) => {
-            let unwatch = (): void => undefined;
-            const timer = setTimeout(() => end(() => reject(new RobotError('no-answer'))), READY_MS);
-            const end = (action: () => void): void => {
-                clearTimeout(timer);
-                queueMicrotask(() => unwatch());
-                action();
-            };
-            unwatch = this.parts.state.watch(({ source, connection, version, image, physics, stopped }) => {
-                const isThere = connection === 'ready' && version?.image === image && (source !== 'simulated' || physics !== 'loading');
-                if (source !== used) end(() => reject(new RobotError('cancelled')));
-                else if (stopped !== null) end(() => reject(new RobotError('no-answer')));
-                else if (isThere) end(resolve);
-            });
-        });
+        const look = ({ source, connection, version, image, physics, stopped }: SessionState): boolean => {
+            if (source !== used) throw new RobotError('cancelled');
+            if (stopped !== null) throw new RobotError('no-answer');
+            return connection === 'ready' && version?.image === image && (source !== 'simulated' || physics !== 'loading');
+        };
+        return until(this.parts.state, look, READY_MS);
     }
 }

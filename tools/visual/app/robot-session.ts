@@ -44,6 +44,7 @@ import { RobotPlays } from './robot-plays.ts';
 import type { SourceEvents } from './simulated-source.ts';
 import { RobotSources } from './sources.ts';
 import { StatusMessages } from './status-messages.ts';
+import { until } from './until.ts';
 
 /** A robot that already has the motion plays it within this time, so no preview is needed. */
 const SHOWN_MS = 160;
@@ -324,13 +325,9 @@ export class RobotSession implements Session {
 
     /** Or until it is clear that it will not be: it is off or has crashed. */
     private untilReady(): Promise<void> {
-        return new Promise(resolve => {
-            const unwatch = this.state.watch(({ connection, physics, stopped, isPowered }) => {
-                const isReady = connection === 'ready' && physics !== 'loading';
-                if (!isReady && stopped === null && isPowered) return;
-                queueMicrotask(() => unwatch());
-                resolve();
-            });
+        return until(this.state, ({ connection, physics, stopped, isPowered }) => {
+            const isReady = connection === 'ready' && physics !== 'loading';
+            return isReady || stopped !== null || !isPowered;
         });
     }
 
@@ -505,21 +502,12 @@ export class RobotSession implements Session {
 
     /** A search for servos takes seconds. A program that has ended, or whose adapter is gone, is not waited for. */
     private untilFound(): Promise<void> {
-        const isSearching = ({ source, connection, stopped }: SessionState): boolean =>
-            source === 'servos' && stopped === null && SEARCHES.has(connection);
-        if (!isSearching(this.state.get())) return Promise.resolve();
-        return new Promise((resolve, reject) => {
-            let unwatch = (): void => undefined;
-            const end = (action: () => void): void => {
-                clearTimeout(timer);
-                queueMicrotask(() => unwatch());
-                action();
-            };
-            const timer = setTimeout(() => end(() => reject(new RobotError('no-answer'))), SEARCH_MS);
-            unwatch = this.state.watch(state => {
-                if (!isSearching(state)) end(() => (state.source === 'servos' ? resolve() : reject(new RobotError('cancelled'))));
-            });
-        });
+        const used = this.state.get().source;
+        const look = ({ source, connection, stopped }: SessionState): boolean => {
+            if (source !== used) throw new RobotError('cancelled');
+            return source !== 'servos' || stopped !== null || !SEARCHES.has(connection);
+        };
+        return until(this.state, look, SEARCH_MS);
     }
 
     private get isSimulated(): boolean {
