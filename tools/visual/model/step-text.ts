@@ -64,26 +64,20 @@ function stepFrom(line: string, row: readonly number[]): Step | null {
     return { positions, time: Number(time), pause: Number(pause) };
 }
 
-/** The first step that stepsFromText cannot read, as a line. null: there is none. */
-export function unreadStep(text: string): string | null {
-    let row: readonly number[] = [];
-    for (const line of linesOf(text)) {
-        row = rowFrom(line) ?? row;
-        if (line.startsWith('step ') && !stepFrom(line, row)) return line;
-    }
-    return null;
-}
-
-/** null: not a text of steps. Blank lines and indents are ignored. */
-export function stepsFromText(text: string): Step[] | null {
+/** Blank lines and indents are ignored. No steps: not a text of steps. unread: the line of the first step that cannot be read, if there is
+    one. */
+export function stepsFromText(text: string): { steps: Step[]; unread: string | null } {
     const steps: Step[] = [];
+    let unread: string | null = null;
+    let isText = true;
     let row: readonly number[] = [];
     for (const line of linesOf(text)) {
         const ids = rowFrom(line);
         const step = stepFrom(line, row);
         if (ids) row = ids;
         else if (step) steps.push(step);
-        else if (line !== '') return null;
+        else if (line !== '') isText = false;
+        if (!step && line.startsWith('step ')) unread ??= line;
     }
-    return steps.length > 0 ? steps : null;
+    return { steps: isText ? steps : [], unread };
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Actions on the chosen steps: buttons, their keys, and the clipboard.
 
-import { stepsFromText, stepsToText, unreadStep } from '../../model/step-text.ts';
+import { stepsFromText, stepsToText } from '../../model/step-text.ts';
 import { easyStep, robotPositions } from './editing.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
 import { copyText } from '../clipboard.ts';
@@ -174,10 +174,10 @@ export class StepActions extends SessionElement {
     }
 
     private take(text: string): void {
-        const steps = stepsFromText(text);
-        if (!steps) {
-            const unread = unreadStep(text)?.slice(0, LINE_SHOWN);
-            return this.session.say({ text: unread ? TEXTS.steps.unreadStep(unread) : TEXTS.steps.noSteps, tone: 'bad' });
+        const { steps, unread } = stepsFromText(text);
+        if (steps.length === 0) {
+            const why = unread === null ? TEXTS.steps.noSteps : TEXTS.steps.unreadStep(unread.slice(0, LINE_SHOWN));
+            return this.session.say({ text: why, tone: 'bad' });
         }
         const { editor } = this.session;
         const { page, document, steps: chosen } = editor.state.get();
