@@ -464,6 +464,40 @@ def test_pages_retime_and_time(m512, lib):
     assert out["pages"][1]["seconds"] == pytest.approx(2 * 180 / 128, abs=0.01)
 
 
+def test_a_play_ends_in_a_ring_of_pages_that_are_passed_over(m512, tmp_path):
+    """LAWS.md, rule 2: a page that was already passed over ends the play. One page of the ring that plays keeps it going."""
+    text = """motion512 1
+page 1 a
+ next 5
+ step 128 | 1:300
+page 5 b
+ repeat 0
+ next 6
+ step 128 | 1:300
+page 6 c
+ repeat %d
+ next 5
+ step 128 | 1:300
+"""
+    for repeat, end in ((0, "ends at page 5, which has repeat 0"), (1, "goes on with page 5 for ever")):
+        (tmp_path / "x.bin").write_bytes(read_text(text % repeat).to_bytes())
+        assert json.loads(m512("pages", tmp_path / "x.bin", "time", "1", "--json").stdout)["end"] == end
+
+
+@pytest.mark.parametrize("base, factor, fits", [("time", "4", "raise"), ("speed", "4", "lower"), ("speed", "0.25", "raise")])
+def test_the_advice_of_a_refused_retime_is_followed(m512, tmp_path, base, factor, fits):
+    """Four times the length, or a quarter of it, by the page's speed alone."""
+    text = f"motion512 1\npage 1 x\n base {base}\n speed %d\n step 100 pause 100 | 1:300\n step 100 pause 100 | 1:700\n"
+    path, seconds = tmp_path / "x.bin", {}
+    for speed in (8, 32, 128):
+        path.write_bytes(read_text(text % speed).to_bytes())
+        seconds[speed] = json.loads(m512("pages", path, "time", "1", "--json").stdout)["pages"][0]["seconds"]
+    path.write_bytes(read_text(text % 32).to_bytes())
+    result = m512("pages", path, "retime", "1", factor, "--in-place")
+    assert result.exit_code == 5 and f"at most 255 fit: {fits} the page's speed instead" in result.stderr
+    assert seconds[128 if fits == "raise" else 8] / seconds[32] == pytest.approx(float(factor), rel=0.02)
+
+
 @pytest.mark.parametrize("accel, factor, after", [(1, "0.3", 1), (4, "0.1", 1), (4, "0.5", 2), (0, "3", 0)])
 def test_pages_retime_leaves_no_page_without_its_ramp(m512, tmp_path, accel, factor, after):
     """With a ramp of 0 the joints start at full speed. That is for the user to say."""

@@ -100,3 +100,8 @@ def test_page_seconds():
     image = one_page([600, 500], time=64, pauses=[64], speed=64)
     assert page_seconds(image[1]) == pytest.approx((64 + 64 + 64) * 2 / 128)
     assert page_seconds(Page()) == 0
+
+
+def test_a_step_is_cut_to_256_s():
+    """PAGE_FORMAT.md. Here 1024 units at the slowest speed there is would take 6,820 s."""
+    assert page_seconds(one_page([0, 1023], time=1, speed=1, schedule=0)[1]) == pytest.approx(2 * 32_767 / 128)

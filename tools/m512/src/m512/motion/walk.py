@@ -10,6 +10,8 @@ from fractions import Fraction
 from m512.files.image import Image
 from m512.files.page import SCHEDULE_TIME, Page, is_used
 
+LONGEST_TICKS = 32_767  # of a step, which the firmware cuts to that (motion/step_ticks.h)
+
 
 @dataclass
 class Step:
@@ -85,7 +87,7 @@ def step_ticks(step: Step, move: Sequence[int], bits: int = 10) -> Fraction:
     if page.schedule == SCHEDULE_TIME:
         return Fraction(time * page.speed, 32)
     degrees = max(map(abs, move)) * degrees_per_unit(bits)
-    return degrees / 720 * Fraction(256, max(time, 1)) * Fraction(32, page.speed) * 128
+    return min(degrees / 720 * Fraction(256, max(time, 1)) * Fraction(32, page.speed) * 128, Fraction(LONGEST_TICKS))
 
 
 def pause_ticks(step: Step) -> Fraction:

@@ -261,19 +261,21 @@ def retime(image: Image, number: int, factor: float) -> list[str]:
     _no_trim(number)
     page = _need_motion(image, number)
     before = page_seconds(page, bits=image.bits)
+    in_time = page.schedule == SCHEDULE_TIME
     for step in range(page.steps):
-        time_based = page.schedule == SCHEDULE_TIME
-        page.set_time(step, _scaled(page.time(step), factor if time_based else 1 / factor, 1, f"step {step + 1}"))
-        page.set_pause(step, _scaled(page.pause(step), factor, 0, f"the pause of step {step + 1}"))
+        page.set_time(step, _scaled(page.time(step), factor if in_time else 1 / factor, 1, f"step {step + 1}", "raise"))
+        pause = _scaled(page.pause(step), factor, 0, f"the pause of step {step + 1}", "raise" if in_time else "lower")
+        page.set_pause(step, pause)
     page.accel = min(max(round(page.accel * factor), 1 if page.accel else 0), 255)
     page.seal()
     return [f"page {number}: {before:.3f} s -> {page_seconds(page, bits=image.bits):.3f} s (asked for {before * factor:.3f} s)"]
 
 
-def _scaled(value: int, factor: float, least: int, what: str) -> int:
+def _scaled(value: int, factor: float, least: int, what: str, instead: str) -> int:
+    """instead: what to do with the page's speed, which divides the times in speed base, if the value does not fit."""
     scaled = int(value * factor + 0.5)
     if scaled > 255:
-        raise RefusedError(f"{what} would be {scaled} units, at most 255 fit: raise the page's speed instead")
+        raise RefusedError(f"{what} would be {scaled} units, at most 255 fit: {instead} the page's speed instead")
     return max(scaled, least) if value else 0
 
 
@@ -284,7 +286,10 @@ def chain(image: Image, number: int) -> tuple[list[tuple[int, int, float]], str]
     seen: dict[int, None] = {}
     while True:
         if number in seen:
-            return out, f"goes on with page {number} for ever"
+            ring = list(seen)[list(seen).index(number) :]
+            if any(image[one].is_playable for one in ring):
+                return out, f"goes on with page {number} for ever"
+            return out, f"ends at page {number}, which has repeat 0"
         if image[number].fault(image.kind):
             return out, f"ends at page {number}, which is damaged"
         page = image[number]
