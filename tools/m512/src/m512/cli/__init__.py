@@ -46,9 +46,7 @@ class LazyGroup(click.Group):
             return None
         from importlib import import_module
 
-        with signals.held_back():
-            module = import_module(f"m512.cli.{COMMANDS[name][0]}")
-        return getattr(module, name)
+        return getattr(import_module(f"m512.cli.{COMMANDS[name][0]}"), name)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         with formatter.section("Commands"):
