@@ -15,7 +15,7 @@ const TABLET = { width: 1024, height: 768, hasTouch: true };
 const DESKTOP = { width: 1440, height: 900 };
 const DESKTOP_AT_200 = { width: 720, height: 450 };
 /** The picture beside the areas: the narrowest such screen, a tablet and a desktop. */
-const BESIDE = [{ width: 1000, height: 700 }, TABLET, DESKTOP] as const;
+const BESIDE = [{ width: 1000, height: 700 }, TABLET, { width: 1280, height: 800 }, DESKTOP] as const;
 const AREAS = ['Remote', 'Steps', 'Curves', 'Motions', 'Links', 'Checks', 'Terminal', 'Robot'] as const;
 /** A row of 40 px buttons for fingers, including its margins. */
 const ROW_PX = 64;
@@ -219,7 +219,7 @@ test('one row of head, no word cut, at most five sizes of type and one blue butt
     await person.leave();
 });
 
-test('in every language the tabs of all areas stand in one row, none cut, beside the picture; on a phone Stop stands beside Play in Steps', async () => {
+test('in every language the head is one row, as are the tabs of all areas, none cut, beside the picture; on a phone Stop stands beside Play in Steps', async () => {
     const person = await suite.come({
         screen: PHONE,
         before: page => page.addInitScript(() => localStorage.setItem('motion512.all-areas', '1')),
@@ -231,6 +231,8 @@ test('in every language the tabs of all areas stand in one row, none cut, beside
         for (const { width, height } of BESIDE) {
             await page.setViewportSize({ width, height });
             await person.untilSeen();
+            const { height: head } = await box(page, 'app-shell > header');
+            expect.soft(head, `${language}, ${width} x ${height}: head`).toBeLessThanOrEqual(ROW_PX);
             const tops = await page.getByRole('tab').evaluateAll(tabs => tabs.map(tab => tab.getBoundingClientRect().top));
             expect.soft([tops.length, new Set(tops).size], `${language}, ${width} x ${height}`).toEqual([AREAS.length, 1]);
             expect.soft((await page.evaluate(look)).cut, `${language}, ${width} x ${height}: cut`).toEqual([]);
