@@ -324,6 +324,28 @@ function coveredActions(): (string | null)[] {
         .map(button => button.textContent);
 }
 
+/** In the browser: whether a finger reaches the middle of the button Stop below the picture. */
+function isStopFree(): boolean {
+    const { left, top, width, height } = document.querySelector('action-bar .stop')?.getBoundingClientRect() ?? new DOMRect();
+    return document.elementFromPoint(left + width / 2, top + height / 2)?.closest('.stop') !== null;
+}
+
+/** At each stop of the tour the button Stop is free, and the card is below the head. */
+async function checkTourOn(person: Visitor, screen: Screen): Promise<void> {
+    const { page } = person;
+    await page.setViewportSize(screen);
+    await page.getByRole('button', { name: DE.tour.tour, exact: true }).click();
+    const next = page.locator('tour-card .row button:not(.back)').nth(1);
+    for (let title = ''; title !== DE.tour.title(14, 14); await next.click()) {
+        await person.untilSeen();
+        title = (await page.locator('tour-card h2').textContent()) ?? '';
+        const where = `${title}, ${screen.width} x ${screen.height}`;
+        expect.soft(await page.evaluate(isStopFree), where).toBe(true);
+        const [head, card] = [await box(page, 'app-shell > header'), await box(page, 'tour-card')];
+        expect.soft(card.y, where).toBeGreaterThanOrEqual(head.y + head.height);
+    }
+}
+
 test('the cards over the picture leave Stop and the other buttons free, in a language with long words and beside narrow areas', async () => {
     const person = await suite.come({ screen: DESKTOP, isNew: true }, `${suite.address}?lang=de${await bowLink()}`);
     const { page } = person;
@@ -342,6 +364,7 @@ test('the cards over the picture leave Stop and the other buttons free, in a lan
     await page.getByRole('button', { name: DE.tour.tour, exact: true }).click();
     await page.locator('sent-card').waitFor({ state: 'hidden' });
     await isFree('tour-card');
+    for (const screen of [PHONE, LYING]) await checkTourOn(person, screen);
     await person.leave();
 });
 

@@ -148,7 +148,7 @@ export class Walk {
             await next.click();
         }
         await this.look('tour 14');
-        await page.getByRole('button', { name: texts.tour.end, exact: true }).click();
+        await page.getByRole('button', { name: texts.tour.done, exact: true }).click();
     }
 
     private async dialog(place: string, open: () => Promise<unknown>): Promise<void> {

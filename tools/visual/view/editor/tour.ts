@@ -34,6 +34,7 @@ export class TourCard extends SessionElement {
     private readonly text = make('p', { role: 'status', 'aria-label': TEXTS.tour.tour });
     private readonly next = make('button', { onclick: () => this.go(this.place.at + 1) }, TEXTS.tour.next);
     private readonly send = make('button', { class: 'primary', onclick: () => this.sendMotion() }, TEXTS.tour.send);
+    private readonly quit = make('button', { onclick: () => this.end() }, TEXTS.tour.end);
     private readonly ring = make('div', { class: 'tour-ring', 'aria-hidden': true });
 
     connectedCallback(): void {
@@ -50,7 +51,7 @@ export class TourCard extends SessionElement {
                 this.send,
                 this.next,
                 make('span', { class: 'space' }),
-                make('button', { onclick: () => this.end() }, TEXTS.tour.end),
+                this.quit,
             ),
         );
         this.ring.hidden = true;
@@ -90,7 +91,7 @@ export class TourCard extends SessionElement {
         const { at } = this.place;
         this.armBefore = this.arm();
         this.heading.textContent = TEXTS.tour.title(at + 1, this.stops.length);
-        this.next.textContent = at === this.stops.length - 1 ? TEXTS.tour.done : at === 0 ? TEXTS.tour.start : TEXTS.tour.next;
+        this.next.textContent = this.isLast ? TEXTS.tour.done : at === 0 ? TEXTS.tour.start : TEXTS.tour.next;
         this.write();
         this.lead(this.stop?.target ?? '');
         this.showRing();
@@ -104,6 +105,7 @@ export class TourCard extends SessionElement {
     private write(): void {
         setText(this.text, this.isForThisRobot ? (this.stop?.text ?? '') : TEXTS.robotPane.onlyInPage);
         this.next.hidden = !this.isForThisRobot;
+        this.quit.hidden = this.isForThisRobot && this.isLast; // its room is needed on a phone that lies, and Done does the same
         this.send.hidden = !this.isForThisRobot || this.stop?.goal !== 'send';
     }
 
@@ -113,6 +115,10 @@ export class TourCard extends SessionElement {
         if (!target.startsWith('#')) return;
         this.onArea();
         this.find(target.slice(1))?.scrollIntoView({ block: 'nearest' });
+    }
+
+    private get isLast(): boolean {
+        return this.place.at === this.stops.length - 1;
     }
 
     private get stop(): TourStop | null {
