@@ -19,6 +19,15 @@ def test_play_ends_with_ok_and_the_work_pose_shows_where_it_stands():
         assert r.board.servos[3].goal == 612
 
 
+@pytest.mark.parametrize("last", [1, 2, 4])
+def test_no_step_is_told_behind_the_end(last):
+    """All joints move, so that the positions fill the line, and the last step is so short that its report may still wait."""
+    steps = [(64, dict.fromkeys(range(1, 19), 400)), (8, dict.fromkeys(range(1, 19), 420)), (last, dict.fromkeys(range(1, 19), 430))]
+    with start(pages={20: page("rush", steps)}) as r:
+        r.keys("play 20\r", ms=5000)
+        assert r.message.endswith(" OK"), r.message
+
+
 def test_play_takes_unsaved_edits_from_ram():
     with start() as r:
         r.line("goto 2 3")

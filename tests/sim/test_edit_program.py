@@ -350,6 +350,18 @@ def test_the_end_of_a_programs_play_does_not_end_the_next_one(short):
     assert 200 < ticks <= 2 * 128  # a ramp begins and ends with ticks without a change
 
 
+def test_behind_a_play_nothing_has_a_goal_and_a_move_has_no_page(short):
+    """PROTOCOL.md: `---` means that nothing drives the joint; a move plays no page."""
+    program_plays(short)
+    assert ask(short, "@watch 50") == "@watch OK"
+    page_, step, _, joints = watched(short, 300)[-1][1:]
+    assert (page_, step) == ("0", "0") and {joints[at : at + 3] for at in range(0, len(joints), 6)} == {"---"}
+    assert ask(short, "@move 30 1 3A0") == "@move OK"
+    where = fields(ask(short, "@where"))
+    assert where["state"] != "idle" and where["page"] == "0"
+    assert {tuple(line[1:3]) for line in watched(short, 500)} == {("0", "0")}
+
+
 def test_write_and_keys_take_the_pose_in_which_a_programs_play_ended(short):
     assert program_plays(short, "write") == 421 + 50
     short.line(" 5")

@@ -97,6 +97,20 @@ def test_go_moves_every_joint_in_about_the_same_time():
         assert abs(r.board.servos[2].present - 700) <= 2
 
 
+@pytest.mark.parametrize("trim", [100, -100])
+def test_the_speed_of_a_single_move_is_that_of_the_way_with_a_trim_too(trim):
+    """edit/ORIGINAL.md section 4: the distance / 4. The trim moves both ends of the way."""
+    trimmed = page("Offset", [(0, {3: 512}), (0, {3: 512 + trim}), (0, {3: trim & 0xFFFF})])
+    with start(pages={0: trimmed, 7: page("pose", [(30, {3: 700})])}) as r:
+        r.line("page 7")
+        r.line("on")
+        r.line("go 0", ms=2500)
+        assert r.board.servos[3].goal == 700 + trim and r.board.servos[3].table[32] == (700 + trim - 512) // 4
+        r.line("goto 0 3")
+        r.line("set 560")
+        assert r.board.servos[3].goal == 560 + trim and abs(r.board.servos[3].table[32] - 140 // 4) <= 1
+
+
 def test_go_asks_behind_the_last_step_and_names_joints_without_a_value():
     with start() as r:
         r.line("on")
