@@ -116,7 +116,7 @@ bool inputs_next_refusal(inputs_t *inputs, inputs_refusal_t *refusal)
     return true;
 }
 
-/* Whether L and R steer the present play instead of being part of the code. */
+/* Whether L and R steer the present play, once it has begun, instead of being part of the code. */
 static bool steers(const inputs_t *inputs)
 {
     return inputs->performer->link.mode == LINK_DRIVE && steer_is_possible(inputs->performer);
@@ -253,7 +253,8 @@ static void steer(inputs_t *inputs)
 {
     const uint8_t down = inputs->remote_held.down;
     const int8_t direction = (int8_t)(((down & REMOTE_RIGHT) != 0) - ((down & REMOTE_LEFT) != 0));
-    steer_tick(&inputs->steer, inputs->performer, direction != 0 && steers(inputs) ? direction : 0);
+    const bool is_on = direction != 0 && inputs->performer->state == PERFORMER_PLAY && steers(inputs);
+    steer_tick(&inputs->steer, inputs->performer, is_on ? direction : 0);
 }
 
 static void age_buttons(inputs_t *inputs)

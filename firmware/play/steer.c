@@ -5,7 +5,7 @@ bool steer_is_possible(const performer_t *performer)
 {
     uint8_t partners[2];
     STATIC_ASSERT(PAGE_AT_BLEND_LEFT == PAGE_AT_BLEND_RIGHT + 1, "both partners in one read");
-    if (performer->state != PERFORMER_PLAY) {
+    if (performer_is_idle(performer) || performer->page == 0) {
         return false;
     }
     performer->source->read(performer->source->context, performer->page, PAGE_AT_BLEND_RIGHT, partners, sizeof partners);

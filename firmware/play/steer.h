@@ -14,7 +14,7 @@ typedef struct {
     int16_t at; /* -STEER_FULL left .. STEER_FULL right */
 } steer_t;
 
-/* Whether the playing page has at least one partner. */
+/* Whether the page that plays, or to whose first pose the robot is on the way, has at least one partner. */
 bool steer_is_possible(const performer_t *performer);
 
 /* Call once per tick. direction: -1 left, 1 right, 0 neither. Sets the blend of the play while steering and while returning

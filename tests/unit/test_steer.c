@@ -3,6 +3,8 @@
 #include "inputs_stage.h"
 #include "unity.h"
 
+#include <string.h>
+
 /* Holds `buttons` for `count` ticks: the remote repeats its packet. */
 static void hold(uint16_t buttons, uint8_t count)
 {
@@ -45,6 +47,27 @@ static void test_steer_what_steers_is_no_part_of_the_code(void)
     remote(REMOTE_UP | REMOTE_LEFT);
     remote(REMOTE_BUTTON1 | REMOTE_RIGHT);
     TEST_ASSERT_EQUAL_STRING("code 1 0;code 16 0;", told);
+}
+
+static void test_steer_on_the_way_to_the_first_pose_is_no_part_of_the_code_and_steers_from_there_on(void)
+{
+    drive_mode(6);
+    performer.state = PERFORMER_APPROACH;
+    hold(REMOTE_RIGHT, 64);
+    TEST_ASSERT_EQUAL_INT8(0, performer.shape.blend_percent);
+    performer.state = PERFORMER_PLAY;
+    hold(REMOTE_RIGHT, 64);
+    TEST_ASSERT_NULL(strstr(told, "code 8"));
+    TEST_ASSERT_INT_WITHIN(6, 50, performer.shape.blend_percent);
+}
+
+static void test_steer_a_move_is_not_steered(void)
+{
+    drive_mode(6);
+    performer.state = PERFORMER_APPROACH;
+    performer.page = 0;
+    hold(REMOTE_RIGHT, 8);
+    TEST_ASSERT_EQUAL_STRING("code 8 0;", told);
 }
 
 static void test_steer_page_without_partners_is_not_steered(void)
