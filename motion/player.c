@@ -122,7 +122,8 @@ uint32_t player_first_pose(const page_source_t *source, const shape_t *shape, ui
     return joints;
 }
 
-uint16_t player_move(player_t *player, const uint16_t from_pos[PAGE_JOINTS], uint32_t joints, uint16_t deg_s)
+uint16_t player_move(player_t *player, const uint16_t from_pos[PAGE_JOINTS], uint32_t joints, uint16_t deg_s,
+                     uint8_t near_pos)
 {
     uint16_t longest = 0;
     begin_play(player, PLAYER_LAW_EXACT, from_pos, joints);
@@ -132,7 +133,7 @@ uint16_t player_move(player_t *player, const uint16_t from_pos[PAGE_JOINTS], uin
         longest = distance > longest ? distance : longest;
         joint->target_pos = player->next_pos[i];
     }
-    if (longest <= PLAYER_NEAR_POS) {
+    if (longest <= near_pos) {
         player->state = STATE_IDLE;
         return 0;
     }

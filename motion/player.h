@@ -43,10 +43,10 @@ uint32_t player_first_pose(const page_source_t *source, const shape_t *shape, ui
 
 /* Moves `joints` from from_pos to player->next_pos, which the caller has set, without a page: an exact step with ramps,
  * whose length lets the longest distance keep to deg_s degrees/s (1..360), rounded up. All joints arrive together.
- * Everything else is as in a play, with NULL for the link. Returns the ticks; 0: all are within PLAYER_NEAR_POS already,
- * and nothing plays. */
-#define PLAYER_NEAR_POS 3u
-uint16_t player_move(player_t *player, const uint16_t from_pos[PAGE_JOINTS], uint32_t joints, uint16_t deg_s);
+ * Everything else is as in a play, with NULL for the link. Returns the ticks; 0: all are within near_pos units
+ * already, and nothing plays. */
+uint16_t player_move(player_t *player, const uint16_t from_pos[PAGE_JOINTS], uint32_t joints, uint16_t deg_s,
+                     uint8_t near_pos);
 
 /* One tick: moves all joints. link: that of player_start. Returns PLAYER_EV_ bits; 0 when idle. */
 uint8_t player_tick(player_t *player, link_t *link) NOINLINE; /* so that tools/bench can measure it */

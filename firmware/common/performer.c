@@ -387,16 +387,20 @@ static uint32_t take_first_pose(performer_t *performer)
     return joints;
 }
 
+/* A servo that holds may stand that far from its goal. A play whose joints are so near begins without an approach. */
+#define NEAR_POS 3u
+
 /* Plans the approach or move and queues its event. false: there is no approach, or the joints are there already. */
 static bool plan_approach(performer_t *performer)
 {
-    const uint16_t limit_deg_s = performer->move_deg_s != 0 ? performer->move_deg_s
-                                                            : performer->settings->approach_deg_s;
+    const bool is_move = performer->move_deg_s != 0;
+    const uint16_t limit_deg_s = is_move ? performer->move_deg_s : performer->settings->approach_deg_s;
     if (limit_deg_s == 0) {
         return false;
     }
     const uint32_t joints = take_first_pose(performer);
-    const uint16_t ticks = player_move(&performer->player, performer->goal_pos, joints, limit_deg_s);
+    const uint16_t ticks = player_move(&performer->player, performer->goal_pos, joints, limit_deg_s,
+                                       is_move ? 0 : NEAR_POS);
     if (ticks == 0) {
         return false;
     }

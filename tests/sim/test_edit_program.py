@@ -350,6 +350,14 @@ def test_the_end_of_a_programs_play_does_not_end_the_next_one(short):
     assert 200 < ticks <= 2 * 128  # a ramp begins and ends with ticks without a change
 
 
+def test_a_move_by_one_unit_moves():
+    with robot(pages=PAGES) as r:
+        for target in (513, 515, 518, 516):
+            assert ask(r, f"@move 20 5 {target:03X}") == "@move OK"
+            r.board.run(ms=500)
+            assert r.board.servos[5].goal == target
+
+
 def test_behind_a_play_nothing_has_a_goal_and_a_move_has_no_page(short):
     """PROTOCOL.md: `---` means that nothing drives the joint; a move plays no page."""
     program_plays(short)

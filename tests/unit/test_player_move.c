@@ -11,6 +11,8 @@
 
 static player_t player;
 static player_joint_t joints[PAGE_JOINTS];
+#define NEAR_POS 3
+
 static uint16_t from[PAGE_JOINTS], goal[PAGE_JOINTS];
 static uint16_t *const to = player.next_pos;
 
@@ -25,7 +27,7 @@ void setUp(void)
 
 static uint16_t start(uint16_t limit_deg_s)
 {
-    return player_move(&player, from, ALL_JOINTS, limit_deg_s);
+    return player_move(&player, from, ALL_JOINTS, limit_deg_s, NEAR_POS);
 }
 
 /* Runs one tick. Returns false with the last one. */
@@ -112,12 +114,12 @@ static void test_player_move_mirrored_motion_is_mirrored(void)
 
 static void test_player_move_needs_no_time_when_it_is_near(void)
 {
-    to[3] = 512 + PLAYER_NEAR_POS;
+    to[3] = 512 + NEAR_POS;
     TEST_ASSERT_EQUAL_UINT16(0, start(60));
     to[3]++;
     TEST_ASSERT_GREATER_THAN_UINT16(0, start(60));
     to[3] = 0;
-    TEST_ASSERT_EQUAL_UINT16(0, player_move(&player, from, ~((uint32_t)1 << 3) & ALL_JOINTS, 60));
+    TEST_ASSERT_EQUAL_UINT16(0, player_move(&player, from, ~((uint32_t)1 << 3) & ALL_JOINTS, 60, NEAR_POS));
 }
 
 static void test_player_move_leaves_other_joints_alone(void)
@@ -125,7 +127,7 @@ static void test_player_move_leaves_other_joints_alone(void)
     int16_t step, change;
     to[1] = to[2] = 700;
     goal[2] = 4711;
-    (void)player_move(&player, from, 2, 60);
+    (void)player_move(&player, from, 2, 60, NEAR_POS);
     (void)run(&step, &change);
     TEST_ASSERT_EQUAL_UINT16(700, goal[1]);
     TEST_ASSERT_EQUAL_UINT16(4711, goal[2]);
