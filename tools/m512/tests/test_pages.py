@@ -484,6 +484,26 @@ page 6 c
         assert json.loads(m512("pages", tmp_path / "x.bin", "time", "1", "--json").stdout)["end"] == end
 
 
+@pytest.mark.parametrize(
+    "pages, problem",
+    [
+        ("page 12 via\n repeat 0\n next 99\n step 9 | 1:512\n", "page 12, which is passed over (repeat 0) to page 99, which has no action"),
+        ("page 12 via\n repeat 0\n next 12\n step 9 | 1:512\n", "page 12, which is passed over (repeat 0) to page 12 again"),
+        ("page 12 via\n repeat 0\n next 2\n step 9 | 1:512\n", ""),
+        ("page 12 via\n repeat 0\n step 9 | 1:512\n", ""),
+        ("page 12 end\n next 12\n step 9 | 1:512\n", ""),
+    ],
+)
+def test_check_follows_pages_that_are_passed_over(m512, tmp_path, pages, problem):
+    """The board ends such a play with a fault: LAWS.md, section 1 rule 2."""
+    path = tmp_path / "x.bin"
+    path.write_bytes(read_text(f"motion512 1\npage 2 b\n next 12\n step 9 | 1:512\n{pages}").to_bytes())
+    result = m512("pages", path, "check", "--json")
+    found = [row["problem"] if isinstance(row, dict) else row for row in json.loads(result.stdout)]
+    assert (result.exit_code, str(found)) == ((3, str(found)) if problem else (0, "[]")), result.stdout
+    assert problem in str(found)
+
+
 @pytest.mark.parametrize("base, factor, fits", [("time", "4", "raise"), ("speed", "4", "lower"), ("speed", "0.25", "raise")])
 def test_the_advice_of_a_refused_retime_is_followed(m512, tmp_path, base, factor, fits):
     """Four times the length, or a quarter of it, by the page's speed alone."""

@@ -33,6 +33,16 @@ def error(text):
 # Meaning
 
 
+@pytest.mark.parametrize(
+    "statement, advice",
+    [("step 3s | 1:512", "Raise the page's speed"), ("step 1s pause 3s | 1:512", "in speed base lower it"), ("accel 3s", "There is no longer ramp")],
+)
+def test_a_time_too_long_for_a_byte_gets_advice_that_helps(statement, advice):
+    """PAGE_FORMAT.md: in time base the page's speed makes steps and pauses longer, in speed base pauses shorter; it does not scale a ramp."""
+    said = error(f"motion512 1\npage 1\n {statement}\n")
+    assert "3s is 384 ticks" in said and advice in said
+
+
 def test_text_page_without_statements_is_the_empty_page():
     assert bytes(page_of("page 1")) == EMPTY
 

@@ -151,7 +151,8 @@ def _loader(link: Link, add: Add, why: str) -> None:
         f"{counted(len(heard), 'byte')} came, but nobody answers as Play, Edit or a boot loader" if heard else "silence",
         "is the controller on, and the cable in the socket for the PC? Then press MODE while `m512 term` runs: one byte "
         "0xFF must come. A program of this PC behind a link (--pty, --tcp) looks for its servos first, for up to 10 s. "
-        "With the factory's firmware, `m512 flash` works all the same. After an interrupted `m512 flash` wait 10 s",
+        "With the factory's firmware, `m512 flash` works all the same. After an interrupted `m512 flash` wait 10 s. A Play with the setting "
+        "`fast 1` answers a terminal at 115,200 only; there `settings fast 0` and a restart bring m512 back",
     )
 
 

@@ -31,9 +31,9 @@ def check(image: Image) -> list[tuple[int, str]]:
         if not number or not page.is_playable:
             continue
         for link in Page.LINKS:
-            target = getattr(page, link)
-            if target and image.first <= target < image.end and not _goes_on(image, target):
-                out.append((number, f"{field_text(link)} leads to page {target}, which has no action"))
+            problem = _dead_end(image, getattr(page, link))
+            if problem:
+                out.append((number, f"{field_text(link)} leads to {problem}"))
         if page.link1_page and not page.link1_code or page.link2_page and not page.link2_code:
             out.append((number, "a linked page has no code and is never followed"))
         out += [(number, problem) for problem in _partner_problems(image, page)]
@@ -80,9 +80,21 @@ def remarks(image: Image) -> list[tuple[int, str]]:
     return out
 
 
-def _goes_on(image: Image, target: int) -> bool:
-    page = image[target]
-    return not page.fault(image.kind) and page.steps != 0
+def _dead_end(image: Image, target: int) -> str:
+    """Why a link to this page ends a play with a fault. "": it does not. Pages with repeat 0 are passed over (LAWS.md, section 1 rule 2)."""
+    passed: list[int] = []
+    while target and image.first <= target < image.end:
+        page = image[target]
+        way = "".join(f"page {one}, which is passed over (repeat 0) to " for one in passed)
+        if page.fault(image.kind) or page.steps == 0:
+            return f"{way}page {target}, which has no action"
+        if target in passed:
+            return f"{way}page {target} again"
+        if page.is_playable:
+            return ""
+        passed.append(target)
+        target = page.next
+    return ""
 
 
 def need_good(image: Image, number: int) -> Page:

@@ -156,6 +156,14 @@ def joint_pairs(texts: Iterable[str], names: dict[str, int]) -> dict[int, int]:
     return pairs
 
 
+# What to do if a time does not fit into a byte (motion/PAGE_FORMAT.md: the page's speed scales times and pauses, no ramp).
+TOO_LONG = {
+    "time": "Raise the page's speed (32 = as written) or use two steps",
+    "pause": "Raise the page's speed (32 = as written), in speed base lower it, or use two steps",
+    "accel": "There is no longer ramp",
+}
+
+
 def ticks(token: Token, what: str) -> int:
     """A time as a byte: ticks of 1/128 s, or a decimal number with `s` or `ms`, rounded to the nearest tick."""
     match = re.fullmatch(r"([0-9]{1,9}(?:\.[0-9]*)?|\.[0-9]+)(ms|s)", token.text)
@@ -164,7 +172,7 @@ def ticks(token: Token, what: str) -> int:
     seconds = float(match.group(1)) / (1000 if match.group(2) == "ms" else 1)
     value = int(seconds * TICKS_PER_SECOND + 0.5)
     if value > 255:
-        raise WordError(f"{what} {token} is {value} ticks; a byte holds 255 (1.992 s). Raise the page's speed (32 = as written) or use two steps")
+        raise WordError(f"{what} {token} is {value} ticks; a byte holds 255 (1.992 s). {TOO_LONG[what]}")
     if value == 0 and seconds:
         raise WordError(f"{what} {token} is less than half a tick (7.8125 ms)")
     return value
