@@ -327,7 +327,8 @@ function coveredActions(): (string | null)[] {
 /** In the browser: whether a finger reaches the middle of the button Stop below the picture. */
 function isStopFree(): boolean {
     const { left, top, width, height } = document.querySelector('action-bar .stop')?.getBoundingClientRect() ?? new DOMRect();
-    return document.elementFromPoint(left + width / 2, top + height / 2)?.closest('.stop') !== null;
+    const there = document.elementFromPoint(left + width / 2, top + height / 2);
+    return there !== null && there.closest('action-bar .stop') !== null;
 }
 
 /** At each stop of the tour the button Stop is free, and the card is below the head. */
